@@ -1,0 +1,64 @@
+// What a body is made of: the description that touch (core/haptics) and rigid-body physics (physics/) are both
+// built from. Every shape is given in its own frame, centred and aligned like Godot's shapes (long axis along y);
+// a PlacedShape puts it into the frame of its body.
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/triangle_mesh.hpp"
+#include "core/math/pose.hpp"
+
+namespace tactus {
+
+struct SphereShape {
+    double radius = 0.5;  // (unit: meters), > 0
+};
+
+struct BoxShape {
+    Vec3 half_extents{0.5};  // (unit: meters), each > 0
+};
+
+struct CapsuleShape {
+    double radius = 0.5;       // (unit: meters), > 0
+    double half_segment = 0.5;  // half the distance between the two end spheres' centres (unit: meters), >= 0
+};
+
+struct CylinderShape {
+    double radius = 0.5;      // (unit: meters), > 0
+    double half_height = 1.0;  // (unit: meters), > 0
+};
+
+// The half-space below the plane is solid: normal . x <= offset.
+struct PlaneShape {
+    Vec3 normal{0.0, 1.0, 0.0};  // unit length
+    double offset = 0.0;        // (unit: meters)
+};
+
+struct ConvexHullShape {
+    std::shared_ptr<const TriangleMesh> hull;  // closed surface of the hull
+};
+
+// Any triangles: closed or open, touched from both sides.
+struct MeshShape {
+    std::shared_ptr<const TriangleMesh> mesh;
+};
+
+// Heights over a grid in x-z, centred on the origin, z-major: heights[row * columns + column].
+struct HeightFieldShape {
+    std::uint32_t columns = 0;      // samples along x, >= 2
+    std::uint32_t rows = 0;         // samples along z, >= 2
+    Vec3 scale{1.0};                // spacing in x and z, factor on the heights in y
+    std::shared_ptr<const std::vector<float>> heights;
+};
+
+using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, PlaneShape, ConvexHullShape, MeshShape,
+                           HeightFieldShape>;
+
+struct PlacedShape {
+    Shape shape;
+    Pose pose;  // of the shape in the body's frame
+};
+
+}  // namespace tactus
