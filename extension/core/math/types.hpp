@@ -3,11 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#define GLM_FORCE_CTOR_INIT
-#include <glm/gtc/quaternion.hpp>
 
 namespace tactus {
 
