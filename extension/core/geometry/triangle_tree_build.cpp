@@ -196,7 +196,8 @@ private:
 
     Float4 to_float(const Vec3& point) const {
         const Vec3 relative = point - origin_;
-        return {static_cast<float>(relative.x), static_cast<float>(relative.y), static_cast<float>(relative.z), 0.0f};
+        return Float4{static_cast<float>(relative.x), static_cast<float>(relative.y),
+                      static_cast<float>(relative.z), 0.0f};
     }
 
     Range make_primitives() {

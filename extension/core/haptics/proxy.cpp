@@ -63,7 +63,7 @@ double Proxy::friction_limit(const ConstrainedStep& step) const {
     double limit = 0.0;
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts_.items[static_cast<std::size_t>(step.pressing[i])];
-        const SurfaceMaterial& material = scene_->body(contact.body).material;
+        const TouchMaterial& material = scene_->body(contact.body).material;
         const bool at_rest = contact.gap <= 4.0 * surroundings_.tolerances().skin;
         const double coefficient = sliding_ ? material.dynamic_friction : material.static_friction;
         limit += at_rest ? coefficient * step.pressure[i] : 0.0;

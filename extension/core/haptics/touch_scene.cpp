@@ -36,7 +36,7 @@ int TouchScene::find_parts(std::size_t count) const {
     return -1;
 }
 
-int TouchScene::add(const TouchShape& shape, const Pose& pose, const SurfaceMaterial& material, std::uint32_t layer) {
+int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material, std::uint32_t layer) {
     const auto slot = std::ranges::find_if(bodies_, [](const TouchBody& body) { return !body.shape; });
     const int first_part = find_parts(shape.parts.size());
     if (slot == bodies_.end() || first_part < 0) {

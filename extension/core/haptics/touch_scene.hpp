@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/geometry/touch_shape.hpp"
-#include "core/haptics/material.hpp"
+#include "core/haptics/touch_material.hpp"
 
 namespace tactus {
 
@@ -17,7 +17,7 @@ struct TouchBody {
     const TouchShape* shape = nullptr;  // null: the slot is free
     Pose pose;                          // in the world, now
     Pose previous;                      // in the world, one tick ago
-    SurfaceMaterial material;
+    TouchMaterial material;
     std::uint32_t layer = 1;  // bits; a proxy touches it where its mask has one of them
     bool moved = false;       // since the last tick
     double moved_by = 0.0;    // no point of the body moved farther since the last tick (unit: meters)
@@ -37,14 +37,14 @@ public:
     TouchScene(std::size_t most_bodies, std::size_t most_parts);
 
     // Returns the body's slot, or -1 where the scene is full.
-    int add(const TouchShape& shape, const Pose& pose, const SurfaceMaterial& material, std::uint32_t layer);
+    int add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material, std::uint32_t layer);
     void remove(int body);
 
     // Call once at the start of a tick, before the poses of that tick are set.
     void begin_tick();
     // Where the body is this tick. Proxies sweep along the way it took; `teleport` says that it took none.
     void set_pose(int body, const Pose& pose, bool teleport = false);
-    void set_material(int body, const SurfaceMaterial& material) { body_at(body).material = material; }
+    void set_material(int body, const TouchMaterial& material) { body_at(body).material = material; }
     void set_layer(int body, std::uint32_t layer);
 
     const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
