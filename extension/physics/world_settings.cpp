@@ -56,6 +56,8 @@ JPH::PhysicsSettings jolt_settings(const PhysicsSettings& settings) {
     jolt.mNumVelocitySteps = static_cast<JPH::uint>(std::max(2, settings.velocity_iterations));
     jolt.mNumPositionSteps = static_cast<JPH::uint>(std::max(1, settings.position_iterations));
     jolt.mDeterministicSimulation = true;
+    // It shares large islands out among threads; here there is one.
+    jolt.mUseLargeIslandSplitter = false;
     return jolt;
 }
 
