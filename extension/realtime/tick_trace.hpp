@@ -53,6 +53,7 @@ struct TickRecord {
     Nanoseconds end = 0;
     TickStatus status = 0;
     std::uint32_t mark_count = 0;
+    std::uint32_t stages_lost = 0;            // for which `marks` had no room
     std::array<TickMark, max_marks> marks{};  // in the order of time; stages nest properly
 };
 
