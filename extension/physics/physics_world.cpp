@@ -20,6 +20,8 @@
 
 namespace tactus {
 
+static_assert(JPH::BodyID::cMaxBodyIndex == 0x7fffffu, "BodyId::index() takes these bits");
+
 namespace {
 
 constexpr std::size_t mebibyte = std::size_t{1} << 20;
@@ -347,6 +349,14 @@ void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
 
 std::size_t PhysicsWorld::awake_count() const {
     return impl_->system.GetNumActiveBodies(JPH::EBodyType::RigidBody);
+}
+
+std::size_t PhysicsWorld::awake_bodies(std::span<BodyId> out) const {
+    const std::size_t count = std::min(out.size(), awake_count());
+    const JPH::BodyID* active = impl_->system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = BodyId{active[i].GetIndexAndSequenceNumber()};
+    return count;
 }
 
 bool PhysicsWorld::anything_awake() const {

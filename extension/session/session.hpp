@@ -80,8 +80,11 @@ public:
     bool refresh();
     const SessionSnapshot& snapshot() const;
 
-    // Commands sent that the ring could not take and that wait on the owner side; collect() sends them on.
+    // Commands that found the ring full and wait on the owner side; collect() sends them on.
     std::size_t backlog() const;
+
+    // Before the loop starts, on the owner's thread: carries out everything sent so far at once.
+    void settle();
 
     // --- loop side --------------------------------------------------------------------------------------------------
 

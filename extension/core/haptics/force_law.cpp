@@ -41,7 +41,17 @@ HandForce contact_force(const TouchScene& scene, std::span<const Contact> touchi
     return force;
 }
 
-Vec3 smoothed_force(const Vec3& before, const Vec3& now) { return 0.5 * before + 0.5 * now; }
+void smooth(HandForce& force, const Vec3& before) {
+    const Vec3 change = 0.5 * (before - force.total);
+    double all = 0.0;
+    for (int i = 0; i < force.contact_count; ++i) {
+        all += glm::length(force.contacts[i].on_hand);
+    }
+    for (int i = 0; i < force.contact_count && all > 0.0; ++i) {
+        force.contacts[i].on_hand += change * (glm::length(force.contacts[i].on_hand) / all);
+    }
+    force.total += change;
+}
 
 Vec3 limited_force(const Vec3& force, double limit) {
     const double length = glm::length(force);

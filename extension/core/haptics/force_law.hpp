@@ -33,8 +33,9 @@ struct HandForce {
 HandForce contact_force(const TouchScene& scene, std::span<const Contact> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds);
 
-// Eq. 3.3 for a whole set of contact forces: halves them and adds half of what the hand felt before.
-Vec3 smoothed_force(const Vec3& before, const Vec3& now);
+// Eq. 3.3: the mean of what the hand felt before and what it would feel now. The contacts share the change by how hard
+// each pushes, so that hand and bodies still feel opposite forces.
+void smooth(HandForce& force, const Vec3& before);
 
 // The force, shortened to `limit` where it is longer; zero where it is not a number.
 Vec3 limited_force(const Vec3& force, double limit);
