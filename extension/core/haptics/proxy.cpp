@@ -9,9 +9,10 @@ namespace tactus {
 Proxy::Proxy(std::size_t most_parts, const ProxySettings& settings) : settings_(settings), surroundings_(most_parts) {}
 
 // A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins without a
-// kick. Until then it is absent and follows the hand.
+// kick. Until then it is absent and follows the hand. A hand that starts by just touching has room enough: the first
+// step lifts the sphere off by the thousandth of its radius that may be missing.
 bool Proxy::appear(const Vec3& hand) {
-    const double room = settings_.radius + surroundings_.tolerances().skin;
+    const double room = settings_.radius * (1.0 - 1e-3);
     position_ = hand;
     present_ = surroundings_.clearance(hand, 2.0 * room) >= room;
     return present_;
