@@ -3,6 +3,7 @@
 import hashlib
 import os
 import shutil
+import subprocess
 from pathlib import Path
 
 
@@ -39,3 +40,10 @@ def emptied(folder: Path) -> Path:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     return folder
+
+
+def run_tool(script: str, *arguments: str) -> int:
+    """A script of tools/ with the packages of the virtual environment."""
+    path = clone() / "tools"
+    environment = os.environ | {"PYTHONPATH": str(path), "PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.run([venv_bin("python"), path / script, *arguments], env=environment).returncode

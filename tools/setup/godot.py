@@ -155,7 +155,13 @@ def template_path(godot: str) -> Path:
     return Path(data) / "godot/export_templates" / name[0] / "linux_release.x86_64"
 
 
+def is_template_ready(godot: str) -> bool:
+    return template_path(godot).is_file()
+
+
 def install_template(godot: str) -> None:
+    if installed() is not None:
+        raise RuntimeError(f"install the export templates of {godot} from its editor: {template_path(godot)} is missing")
     source = private_folder() / "root/usr/bin/godot-template-release"
     target = template_path(godot)
     target.parent.mkdir(parents=True, exist_ok=True)
