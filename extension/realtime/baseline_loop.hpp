@@ -1,8 +1,9 @@
-// What this machine can do at best: a bare loop that only sleeps, beside the loop under measurement, at the same time.
+// What this machine can do at best: a bare loop that only sleeps, beside the loop under measurement, at the
+// same time.
 //
-// It asks for the same scheduling and the same processor and waits in the same way, half a period apart so that the two
-// never wait for each other, and its tick is empty. What its periods scatter is the machine's doing; only what the loop
-// under measurement scatters more is its own.
+// It asks for the same scheduling and the same processor and waits in the same way, half a period apart so
+// that the two never wait for each other, and its tick is empty. What its periods scatter is the machine's
+// doing; only what the loop under measurement scatters more is its own.
 #pragma once
 
 #include <string>

@@ -77,13 +77,26 @@ void request_memory_lock(bool wanted, RealtimeReport& report) {
     report.text += "Memory: locked as it is touched. ";
 }
 
-void request_processor(int cpu, RealtimeReport& report) {
-    if (cpu < 0) {
-        report.text += "Processor: any. ";
+int last_allowed_processor() {
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    sched_getaffinity(0, sizeof(allowed), &allowed);
+    for (int cpu = CPU_SETSIZE - 1; cpu >= 0; --cpu) {
+        if (CPU_ISSET(static_cast<std::size_t>(cpu), &allowed)) {
+            return cpu;
+        }
+    }
+    return any_processor;
+}
+
+void request_processor(int wanted, RealtimeReport& report) {
+    if (wanted == any_processor) {
+        report.text += "Processor: any, as asked for. ";
         return;
     }
+    const int cpu = wanted == last_processor ? last_allowed_processor() : wanted;
     int error = EINVAL;
-    if (cpu < CPU_SETSIZE) {
+    if (cpu >= 0 && cpu < CPU_SETSIZE) {
         cpu_set_t only;
         CPU_ZERO(&only);
         CPU_SET(static_cast<std::size_t>(cpu), &only);

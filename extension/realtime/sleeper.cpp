@@ -8,19 +8,6 @@
 
 namespace tactus {
 
-namespace {
-
-// Tells the processor that a loop only waits, which frees its sibling and saves power.
-void relax_processor() {
-#if defined(__x86_64__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-}
-
-}  // namespace
-
 Nanoseconds Sleeper::wait_until(Nanoseconds deadline) {
     const Nanoseconds wake_up = deadline - oversleep_;
     Nanoseconds now = monotonic_now();

@@ -9,9 +9,18 @@
 
 namespace tactus {
 
+// Tells the processor that a loop only waits, which frees its sibling and saves power.
+inline void relax_processor() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+}
+
 struct SleepSettings {
     // The longest look-out before a deadline (unit: nanoseconds). 0: sleep only.
-    Nanoseconds spin_limit = 0;
+    Nanoseconds spin_limit = 30'000;
 };
 
 class Sleeper {

@@ -10,7 +10,7 @@ namespace tactus {
 
 namespace {
 
-// Deadlines lie on multiples of the period, so that two loops are apart by the difference of their phases.
+// Far enough ahead that it is not late before the loop has begun.
 Nanoseconds first_deadline(Nanoseconds now, const TickLoopSettings& settings) {
     return (now / settings.period + 2) * settings.period + settings.phase;
 }
@@ -50,7 +50,18 @@ std::string TickLoop::start(const TickLoopSettings& settings, TickFunction tick,
     }
     ready_.wait(false, std::memory_order_acquire);
     running_ = true;
+    keep_awake();
     return {};
+}
+
+void TickLoop::keep_awake() {
+    if (!settings_.realtime.keep_awake) {
+        report_.text += " It may sleep, as asked for.";
+        return;
+    }
+    const std::string refused = awake_.start(report_.cpu);
+    report_.kept_awake = refused.empty();
+    report_.text += refused.empty() ? " It is kept awake." : " It may sleep: " + refused + ".";
 }
 
 void TickLoop::stop() {
@@ -59,6 +70,7 @@ void TickLoop::stop() {
     }
     stop_requested_.store(true, std::memory_order_release);
     pthread_join(thread_, nullptr);
+    awake_.stop();
     release_realtime(report_);
     running_ = false;
 }

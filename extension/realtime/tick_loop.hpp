@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/math/types.hpp"
+#include "realtime/awake_processor.hpp"
 #include "realtime/realtime_thread.hpp"
 #include "realtime/sleeper.hpp"
 #include "realtime/tick_statistics.hpp"
@@ -27,9 +28,17 @@ namespace tactus {
 using TickFunction = TickStatus (*)(void* context, Nanoseconds scheduled);
 
 struct TickLoopSettings {
-    Nanoseconds period = 1'000'000;          // > 0
-    Nanoseconds phase = 0;                   // shifts all deadlines, to keep two loops apart
-    Nanoseconds rebase_after = 100'000'000;  // a tick later than this moves the schedule
+    Nanoseconds period = 1'000'000;  // > 0
+
+    // Deadlines lie on multiples of the period plus this. A quarter keeps off the instants at which the
+    // kernel does its own regular work, which lie on whole milliseconds, and from a second loop at three
+    // quarters.
+    Nanoseconds phase = 250'000;
+
+    // A tick later than this moves the schedule instead of being caught up. Longer than any stall of a
+    // working machine: a crowded virtual machine was seen to stand still for a third of a second.
+    Nanoseconds rebase_after = 1'000'000'000;
+
     RealtimeRequest realtime;
     SleepSettings sleep;
     std::string thread_name = "tactus-haptic";  // at most 15 characters
@@ -67,6 +76,7 @@ public:
     TickStatistics& statistics() { return *statistics_; }
 
 private:
+    void keep_awake();
     static void* run_thread(void* self);
     void run();
     void run_tick(Nanoseconds scheduled, Nanoseconds start, Nanoseconds due_next, TickStatus status);
@@ -76,6 +86,7 @@ private:
     void* context_ = nullptr;
     TickTrace* trace_ = nullptr;
     RealtimeReport report_;
+    AwakeProcessor awake_;
     pthread_t thread_{};
     bool running_ = false;
     std::unique_ptr<TickStatistics> statistics_ = std::make_unique<TickStatistics>();
