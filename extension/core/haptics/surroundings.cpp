@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
-
 namespace tactus {
 
 namespace {
@@ -16,91 +14,6 @@ constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles
 // A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means looking
 // at more packs in between. Chosen by the bench `proxy`.
 constexpr double ticks_remembered = 5.0;
-
-// One triangle near the proxy's centre, in the frame of its part.
-struct NearTriangle {
-    TriangleClosestPoint closest;
-    Vec3 offset;  // from the closest point to the centre
-    double distance;
-    std::uint32_t id;
-    Vec3 a, b, c;
-};
-
-struct NearTriangles {
-    static constexpr int capacity = 48;
-    std::array<NearTriangle, capacity> items;
-    int count = 0;
-
-    void add(const TriangleTree& tree, std::uint32_t pack, int lane_index, const Vec3& center) {
-        const std::uint32_t id = tree.triangle_ids(pack)[static_cast<std::size_t>(lane_index)];
-        for (int i = 0; i < count; ++i) {
-            if (items[static_cast<std::size_t>(i)].id == id) {
-                return;  // the repeated last triangle of a pack
-            }
-        }
-        if (count == capacity) {
-            return;
-        }
-        const TrianglePack& triangles = tree.pack(pack);
-        NearTriangle& added = items[static_cast<std::size_t>(count++)];
-        added.a = lane(triangles.a, lane_index);
-        added.b = lane(triangles.b, lane_index);
-        added.c = lane(triangles.c, lane_index);
-        added.closest = closest_point_on_triangle(center, added.a, added.b, added.c);
-        added.offset = center - added.closest.point;
-        added.distance = glm::length(added.offset);
-        added.id = id;
-    }
-};
-
-// An edge or corner counts only where it is nearest to the sphere on every triangle that shares it. Where another
-// triangle contains the same point and is nearer, the surface there is flat or concave seen from the sphere: that
-// triangle's own contact stands for it. Where several share it equally, the first owns it. Decided from the triangles
-// at hand, it needs no adjacency, and holds for T-junctions and soups, from either side.
-bool is_covered(const NearTriangles& near, int index, double same) {
-    const NearTriangle& candidate = near.items[static_cast<std::size_t>(index)];
-    if (candidate.closest.feature == TriangleFeature::face) {
-        return false;
-    }
-    const double on_it = 16.0 * same;
-    for (int i = 0; i < near.count; ++i) {
-        const NearTriangle& other = near.items[static_cast<std::size_t>(i)];
-        const bool nearer = other.distance < candidate.distance - same;
-        const bool equal = other.distance <= candidate.distance + same;
-        const bool stands_first = other.closest.feature == TriangleFeature::face || i < index;
-        if (i == index || !(nearer || (equal && stands_first))) {
-            continue;
-        }
-        const Vec3& point = candidate.closest.point;
-        const Vec3 gap = closest_point_on_triangle(point, other.a, other.b, other.c).point - point;
-        if (glm::dot(gap, gap) <= on_it * on_it) {
-            return true;
-        }
-    }
-    return false;
-}
-
-Contact to_contact(const NearTriangle& near, const ScenePart& part, double rest) {
-    Contact contact;
-    const Vec3 normal = near.distance > 0.0 ? near.offset / near.distance : Vec3(0.0, 1.0, 0.0);
-    Vec3 u = std::abs(normal.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-    u = glm::normalize(glm::cross(normal, u));
-    const double bend = near.distance > 0.0 ? 1.0 / near.distance : 0.0;
-    if (near.closest.feature == TriangleFeature::edge) {
-        const Vec3 across = glm::cross(normal, near.closest.edge_direction);
-        const double length = glm::length(across);
-        u = length > 0.5 ? across / length : u;
-        contact.bend_u = bend;
-    } else if (near.closest.feature == TriangleFeature::corner) {
-        contact.bend_u = contact.bend_v = bend;
-    }
-    contact.point = to_parent(part.pose, near.closest.point);
-    contact.normal = direction_to_parent(part.pose, normal);
-    contact.u = direction_to_parent(part.pose, u);
-    contact.gap = near.distance - rest;
-    contact.body = static_cast<int>(part.body);
-    return contact;
-}
 
 }  // namespace
 
@@ -116,7 +29,8 @@ void ContactList::add(const Contact& contact) {
     }
 }
 
-Surroundings::Surroundings(std::size_t most_parts) : records_(most_parts), hoods_(hood_count) {
+Surroundings::Surroundings(std::size_t most_parts) 
+    : records_(most_parts), hoods_(hood_count), near_triangles_(std::make_unique<NearTriangles>()) {
     far_.reserve(2 * most_parts + 1);
     near_.reserve(most_parts);
     free_hoods_.reserve(hood_count);
@@ -294,6 +208,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     contact.gap = at.distance - rest;
     contact.bend_u = at.bend_u;
     contact.bend_v = at.bend_v;
+    contact.pivot = at.bend_u > 0.0 ? to_parent(placed.pose, local - at.normal / at.bend_u) : contact.point;
     contact.body = static_cast<int>(placed.body);
     out.add(contact);
 }
@@ -305,7 +220,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
     const double limit = rest + tolerances_.reach;
     const double squared_limit = limit * limit;
     const LanesVec3 center = splat(local);
-    NearTriangles near;
+    NearTriangles& near = *near_triangles_;
+    near.clear();
     double nearest = std::numeric_limits<double>::infinity();
 
     Neighbourhood* const hood = hood_around(index, local);
@@ -341,9 +257,9 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
         nearest = found.nearest;
     }
     record.clear_until = now + nearest - limit;
-    for (int i = 0; i < near.count; ++i) {
-        if (keep_all || !is_covered(near, i, tolerances_.same)) {
-            out.add(to_contact(near.items[static_cast<std::size_t>(i)], placed, rest));
+    for (int i = 0; i < near.count(); ++i) {
+        if (keep_all || !near.is_covered(i, tolerances_.same)) {
+            out.add(near.contact(i, placed, rest));
         }
     }
 }
