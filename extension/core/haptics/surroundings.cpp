@@ -1,0 +1,480 @@
+#include "core/haptics/surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/geometry/closest_point_on_triangle.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles it remembers
+
+// A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means looking
+// at more packs in between. Chosen by the bench `proxy`.
+constexpr double ticks_remembered = 5.0;
+
+// One triangle near the proxy's centre, in the frame of its part.
+struct NearTriangle {
+    TriangleClosestPoint closest;
+    Vec3 offset;  // from the closest point to the centre
+    double distance;
+    std::uint32_t id;
+    Vec3 a, b, c;
+};
+
+struct NearTriangles {
+    static constexpr int capacity = 48;
+    std::array<NearTriangle, capacity> items;
+    int count = 0;
+
+    void add(const TriangleTree& tree, std::uint32_t pack, int lane_index, const Vec3& center) {
+        const std::uint32_t id = tree.triangle_ids(pack)[static_cast<std::size_t>(lane_index)];
+        for (int i = 0; i < count; ++i) {
+            if (items[static_cast<std::size_t>(i)].id == id) {
+                return;  // the repeated last triangle of a pack
+            }
+        }
+        if (count == capacity) {
+            return;
+        }
+        const TrianglePack& triangles = tree.pack(pack);
+        NearTriangle& added = items[static_cast<std::size_t>(count++)];
+        added.a = lane(triangles.a, lane_index);
+        added.b = lane(triangles.b, lane_index);
+        added.c = lane(triangles.c, lane_index);
+        added.closest = closest_point_on_triangle(center, added.a, added.b, added.c);
+        added.offset = center - added.closest.point;
+        added.distance = glm::length(added.offset);
+        added.id = id;
+    }
+};
+
+// An edge or corner counts only where it is nearest to the sphere on every triangle that shares it. Where another
+// triangle contains the same point and is nearer, the surface there is flat or concave seen from the sphere: that
+// triangle's own contact stands for it. Where several share it equally, the first owns it. Decided from the triangles
+// at hand, it needs no adjacency, and holds for T-junctions and soups, from either side.
+bool is_covered(const NearTriangles& near, int index, double same) {
+    const NearTriangle& candidate = near.items[static_cast<std::size_t>(index)];
+    if (candidate.closest.feature == TriangleFeature::face) {
+        return false;
+    }
+    const double on_it = 16.0 * same;
+    for (int i = 0; i < near.count; ++i) {
+        const NearTriangle& other = near.items[static_cast<std::size_t>(i)];
+        const bool nearer = other.distance < candidate.distance - same;
+        const bool equal = other.distance <= candidate.distance + same;
+        const bool stands_first = other.closest.feature == TriangleFeature::face || i < index;
+        if (i == index || !(nearer || (equal && stands_first))) {
+            continue;
+        }
+        const Vec3& point = candidate.closest.point;
+        const Vec3 gap = closest_point_on_triangle(point, other.a, other.b, other.c).point - point;
+        if (glm::dot(gap, gap) <= on_it * on_it) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Contact to_contact(const NearTriangle& near, const ScenePart& part, double rest) {
+    Contact contact;
+    const Vec3 normal = near.distance > 0.0 ? near.offset / near.distance : Vec3(0.0, 1.0, 0.0);
+    Vec3 u = std::abs(normal.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
+    u = glm::normalize(glm::cross(normal, u));
+    const double bend = near.distance > 0.0 ? 1.0 / near.distance : 0.0;
+    if (near.closest.feature == TriangleFeature::edge) {
+        const Vec3 across = glm::cross(normal, near.closest.edge_direction);
+        const double length = glm::length(across);
+        u = length > 0.5 ? across / length : u;
+        contact.bend_u = bend;
+    } else if (near.closest.feature == TriangleFeature::corner) {
+        contact.bend_u = contact.bend_v = bend;
+    }
+    contact.point = to_parent(part.pose, near.closest.point);
+    contact.normal = direction_to_parent(part.pose, normal);
+    contact.u = direction_to_parent(part.pose, u);
+    contact.gap = near.distance - rest;
+    contact.body = static_cast<int>(part.body);
+    return contact;
+}
+
+}  // namespace
+
+void ContactList::add(const Contact& contact) {
+    if (count < capacity) {
+        items[static_cast<std::size_t>(count++)] = contact;
+        return;
+    }
+    const auto widest =
+        std::ranges::max_element(items, [](const Contact& p, const Contact& q) { return p.gap < q.gap; });
+    if (contact.gap < widest->gap) {
+        *widest = contact;
+    }
+}
+
+Surroundings::Surroundings(std::size_t most_parts) : records_(most_parts), hoods_(hood_count) {
+    far_.reserve(2 * most_parts + 1);
+    near_.reserve(most_parts);
+    free_hoods_.reserve(hood_count);
+}
+
+void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask) {
+    const bool changed =
+        scene_ != &scene || revision_ != scene.revision() || mask_ != mask || radius_ != radius;
+    scene_ = &scene;
+    mask_ = mask;
+    radius_ = radius;
+    if (changed) {
+        revision_ = scene.revision();
+        forget(center);
+    }
+    pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
+    odometer_at_tick_ = odometer_;
+    for (const int index : scene.moved_bodies()) {
+        const TouchBody& body = scene.body(index);
+        for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+            const auto part = static_cast<std::uint32_t>(body.first_part + i);
+            Record& record = records_[part];
+            if (record.place == Place::absent) {
+                continue;
+            }
+            if (record.place == Place::far) {
+                make_near(part);
+            }
+            record.slack += body.moved_by;
+        }
+    }
+    retire_distant_parts();
+}
+
+// Everything is far and due at once: the first question looks at each part again.
+void Surroundings::forget(const Vec3& center) {
+    far_.clear();
+    near_.clear();
+    free_hoods_.clear();
+    for (std::size_t i = 0; i < hoods_.size(); ++i) {
+        free_hoods_.push_back(static_cast<std::int16_t>(i));
+    }
+    double magnitude = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius_});
+    const auto parts = scene_->parts();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        Record& record = records_[i];
+        record = {0.0, 0.0, Place::absent, -1, record.stamp + 1};
+        if (!parts[i].part || (scene_->body(static_cast<int>(parts[i].body)).layer & mask_) == 0) {
+            continue;
+        }
+        record.place = Place::far;
+        far_.push_back({odometer_, static_cast<std::uint32_t>(i), record.stamp});
+        if (const TriangleTree* tree = parts[i].part->tree()) {
+            magnitude = std::max(magnitude, tree->magnitude());
+        }
+    }
+    tolerances_ = make_tolerances(radius_, magnitude);
+}
+
+void Surroundings::make_near(std::uint32_t part) {
+    Record& record = records_[part];
+    record.place = Place::near;
+    ++record.stamp;
+    record.clear_until = 0.0;
+    near_.push_back(part);
+}
+
+void Surroundings::send_far(std::uint32_t part, double distance) {
+    Record& record = records_[part];
+    record.place = Place::far;
+    ++record.stamp;
+    if (record.hood >= 0) {
+        free_hoods_.push_back(record.hood);
+        record.hood = -1;
+    }
+    far_.push_back({odometer_ + distance, part, record.stamp});
+    std::push_heap(far_.begin(), far_.end(), [](const Far& p, const Far& q) { return p.due > q.due; });
+}
+
+// A part that cannot be reached within the next ticks leaves the near list; a body that keeps moving stays.
+void Surroundings::retire_distant_parts() {
+    const double distant = 40.0 * pace_ + 0.1 * radius_;
+    for (std::size_t i = 0; i < near_.size();) {
+        const std::uint32_t part = near_[i];
+        const Record& record = records_[part];
+        const double distance = record.clear_until - odometer_for(record);
+        const bool moves = scene_->body(static_cast<int>(scene_->parts()[part].body)).moved;
+        if (moves || distance <= distant || far_.size() + 1 >= far_.capacity()) {
+            ++i;
+            continue;
+        }
+        near_[i] = near_.back();
+        near_.pop_back();
+        send_far(part, distance);
+    }
+}
+
+// A lower bound of the distance between the sphere and the part.
+double Surroundings::distance_bound(std::uint32_t index, const Vec3& center) const {
+    const ScenePart& placed = scene_->parts()[index];
+    const Vec3 local = to_local(placed.pose, center);
+    const double margin = radius_ + 2.0 * tolerances_.reach + tolerances_.skin;
+    if (!placed.part->tree()) {
+        return distance_to_solid(placed.part->solid(), local).distance - margin;
+    }
+    const double to_ball = glm::length(local - placed.part->center) - placed.part->radius;
+    if (to_ball > margin + placed.part->radius) {
+        return to_ball - margin;
+    }
+    return placed.part->tree()->collect(local, 0.0, 1e30, {}).nearest - margin;
+}
+
+// Makes sure that every part within `length` of the sphere is on the near list.
+void Surroundings::bring_near(double length, const Vec3& center) {
+    const auto later = [](const Far& p, const Far& q) { return p.due > q.due; };
+    while (!far_.empty() && far_.front().due <= odometer_ + length) {
+        const Far soonest = far_.front();
+        std::pop_heap(far_.begin(), far_.end(), later);
+        far_.pop_back();
+        if (records_[soonest.part].stamp != soonest.stamp) {
+            continue;
+        }
+        const double distance = distance_bound(soonest.part, center);
+        if (distance > 2.0 * length) {
+            far_.push_back({odometer_ + distance, soonest.part, soonest.stamp});
+            std::push_heap(far_.begin(), far_.end(), later);
+            continue;
+        }
+        make_near(soonest.part);
+        Record& record = records_[soonest.part];
+        record.clear_until = odometer_for(record) + distance;
+    }
+}
+
+// The remembered triangles around a point of the part, gathered anew where the old ones do not reach far enough.
+Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local) {
+    Record& record = records_[index];
+    const double now = odometer_for(record);
+    const double needed = radius_ + tolerances_.skin + tolerances_.reach;
+    if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_until - now >= needed) {
+        return &hoods_[static_cast<std::size_t>(record.hood)];
+    }
+    if (record.hood < 0) {
+        if (free_hoods_.empty()) {
+            return nullptr;
+        }
+        record.hood = free_hoods_.back();
+        free_hoods_.pop_back();
+    }
+    Neighbourhood& hood = hoods_[static_cast<std::size_t>(record.hood)];
+    const TriangleTree& tree = *scene_->parts()[index].part->tree();
+    double margin = std::max(ticks_remembered * pace_, 4.0 * tolerances_.reach);
+    for (int attempt = 0; attempt < 4; ++attempt) {
+        if (hood.gather(tree, local, needed + margin, now)) {
+            return &hood;
+        }
+        margin *= 0.25;
+    }
+    return nullptr;
+}
+
+void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, ContactList& out) {
+    const ScenePart& placed = scene_->parts()[index];
+    const SolidDistance at = distance_to_solid(placed.part->solid(), local);
+    Record& record = records_[index];
+    const double rest = radius_ + tolerances_.skin;
+    record.clear_until = odometer_for(record) + at.distance - rest - tolerances_.reach;
+    if (at.distance - rest > tolerances_.reach) {
+        return;
+    }
+    Contact contact;
+    contact.normal = direction_to_parent(placed.pose, at.normal);
+    contact.u = direction_to_parent(placed.pose, at.u);
+    contact.point = to_parent(placed.pose, local - at.normal * at.distance);
+    contact.gap = at.distance - rest;
+    contact.bend_u = at.bend_u;
+    contact.bend_v = at.bend_v;
+    contact.body = static_cast<int>(placed.body);
+    out.add(contact);
+}
+
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, ContactList& out, bool keep_all) {
+    const ScenePart& placed = scene_->parts()[index];
+    const TriangleTree& tree = *placed.part->tree();
+    const double rest = radius_ + tolerances_.skin;
+    const double limit = rest + tolerances_.reach;
+    const double squared_limit = limit * limit;
+    const LanesVec3 center = splat(local);
+    NearTriangles near;
+    double nearest = std::numeric_limits<double>::infinity();
+
+    Neighbourhood* const hood = hood_around(index, local);
+    Record& record = records_[index];
+    const double now = odometer_for(record);
+    const auto look = [&](std::uint32_t pack) {
+        const Lanes squared = offset_from_triangles(tree.pack(pack), center).squared;
+        const double least = smallest(squared);
+        if (least <= squared_limit) {
+            for (int i = 0; i < lane_count; ++i) {
+                if (squared[i] <= squared_limit) {
+                    near.add(tree, pack, i, local);
+                }
+            }
+        }
+        return std::sqrt(least);
+    };
+    if (hood) {
+        nearest = hood->covered_until - now;
+        for (std::size_t i = 0; i < hood->count; ++i) {
+            NearPack& remembered = hood->packs[i];
+            if (remembered.distance - now <= limit) {
+                remembered.distance = now + look(remembered.pack);
+            }
+            nearest = std::min(nearest, remembered.distance - now);
+        }
+    } else {
+        std::array<NearPack, Neighbourhood::capacity> packs;
+        const CollectResult found = tree.collect(local, limit, limit, packs);
+        for (std::size_t i = 0; i < found.count; ++i) {
+            look(packs[i].pack);
+        }
+        nearest = found.nearest;
+    }
+    record.clear_until = now + nearest - limit;
+    for (int i = 0; i < near.count; ++i) {
+        if (keep_all || !is_covered(near, i, tolerances_.same)) {
+            out.add(to_contact(near.items[static_cast<std::size_t>(i)], placed, rest));
+        }
+    }
+}
+
+void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep_all) {
+    out.clear();
+    bring_near(2.0 * tolerances_.reach, center);
+    for (const std::uint32_t index : near_) {
+        const Record& record = records_[index];
+        if (record.clear_until > odometer_for(record)) {
+            continue;
+        }
+        const ScenePart& placed = scene_->parts()[index];
+        const Vec3 local = to_local(placed.pose, center);
+        if (placed.part->tree()) {
+            find_tree_contacts(index, local, out, keep_all);
+        } else {
+            find_solid_contact(index, local, out);
+        }
+    }
+}
+
+// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at; beyond
+// it, the tree itself is swept.
+double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Vec3& motion, double length,
+                                double limit) {
+    const TriangleTree& tree = *scene_->parts()[index].part->tree();
+    const double stop = radius_ + tolerances_.stop;
+    Neighbourhood* const hood = hood_around(index, start);
+    if (!hood) {
+        return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+    }
+    const double now = odometer_for(records_[index]);
+    const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
+    double best = std::min(limit, std::max(reached, 0.0));
+    bool found = false;
+    const auto sweep_pack = [&](const NearPack& remembered) {
+        const double t = sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
+        if (t <= best) {
+            best = t;
+            found = true;
+        }
+    };
+    const auto within_way = [&](const NearPack& remembered) {
+        return remembered.distance - now - stop - tolerances_.arrival <= best * length;
+    };
+    // The nearest first: its hit shortens the way for all others.
+    std::size_t first = hood->count;
+    for (std::size_t i = 0; i < hood->count; ++i) {
+        if (within_way(hood->packs[i]) && (first == hood->count || hood->packs[i].distance < hood->packs[first].distance)) {
+            first = i;
+        }
+    }
+    if (first < hood->count) {
+        sweep_pack(hood->packs[first]);
+    }
+    for (std::size_t i = 0; i < hood->count; ++i) {
+        if (i != first && within_way(hood->packs[i])) {
+            sweep_pack(hood->packs[i]);
+        }
+    }
+    if (found || reached >= limit) {
+        return found ? best : 2.0 * limit + 1.0;
+    }
+    return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+}
+
+double Surroundings::sweep(const Vec3& center, const Vec3& motion) {
+    const double length = glm::length(motion);
+    bring_near(length, center);
+    double best = 1.0;
+    bool found = false;
+    for (const std::uint32_t index : near_) {
+        const Record& record = records_[index];
+        if (record.clear_until > odometer_for(record) + best * length) {
+            continue;
+        }
+        const ScenePart& placed = scene_->parts()[index];
+        const Vec3 start = to_local(placed.pose, center);
+        const Vec3 way = direction_to_local(placed.pose, motion);
+        const double t = placed.part->tree() ? sweep_tree(index, start, way, length, best)
+                                             : sweep_to_solid(placed.part->solid(), start, way,
+                                                              radius_ + tolerances_.stop, tolerances_.arrival, best);
+        if (t <= best) {
+            best = t;
+            found = true;
+        }
+    }
+    return found ? best : 2.0;
+}
+
+// Seen from a moving part, the proxy is what moves. Where its way in the part's frame meets a surface, the part ran
+// into the proxy there, and takes it along from that place on.
+Vec3 Surroundings::pushed_by_moving_parts(const Vec3& center, int carrier) {
+    Vec3 push(0.0);
+    for (const std::uint32_t index : near_) {
+        const ScenePart& placed = scene_->parts()[index];
+        const TouchBody& body = scene_->body(static_cast<int>(placed.body));
+        const Record& record = records_[index];
+        if (!body.moved || static_cast<int>(placed.body) == carrier || record.clear_until > odometer_for(record)) {
+            continue;
+        }
+        const Vec3 before = to_local(placed.previous, center + push);
+        const Vec3 after = to_local(placed.pose, center + push);
+        const Vec3 way = after - before;
+        const double stop = radius_ + tolerances_.stop;
+        const double t = placed.part->tree()
+                             ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0)
+                             : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
+        if (t < 1.0) {
+            push = to_parent(placed.pose, before + way * t) - center;
+        }
+    }
+    return push;
+}
+
+double Surroundings::clearance(const Vec3& center, double far) const {
+    double nearest = far;
+    for (const ScenePart& placed : scene_->parts()) {
+        if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
+            continue;
+        }
+        const Vec3 local = to_local(placed.pose, center);
+        if (glm::length(local - placed.part->center) - placed.part->radius >= nearest) {
+            continue;
+        }
+        const double distance = placed.part->tree() ? placed.part->tree()->collect(local, 0.0, nearest, {}).nearest
+                                                    : distance_to_solid(placed.part->solid(), local).distance;
+        nearest = std::min(nearest, distance);
+    }
+    return nearest;
+}
+
+}  // namespace tactus

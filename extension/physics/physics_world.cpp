@@ -1,0 +1,430 @@
+#include "physics/physics_world.hpp"
+#include "physics/jolt.hpp"
+
+#include <Jolt/Core/JobSystemSingleThreaded.h>
+#include <Jolt/Core/TempAllocator.h>
+#include <Jolt/Physics/Body/BodyInterface.h>
+#include <Jolt/Physics/PhysicsSystem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "physics/body_record.hpp"
+#include "physics/collision_layers.hpp"
+#include "physics/contact_rules.hpp"
+#include "physics/jolt_runtime.hpp"
+#include "physics/jolt_units.hpp"
+#include "physics/loop_memory.hpp"
+#include "physics/world_settings.hpp"
+
+namespace tactus {
+
+static_assert(JPH::BodyID::cMaxBodyIndex == 0x7fffffu, "BodyId::index() takes these bits");
+
+namespace {
+
+constexpr std::size_t mebibyte = std::size_t{1} << 20;
+
+// The broad phase takes up to four tree nodes of 128 bytes a body while it rebuilds, in pages rounded up to
+// powers of two; saving and restoring takes a few words a body.
+std::size_t loop_memory_size(std::uint32_t max_bodies) {
+    return 8 * mebibyte + std::size_t{2048} * max_bodies;
+}
+
+// Scratch of a single step: the contact constraints, the bodies' and contacts' links to islands, the pairs
+// found.
+JPH::uint step_memory_size(const PhysicsSettings& settings) {
+    constexpr std::size_t per_contact = 1024;
+    constexpr std::size_t per_body = 64;
+    return static_cast<JPH::uint>(4 * mebibyte + per_contact * settings.max_contacts +
+                                  per_body * settings.max_bodies);
+}
+
+// Far more jobs than the single-threaded system holds at any time.
+constexpr JPH::uint jobs_per_sub_step = 64;
+
+PhysicsSettings within_range(PhysicsSettings settings) {
+    settings.max_bodies = std::clamp(settings.max_bodies, 1u, 65536u);
+    settings.max_touching_pairs = std::clamp(settings.max_touching_pairs, 16u, 65536u);
+    settings.max_contacts = std::clamp(settings.max_contacts, 16u, 65536u);
+    settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
+    return settings;
+}
+
+JPH::EMotionType motion_type(Motion motion) {
+    switch (motion) {
+        case Motion::Static:
+            return JPH::EMotionType::Static;
+        case Motion::Kinematic:
+            return JPH::EMotionType::Kinematic;
+        case Motion::Dynamic:
+            return JPH::EMotionType::Dynamic;
+    }
+    return JPH::EMotionType::Static;
+}
+
+Motion motion_of(const JPH::Body& body) {
+    return body.IsDynamic() ? Motion::Dynamic : body.IsKinematic() ? Motion::Kinematic : Motion::Static;
+}
+
+Pose pose_of(const JPH::Body& body) {
+    return {units::position(body.GetPosition()), units::rotation(body.GetRotation())};
+}
+
+// Only what moves can be asleep.
+class MovingOnly final : public JPH::BroadPhaseLayerFilter {
+public:
+    bool ShouldCollide(JPH::BroadPhaseLayer layer) const override { return layer == moving_layer; }
+};
+
+}  // namespace
+
+struct PhysicsWorld::Impl {
+    explicit Impl(const PhysicsSettings& wanted)
+        : settings(within_range(wanted)),
+          memory(loop_memory_size(settings.max_bodies)),
+          layers(settings.max_bodies),
+          one_sided(layers),
+          step_memory(step_memory_size(settings)),
+          records(settings.max_bodies) {
+        jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
+        constexpr JPH::uint one_mutex = 1;
+        system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
+                    layer_interface, broad_phase_filter, layers);
+        system.SetPhysicsSettings(jolt_settings(settings));
+        system.SetCombineFriction(combined_friction);
+        system.SetCombineRestitution(combined_restitution);
+        system.SetGravity(units::vector(settings.gravity));
+    }
+
+    // Nobody else is in the world, so Jolt's per-body locks have nothing to protect.
+    JPH::BodyInterface& bodies() { return system.GetBodyInterfaceNoLock(); }
+
+    JPH::Body* find(BodyId id) const {
+        return id.valid() ? system.GetBodyLockInterfaceNoLock().TryGetBody(JPH::BodyID(id.value)) : nullptr;
+    }
+
+    BodyRecord& record(const JPH::Body& body) { return *records[body.GetID().GetIndex()]; }
+
+    // Whatever rests on, leans on or is about to touch a body that changes.
+    void wake_around(const JPH::Body& body) {
+        constexpr double reach = 2e-3;  // (unit: meters)
+        JPH::AABox box = body.GetWorldSpaceBounds();
+        box.ExpandBy(JPH::Vec3::sReplicate(units::length(reach)));
+        bodies().ActivateBodiesInAABox(box, MovingOnly(), JPH::ObjectLayerFilter());
+    }
+
+    void listen_if_needed() { system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr); }
+
+    PhysicsSettings settings;
+    LoopMemory memory;
+    LayerInterface layer_interface;
+    BroadPhaseFilter broad_phase_filter;
+    CollisionTable layers;
+    OneSidedContacts one_sided;
+    JPH::TempAllocatorImplWithMallocFallback step_memory;
+    JPH::JobSystemSingleThreaded jobs;
+    JPH::PhysicsSystem system;
+    std::vector<std::unique_ptr<BodyRecord>> records;  // by the body's index
+    std::size_t body_count = 0;
+};
+
+PhysicsWorld::PhysicsWorld(const PhysicsSettings& settings) {
+    start_jolt();
+    impl_ = std::make_unique<Impl>(settings);
+}
+
+PhysicsWorld::~PhysicsWorld() = default;
+
+BodyId PhysicsWorld::add(PreparedBody& body) {
+    if (!body.ready() || impl_->body_count == impl_->settings.max_bodies)
+        return {};
+    const LoopMemoryScope scope(impl_->memory);
+    BodyRecord& record = *body.record_;
+    const std::size_t pair = impl_->layers.take(record.collision);
+    if (pair == CollisionTable::no_pair)
+        return {};
+    JPH::Body& added = *record.body;
+    if (!impl_->bodies().AssignBodyID(&added)) {
+        impl_->layers.give_back(pair);
+        return {};
+    }
+    const JPH::BodyID id = added.GetID();
+    record.layer_pair = pair;
+    record.body = nullptr;
+    impl_->records[id.GetIndex()] = std::move(body.record_);
+    ++impl_->body_count;
+    impl_->listen_if_needed();
+    impl_->bodies().SetObjectLayer(id, object_layer(pair, added.CanBeKinematicOrDynamic()));
+    impl_->bodies().AddBody(id, JPH::EActivation::Activate);
+    impl_->wake_around(added);
+    return {id.GetIndexAndSequenceNumber()};
+}
+
+PreparedBody PhysicsWorld::remove(BodyId id) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr)
+        return {};
+    const LoopMemoryScope scope(impl_->memory);
+    const JPH::BodyID jolt_id = body->GetID();
+    impl_->wake_around(*body);
+    impl_->bodies().RemoveBody(jolt_id);
+    impl_->bodies().UnassignBodyID(jolt_id);
+    PreparedBody removed(std::move(impl_->records[jolt_id.GetIndex()]));
+    impl_->layers.give_back(removed.record_->layer_pair);
+    removed.record_->body = body;
+    --impl_->body_count;
+    return removed;
+}
+
+bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !other.ready())
+        return false;
+    BodyRecord& record = impl_->record(*body);
+    BodyRecord& spare = *other.record_;
+    if (record.may_be_dynamic != spare.may_be_dynamic ||
+        body->CanBeKinematicOrDynamic() != spare.body->CanBeKinematicOrDynamic())
+        return false;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->wake_around(*body);
+    // Held here, and by `other` afterwards, so that nothing is freed in the loop.
+    const JPH::RefConst<JPH::Shape> old_shape = body->GetShape();
+    const JPH::RefConst<JPH::Shape> new_shape = spare.body->GetShape();
+    impl_->bodies().SetShape(body->GetID(), new_shape, false, JPH::EActivation::Activate);
+    spare.body->SetShapeInternal(old_shape, false);
+    std::swap(record.mass, spare.mass);
+    std::swap(record.mass_properties, spare.mass_properties);
+    if (JPH::MotionProperties* motion = body->GetMotionPropertiesUnchecked())
+        motion->SetMassProperties(motion->GetAllowedDOFs(), record.mass_properties);
+    impl_->wake_around(*body);
+    return true;
+}
+
+void PhysicsWorld::settle_broad_phase() {
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->system.OptimizeBroadPhase();
+}
+
+bool PhysicsWorld::contains(BodyId id) const {
+    return impl_->find(id) != nullptr;
+}
+
+std::size_t PhysicsWorld::body_count() const {
+    return impl_->body_count;
+}
+
+void PhysicsWorld::set_gravity(const Vec3& gravity) {
+    impl_->settings.gravity = gravity;
+    impl_->system.SetGravity(units::vector(gravity));
+}
+
+void PhysicsWorld::set_pose(BodyId id, const Pose& pose) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr)
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->wake_around(*body);
+    impl_->bodies().SetPositionAndRotation(body->GetID(), units::position(pose.position),
+                                           units::rotation(pose.rotation), JPH::EActivation::Activate);
+    impl_->wake_around(*body);
+}
+
+void PhysicsWorld::move_to(BodyId id, const Pose& pose, double seconds) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || body->IsStatic() || !(seconds > 0.0))
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->bodies().MoveKinematic(body->GetID(), units::position(pose.position),
+                                  units::rotation(pose.rotation), static_cast<float>(seconds));
+}
+
+void PhysicsWorld::set_velocity(BodyId id, const Vec3& linear, const Vec3& angular) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || body->IsStatic())
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->bodies().SetLinearAndAngularVelocity(body->GetID(), units::vector(linear), units::plain(angular));
+}
+
+bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || (motion != Motion::Static && !body->CanBeKinematicOrDynamic()) ||
+        (motion == Motion::Dynamic && !impl_->record(*body).may_be_dynamic))
+        return false;
+    if (motion_of(*body) == motion)
+        return true;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->wake_around(*body);
+    impl_->bodies().SetMotionType(body->GetID(), motion_type(motion), JPH::EActivation::Activate);
+    return true;
+}
+
+void PhysicsWorld::set_material(BodyId id, const SurfaceMaterial& material) {
+    if (JPH::Body* body = impl_->find(id)) {
+        body->SetFriction(stored_friction(material));
+        body->SetRestitution(stored_restitution(material));
+    }
+}
+
+void PhysicsWorld::set_damping(BodyId id, double linear, double angular) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->CanBeKinematicOrDynamic())
+        return;
+    body->GetMotionPropertiesUnchecked()->SetLinearDamping(static_cast<float>(std::max(0.0, linear)));
+    body->GetMotionPropertiesUnchecked()->SetAngularDamping(static_cast<float>(std::max(0.0, angular)));
+}
+
+void PhysicsWorld::set_gravity_scale(BodyId id, double scale) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->CanBeKinematicOrDynamic())
+        return;
+    body->GetMotionPropertiesUnchecked()->SetGravityFactor(static_cast<float>(scale));
+    wake(id);
+}
+
+void PhysicsWorld::set_collision(BodyId id, const CollisionLayers& collision) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr)
+        return;
+    BodyRecord& record = impl_->record(*body);
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->wake_around(*body);
+    impl_->layers.give_back(record.layer_pair);
+    const std::size_t pair = impl_->layers.take(collision);
+    record.collision = collision;
+    record.layer_pair = pair;
+    impl_->listen_if_needed();
+    impl_->bodies().SetObjectLayer(body->GetID(), object_layer(pair, body->CanBeKinematicOrDynamic()));
+    impl_->bodies().InvalidateContactCache(body->GetID());
+}
+
+void PhysicsWorld::set_continuous(BodyId id, bool continuous) {
+    if (JPH::Body* body = impl_->find(id))
+        impl_->bodies().SetMotionQuality(
+            body->GetID(), continuous ? JPH::EMotionQuality::LinearCast : JPH::EMotionQuality::Discrete);
+}
+
+void PhysicsWorld::set_can_sleep(BodyId id, bool can_sleep) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->CanBeKinematicOrDynamic())
+        return;
+    body->SetAllowSleeping(can_sleep);
+    if (!can_sleep)
+        wake(id);
+}
+
+void PhysicsWorld::wake(BodyId id) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || body->IsStatic())
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->bodies().ActivateBody(body->GetID());
+}
+
+void PhysicsWorld::sleep(BodyId id) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr)
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->bodies().DeactivateBody(body->GetID());
+}
+
+void PhysicsWorld::apply_force(BodyId id, const Vec3& force, const Vec3& world_point) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->IsDynamic() || force == Vec3(0.0))
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->bodies().AddForce(body->GetID(), units::vector(force), units::position(world_point));
+}
+
+void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->IsDynamic() || torque == Vec3(0.0))
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->bodies().AddTorque(body->GetID(), units::torque(torque));
+}
+
+std::size_t PhysicsWorld::awake_count() const {
+    return impl_->system.GetNumActiveBodies(JPH::EBodyType::RigidBody);
+}
+
+std::size_t PhysicsWorld::awake_bodies(std::span<BodyId> out) const {
+    const std::size_t count = std::min(out.size(), awake_count());
+    const JPH::BodyID* active = impl_->system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = BodyId{active[i].GetIndexAndSequenceNumber()};
+    return count;
+}
+
+bool PhysicsWorld::anything_awake() const {
+    return awake_count() > 0;
+}
+
+std::uint32_t PhysicsWorld::step(double seconds) {
+    if (!anything_awake() || !(seconds > 0.0))
+        return step_nothing_awake;
+    const std::uint64_t overflows = impl_->memory.overflows();
+    const LoopMemoryScope scope(impl_->memory);
+    const JPH::EPhysicsUpdateError error = impl_->system.Update(
+        static_cast<float>(seconds), impl_->settings.sub_steps, &impl_->step_memory, &impl_->jobs);
+    const auto has = [error](JPH::EPhysicsUpdateError bit) {
+        return (error & bit) != JPH::EPhysicsUpdateError::None;
+    };
+    std::uint32_t status = step_ok;
+    if (has(JPH::EPhysicsUpdateError::BodyPairCacheFull))
+        status |= step_pairs_full;
+    if (has(JPH::EPhysicsUpdateError::ContactConstraintsFull) ||
+        has(JPH::EPhysicsUpdateError::ManifoldCacheFull))
+        status |= step_contacts_full;
+    if (impl_->memory.overflows() != overflows)
+        status |= step_memory_full;
+    return status;
+}
+
+Pose PhysicsWorld::pose(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? pose_of(*body) : Pose{};
+}
+
+Vec3 PhysicsWorld::center_of_mass(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? units::position(body->GetCenterOfMassPosition()) : Vec3(0.0);
+}
+
+Vec3 PhysicsWorld::linear_velocity(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? units::vector(body->GetLinearVelocity()) : Vec3(0.0);
+}
+
+Vec3 PhysicsWorld::angular_velocity(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? units::plain(body->GetAngularVelocity()) : Vec3(0.0);
+}
+
+Vec3 PhysicsWorld::velocity_at(BodyId id, const Vec3& world_point) const {
+    return linear_velocity(id) + glm::cross(angular_velocity(id), world_point - center_of_mass(id));
+}
+
+double PhysicsWorld::mass(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? impl_->record(*body).mass : 0.0;
+}
+
+Motion PhysicsWorld::motion(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? motion_of(*body) : Motion::Static;
+}
+
+bool PhysicsWorld::awake(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr && body->IsActive();
+}
+
+std::uint64_t PhysicsWorld::memory_overflows() const {
+    return impl_->memory.overflows();
+}
+
+}  // namespace tactus

@@ -1,0 +1,132 @@
+// The private rigid-body world of one HapticWorld.
+//
+// Thread rule: one thread at a time is inside a PhysicsWorld, the haptic one while the loop runs. Everything
+// but the constructor and the destructor may be called in the loop: it allocates nothing from the system,
+// frees nothing, and takes no lock another thread can hold. Memory enters and leaves inside PreparedBody
+// objects, which are made and destroyed elsewhere (prepared_body.hpp).
+//
+// The same calls in the same order give the same bits, on any number of cores.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/math/pose.hpp"
+#include "physics/body_description.hpp"
+#include "physics/prepared_body.hpp"
+
+namespace tactus {
+
+// Names a body of one world for as long as it is in it; never reused while fewer than 256 bodies have come
+// and gone in its place.
+struct BodyId {
+    std::uint32_t value = 0xffffffffu;
+
+    bool valid() const { return value != 0xffffffffu; }
+    // Below PhysicsSettings::max_bodies, and different for all bodies that are in the world at the same time.
+    std::uint32_t index() const { return value & 0x7fffffu; }
+    friend bool operator==(BodyId, BodyId) = default;
+};
+
+struct PhysicsSettings {
+    std::uint32_t max_bodies = 4096;  // 1..65536; what is added beyond is refused
+    std::uint32_t max_touching_pairs =
+        8192;  // pairs of bodies near each other; beyond, contacts are lost and said so
+    std::uint32_t max_contacts = 4096;  // pairs of surfaces in contact, likewise
+    Vec3 gravity{0.0, -9.81, 0.0};      // (unit: meters per square second)
+    int sub_steps = 1;                  // collision steps in one step(), 1..16
+    int velocity_iterations = 10;       // of the contact solver in a sub-step, >= 2
+    int position_iterations = 2;        // >= 1
+};
+
+// Bits that step() returns.
+enum StepStatus : std::uint32_t {
+    step_ok = 0,
+    step_nothing_awake = 1u << 0,  // nothing could move: no work was done
+    step_pairs_full = 1u << 1,     // raise max_touching_pairs; some bodies passed through others
+    step_contacts_full = 1u << 2,  // raise max_contacts; likewise
+    step_memory_full = 1u << 3,    // the world's memory was used up and the system's had to help
+};
+
+class PhysicsWorld {
+public:
+    explicit PhysicsWorld(const PhysicsSettings& settings = {});
+    ~PhysicsWorld();
+
+    PhysicsWorld(const PhysicsWorld&) = delete;
+    PhysicsWorld& operator=(const PhysicsWorld&) = delete;
+
+    // --- what is in it
+
+    // Takes the body and leaves `body` empty. When the world is full (or `body` is not ready) nothing is
+    // taken and the id is invalid. A body that moves, or that bodies rest on, wakes its neighbours.
+    BodyId add(PreparedBody& body);
+
+    // The body goes back to the caller, who destroys it off the loop or adds it again, now where it was last.
+    // Its sleeping neighbours wake.
+    PreparedBody remove(BodyId id);
+
+    // Exchanges shape, mass, inertia and centre of mass with those of `other`; all else, and the pose, stays.
+    // Whether a body can move must be the same for both, or nothing happens and the result is false.
+    bool reshape(BodyId id, PreparedBody& other);
+
+    // After many bodies were added one by one, before the loop runs: makes finding neighbours fast at once
+    // rather than over the next steps. Takes milliseconds for thousands of bodies.
+    void settle_broad_phase();
+
+    bool contains(BodyId id) const;
+    std::size_t body_count() const;
+
+    // --- changing it. An id that is not in the world does nothing, here and below.
+
+    void set_gravity(const Vec3& gravity);  // (unit: meters per square second); wakes nothing
+    void set_pose(BodyId id,
+                  const Pose& pose);  // at once, without a velocity; wakes the body and its neighbours
+    void move_to(BodyId id, const Pose& pose,
+                 double seconds);  // gives the velocity that is there after `seconds`
+    void set_velocity(BodyId id, const Vec3& linear,
+                      const Vec3& angular);     // of the centre of mass, in the world
+    bool set_motion(BodyId id, Motion motion);  // false: a static body made without may_move stays so
+    void set_material(BodyId id, const SurfaceMaterial& material);
+    void set_damping(BodyId id, double linear, double angular);
+    void set_gravity_scale(BodyId id, double scale);
+    void set_collision(BodyId id, const CollisionLayers& collision);
+    void set_continuous(BodyId id, bool continuous);
+    void set_can_sleep(BodyId id, bool can_sleep);
+    void wake(BodyId id);
+    void sleep(BodyId id);
+
+    // For the next step only; wakes a dynamic body, does nothing to any other.
+    void apply_force(BodyId id, const Vec3& force, const Vec3& world_point);  // (units: newtons, meters)
+    void apply_torque(BodyId id, const Vec3& torque);                         // (unit: newton meters)
+
+    // --- time
+
+    bool anything_awake() const;
+    std::size_t awake_count() const;
+    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on every run.
+    std::size_t awake_bodies(std::span<BodyId> out) const;
+
+    // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.
+    std::uint32_t step(double seconds);
+
+    // --- looking at it
+
+    Pose pose(BodyId id) const;
+    Vec3 center_of_mass(BodyId id) const;    // in the world (unit: meters)
+    Vec3 linear_velocity(BodyId id) const;   // of the centre of mass (unit: meters per second)
+    Vec3 angular_velocity(BodyId id) const;  // (unit: radians per second)
+    Vec3 velocity_at(BodyId id, const Vec3& world_point) const;  // of the body's material there
+    double mass(BodyId id) const;                                // (unit: kilograms); 0 for what cannot move
+    Motion motion(BodyId id) const;
+    bool awake(BodyId id) const;
+    std::uint64_t memory_overflows() const;  // see step_memory_full; since the world was made
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tactus

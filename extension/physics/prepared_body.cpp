@@ -1,0 +1,210 @@
+#include "physics/prepared_body.hpp"
+#include "physics/jolt.hpp"
+
+#include <Jolt/Physics/Body/BodyCreationSettings.h>
+#include <Jolt/Physics/Body/BodyManager.h>
+#include <Jolt/Physics/Collision/Shape/OffsetCenterOfMassShape.h>
+
+#include <cmath>
+
+#include "physics/body_record.hpp"
+#include "physics/collision_layers.hpp"
+#include "physics/contact_rules.hpp"
+#include "physics/jolt_runtime.hpp"
+#include "physics/jolt_units.hpp"
+#include "physics/shape_conversion.hpp"
+#include "physics/solid_properties.hpp"
+
+namespace tactus {
+
+namespace {
+
+// Jolt cuts off what is faster; far above anything a hand does, so that nothing is cut while a contact is
+// solved.
+constexpr double fastest = 1e4;          // (unit: meters per second)
+constexpr float fastest_spin = 2000.0f;  // (unit: radians per second)
+
+bool finite(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+bool not_negative(double value) {
+    return value >= 0.0 && std::isfinite(value);
+}
+
+bool may_turn_dynamic(const BodyDescription& description) {
+    return description.motion == Motion::Dynamic || description.may_move;
+}
+
+bool needs_motion(const BodyDescription& description) {
+    return description.motion != Motion::Static || description.may_move;
+}
+
+std::string wrong_in(const BodyDescription& d) {
+    if (d.shapes.empty())
+        return "the body has no shape; add a CollisionShape3D with a shape";
+    if (!finite(d.pose.position) || !(std::abs(glm::length(d.pose.rotation) - 1.0) < 1e-3))
+        return "the body's transform is not finite or holds a scale; reset it";
+    if (needs_motion(d) && !(d.mass > 0.0 && std::isfinite(d.mass)))
+        return "the mass is " + std::to_string(d.mass) + " kg; make it positive";
+    if (d.center_of_mass && !finite(*d.center_of_mass))
+        return "the centre of mass is not finite";
+    if (d.inertia && !(finite(*d.inertia) && d.inertia->x > 0.0 && d.inertia->y > 0.0 && d.inertia->z > 0.0))
+        return "the inertia must be positive about all three axes; leave it at zero to have it computed";
+    if (!not_negative(d.material.friction) || !not_negative(d.material.restitution))
+        return "friction and bounce must not be negative";
+    if (!not_negative(d.linear_damping) || !not_negative(d.angular_damping) ||
+        !std::isfinite(d.gravity_scale))
+        return "damping must not be negative and the gravity scale must be finite";
+    if (!finite(d.linear_velocity) || !finite(d.angular_velocity))
+        return "the initial velocity is not finite";
+    return {};
+}
+
+JPH::EMotionType motion_type(Motion motion) {
+    switch (motion) {
+        case Motion::Static:
+            return JPH::EMotionType::Static;
+        case Motion::Kinematic:
+            return JPH::EMotionType::Kinematic;
+        case Motion::Dynamic:
+            return JPH::EMotionType::Dynamic;
+    }
+    return JPH::EMotionType::Static;
+}
+
+JPH::EAllowedDOFs allowed_axes(const BodyDescription& d) {
+    int allowed = static_cast<int>(JPH::EAllowedDOFs::All);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (d.lock_linear[axis])
+            allowed &= ~(static_cast<int>(JPH::EAllowedDOFs::TranslationX) << axis);
+        if (d.lock_angular[axis])
+            allowed &= ~(static_cast<int>(JPH::EAllowedDOFs::RotationX) << axis);
+    }
+    return static_cast<JPH::EAllowedDOFs>(allowed);
+}
+
+Vec3 component_wise(JPH::Vec3Arg v) {
+    return units::vector(v);
+}
+
+// Volume and inertia of Jolt's own version of a shape that encloses none of its own: a hull around an open
+// mesh.
+SolidProperties of_converted(const JPH::Shape& shape) {
+    const JPH::MassProperties jolt = shape.GetMassProperties();
+    constexpr double to_cubic_meters =
+        1.0 / (units::jolt_per_meter * units::jolt_per_meter * units::jolt_per_meter);
+    SolidProperties solid;
+    solid.volume = static_cast<double>(shape.GetVolume()) * to_cubic_meters;
+    solid.centroid = component_wise(shape.GetCenterOfMass());
+    const double to_density_one =
+        solid.volume / static_cast<double>(jolt.mMass) / (units::jolt_per_meter * units::jolt_per_meter);
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            solid.inertia[column][row] = static_cast<double>(jolt.mInertia(static_cast<JPH::uint>(row),
+                                                                           static_cast<JPH::uint>(column))) *
+                                         to_density_one;
+    return solid;
+}
+
+// All shapes of the body filled evenly. Shapes without an inside (a kinematic body's open mesh) add nothing;
+// if none has one, the body turns like a ball of one metre, which no one will see since nothing turns it.
+SolidProperties solid_of(const BodyDescription& description, const JPH::Shape& converted) {
+    std::vector<SolidProperties> parts;
+    for (const PlacedShape& part : description.shapes)
+        if (const std::optional<SolidProperties> solid = solid_properties(part.shape))
+            parts.push_back(placed(*solid, part.pose));
+    if (parts.size() == description.shapes.size())
+        return combined(parts);
+    if (converted.GetVolume() > 0.0f && !converted.MustBeStatic())
+        return of_converted(converted);
+    return SolidProperties{1.0, Vec3(0.0), Mat3(0.4)};
+}
+
+JPH::MassProperties mass_properties(const BodyDescription& description, const SolidProperties& solid,
+                                    const Vec3& center_of_mass) {
+    Mat3 inertia = inertia_about(solid, center_of_mass) * (description.mass / solid.volume);
+    if (description.inertia)
+        inertia = {{description.inertia->x, 0.0, 0.0},
+                   {0.0, description.inertia->y, 0.0},
+                   {0.0, 0.0, description.inertia->z}};
+    JPH::MassProperties result;
+    result.mMass = static_cast<float>(description.mass);
+    result.mInertia = JPH::Mat44::sIdentity();
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            result.mInertia(static_cast<JPH::uint>(row), static_cast<JPH::uint>(column)) =
+                units::area(inertia[column][row]);
+    return result;
+}
+
+JPH::RefConst<JPH::Shape> with_center_of_mass(const JPH::RefConst<JPH::Shape>& shape,
+                                              const Vec3& center_of_mass) {
+    // Nearer than this the shape's own centre is the same point (unit: meters).
+    constexpr double same_point = 1e-7;
+    const Vec3 offset = center_of_mass - component_wise(shape->GetCenterOfMass());
+    if (glm::length(offset) < same_point)
+        return shape;
+    return new JPH::OffsetCenterOfMassShape(shape, units::vector(offset));
+}
+
+}  // namespace
+
+BodyRecord::~BodyRecord() {
+    if (body != nullptr)
+        body_factory().FreeBody(body);
+}
+
+PreparedBody::PreparedBody() = default;
+PreparedBody::PreparedBody(std::unique_ptr<BodyRecord> record) : record_(std::move(record)) {}
+PreparedBody::PreparedBody(std::string error) : error_(std::move(error)) {}
+PreparedBody::~PreparedBody() = default;
+PreparedBody::PreparedBody(PreparedBody&&) noexcept = default;
+PreparedBody& PreparedBody::operator=(PreparedBody&&) noexcept = default;
+
+PreparedBody prepare(const BodyDescription& description) {
+    start_jolt();
+    if (std::string wrong = wrong_in(description); !wrong.empty())
+        return PreparedBody(std::move(wrong));
+    ShapeConversion converted = convert(description.shapes, may_turn_dynamic(description));
+    if (converted.shape == nullptr)
+        return PreparedBody(std::move(converted.error));
+
+    auto record = std::make_unique<BodyRecord>();
+    record->collision = description.collision;
+    record->may_be_dynamic = may_turn_dynamic(description);
+    JPH::BodyCreationSettings settings;
+    if (needs_motion(description)) {
+        const SolidProperties solid = solid_of(description, *converted.shape);
+        const Vec3 center = description.center_of_mass.value_or(solid.centroid);
+        converted.shape = with_center_of_mass(converted.shape, center);
+        record->mass = description.mass;
+        record->mass_properties = mass_properties(description, solid, center);
+        settings.mOverrideMassProperties = JPH::EOverrideMassProperties::MassAndInertiaProvided;
+        settings.mMassPropertiesOverride = record->mass_properties;
+        settings.mAllowDynamicOrKinematic = true;
+        settings.mAllowedDOFs = allowed_axes(description);
+        if (settings.mAllowedDOFs == JPH::EAllowedDOFs::None)
+            return PreparedBody("all six axes are locked; freeze the body instead");
+    }
+    settings.SetShape(converted.shape);
+    settings.mPosition = units::position(description.pose.position);
+    settings.mRotation = units::rotation(description.pose.rotation);
+    settings.mLinearVelocity = units::vector(description.linear_velocity);
+    settings.mAngularVelocity = units::plain(description.angular_velocity);
+    settings.mObjectLayer = object_layer(0, needs_motion(description));
+    settings.mMotionType = motion_type(description.motion);
+    settings.mMotionQuality =
+        description.continuous ? JPH::EMotionQuality::LinearCast : JPH::EMotionQuality::Discrete;
+    settings.mAllowSleeping = description.can_sleep;
+    settings.mFriction = stored_friction(description.material);
+    settings.mRestitution = stored_restitution(description.material);
+    settings.mLinearDamping = static_cast<float>(description.linear_damping);
+    settings.mAngularDamping = static_cast<float>(description.angular_damping);
+    settings.mMaxLinearVelocity = units::length(fastest);
+    settings.mMaxAngularVelocity = fastest_spin;
+    settings.mGravityFactor = static_cast<float>(description.gravity_scale);
+    record->body = body_factory().AllocateBody(settings);
+    return PreparedBody(std::move(record));
+}
+
+}  // namespace tactus

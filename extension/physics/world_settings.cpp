@@ -1,0 +1,64 @@
+#include "physics/world_settings.hpp"
+
+#include <algorithm>
+
+#include "physics/jolt_units.hpp"
+
+namespace tactus {
+
+namespace {
+
+// Bodies may overlap by this before they are pushed apart. Without any overlap contacts come and go from tick
+// to tick.
+constexpr double penetration_slop = 2e-5;  // (unit: meters)
+
+// Contacts are looked for this far ahead: what 1 m/s covers in a millisecond.
+constexpr double speculative_distance = 1e-3;  // (unit: meters)
+
+// Points of a face this far from its plane still belong to it.
+constexpr double manifold_tolerance = 5e-5;  // (unit: meters)
+
+// The most that one iteration pushes apart.
+constexpr double largest_push = 0.02;  // (unit: meters)
+
+// A contact point this near to one of the last step inherits its force.
+constexpr double same_contact = 5e-4;  // (unit: meters)
+
+// Two bodies that moved less than this against each other keep the contacts found before.
+constexpr double cache_distance = 2e-5;             // (unit: meters)
+constexpr float cache_cos_half_angle = 0.9999995f;  // of 0.002 rad
+
+// Slower than this nothing bounces.
+constexpr double bounce_threshold = 0.05;  // (unit: meters per second)
+
+// Slower than this for half a second and a body sleeps.
+constexpr double sleep_velocity = 2e-3;  // (unit: meters per second)
+constexpr float sleep_time = 0.5f;       // (unit: seconds)
+
+float squared(float value) {
+    return value * value;
+}
+
+}  // namespace
+
+JPH::PhysicsSettings jolt_settings(const PhysicsSettings& settings) {
+    JPH::PhysicsSettings jolt;
+    jolt.mPenetrationSlop = units::length(penetration_slop);
+    jolt.mSpeculativeContactDistance = units::length(speculative_distance);
+    jolt.mManifoldTolerance = units::length(manifold_tolerance);
+    jolt.mMaxPenetrationDistance = units::length(largest_push);
+    jolt.mContactPointPreserveLambdaMaxDistSq = squared(units::length(same_contact));
+    jolt.mBodyPairCacheMaxDeltaPositionSq = squared(units::length(cache_distance));
+    jolt.mBodyPairCacheCosMaxDeltaRotationDiv2 = cache_cos_half_angle;
+    jolt.mMinVelocityForRestitution = units::length(bounce_threshold);
+    jolt.mPointVelocitySleepThreshold = units::length(sleep_velocity);
+    jolt.mTimeBeforeSleep = sleep_time;
+    jolt.mNumVelocitySteps = static_cast<JPH::uint>(std::max(2, settings.velocity_iterations));
+    jolt.mNumPositionSteps = static_cast<JPH::uint>(std::max(1, settings.position_iterations));
+    jolt.mDeterministicSimulation = true;
+    // It shares large islands out among threads; here there is one.
+    jolt.mUseLargeIslandSplitter = false;
+    return jolt;
+}
+
+}  // namespace tactus

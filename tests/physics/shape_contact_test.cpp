@@ -1,0 +1,145 @@
+// Each kind of shape, dropped on each kind of ground, comes to rest where geometry says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+
+#include "physics/physics_world.hpp"
+#include "scene.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace scene;
+
+BodyDescription still(Shape shape, const Vec3& position = Vec3(0.0)) {
+    BodyDescription body;
+    body.shapes = one(std::move(shape));
+    body.pose.position = position;
+    body.motion = Motion::Static;
+    return body;
+}
+
+double resting_height(const BodyDescription& floor, const Shape& shape, double start) {
+    PhysicsWorld world;
+    add(world, floor);
+    BodyDescription body;
+    body.shapes = one(shape);
+    body.pose.position = {0.013, start, 0.017};
+    body.mass = 0.5;
+    const BodyId id = add(world, body);
+    run(world, 1500);
+    return world.pose(id).position.y;
+}
+
+std::shared_ptr<const std::vector<float>> flat_heights(std::size_t count) {
+    return std::make_shared<std::vector<float>>(count, 0.25f);
+}
+
+struct Ground {
+    const char* name;
+    BodyDescription body;
+    double height;
+};
+
+std::vector<Ground> grounds() {
+    return {
+        {"plane", still(PlaneShape{}), 0.0},
+        {"box", still(BoxShape{{1.0, 0.5, 1.0}}, {0.0, -0.5, 0.0}), 0.0},
+        {"mesh", still(MeshShape{cube_mesh(0.5)}), 0.5},
+        {"hull", still(ConvexHullShape{cube_mesh(0.5)}), 0.5},
+        {"square heights", still(HeightFieldShape{9, 9, Vec3(0.25, 2.0, 0.25), flat_heights(81)}), 0.5},
+        {"oblong heights", still(HeightFieldShape{9, 6, Vec3(0.25, 2.0, 0.3), flat_heights(54)}), 0.5},
+        {"strip of heights", still(HeightFieldShape{100, 3, Vec3(0.05, 2.0, 0.5), flat_heights(300)}), 0.5}};
+}
+
+struct Dropped {
+    const char* name;
+    Shape shape;
+    double half_height;
+};
+
+std::vector<Dropped> shapes() {
+    return {{"sphere", SphereShape{0.05}, 0.05},
+            {"box", BoxShape{{0.05, 0.04, 0.06}}, 0.04},
+            {"cylinder", CylinderShape{0.05, 0.03}, 0.03},
+            {"hull", ConvexHullShape{cube_mesh(0.05)}, 0.05},
+            {"mesh", MeshShape{cube_mesh(0.05)}, 0.05}};
+}
+
+TEST(ShapeContact, EveryShapeRestsOnEveryGround) {
+    for (const Ground& ground_kind : grounds())
+        for (const Dropped& dropped : shapes()) {
+            const double expected = ground_kind.height + dropped.half_height;
+            EXPECT_NEAR(resting_height(ground_kind.body, dropped.shape, expected + 0.003), expected, 1e-4)
+                << dropped.name << " on " << ground_kind.name;
+        }
+}
+
+TEST(ShapeContact, CapsuleLies) {
+    PhysicsWorld world;
+    add(world, ground());
+    BodyDescription body;
+    body.shapes = one(CapsuleShape{0.03, 0.1});
+    body.pose = {{0.0, 0.031, 0.0}, glm::angleAxis(std::numbers::pi / 2.0, Vec3(0.0, 0.0, 1.0))};
+    const BodyId id = add(world, body);
+    run(world, 1000);
+    EXPECT_NEAR(world.pose(id).position.y, 0.03, 1e-4);
+}
+
+// The slope z -> y of a height field must meet the body where the samples say.
+TEST(ShapeContact, SlopedHeightFieldIsWhereItsSamplesAre) {
+    auto heights = std::make_shared<std::vector<float>>();
+    for (int row = 0; row < 7; ++row)
+        for (int column = 0; column < 10; ++column)
+            heights->push_back(0.1f * static_cast<float>(row));
+    PhysicsWorld world;
+    BodyDescription terrain = still(HeightFieldShape{10, 7, Vec3(0.2, 1.0, 0.2), heights});
+    add(world, terrain);
+    BodyDescription body = ball(0.05, {0.1, 0.42, 0.1}, 1.0);
+    body.lock_linear[0] = body.lock_linear[2] = true;
+    const BodyId id = add(world, body);
+    run(world, 1000);
+    const double surface = 0.1 * (0.1 / 0.2 + 3.0);
+    const double above = 0.05 / std::cos(std::atan(0.5));
+    EXPECT_NEAR(world.pose(id).position.y, surface + above, 2e-4);
+}
+
+TEST(ShapeContact, CompoundTurnsAboutItsCommonCentre) {
+    PhysicsSettings settings;
+    settings.gravity = Vec3(0.0);
+    PhysicsWorld world(settings);
+    BodyDescription dumbbell;
+    dumbbell.shapes = {{SphereShape{0.1}, {{0.5, 0.0, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}},
+                       {SphereShape{0.2}, {{-0.5, 0.0, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}}};
+    dumbbell.mass = 9.0;
+    const BodyId id = add(world, dumbbell);
+    const double centre = (0.5 * 1.0 - 0.5 * 8.0) / 9.0;
+    EXPECT_NEAR(world.center_of_mass(id).x, centre, 1e-6);
+    world.apply_torque(id, {0.0, 10.0, 0.0});
+    world.step(tick);
+    const double inertia =
+        0.4 * (1.0 * 0.01 + 8.0 * 0.04) + 1.0 * std::pow(0.5 - centre, 2) + 8.0 * std::pow(0.5 + centre, 2);
+    EXPECT_NEAR(world.angular_velocity(id).y, 10.0 * tick / inertia, 1e-6);
+}
+
+TEST(ShapeContact, GivenCentreOfMassAndInertiaAreUsed) {
+    PhysicsSettings settings;
+    settings.gravity = Vec3(0.0);
+    PhysicsWorld world(settings);
+    BodyDescription body = box(Vec3(0.2), {1.0, 1.0, 1.0}, 2.0);
+    body.center_of_mass = Vec3(0.0, 0.05, 0.0);
+    body.inertia = Vec3(0.1, 0.2, 0.4);
+    const BodyId id = add(world, body);
+    EXPECT_NEAR(glm::length(world.center_of_mass(id) - Vec3(1.0, 1.05, 1.0)), 0.0, 1e-7);
+    EXPECT_EQ(world.pose(id).position, Vec3(1.0));
+    world.apply_torque(id, {1.0, 1.0, 1.0});
+    world.step(tick);
+    EXPECT_NEAR(world.angular_velocity(id).x, 0.01, 1e-7);
+    EXPECT_NEAR(world.angular_velocity(id).y, 0.005, 1e-7);
+    EXPECT_NEAR(world.angular_velocity(id).z, 0.0025, 1e-7);
+}
+
+}  // namespace
+}  // namespace tactus
