@@ -27,12 +27,14 @@ def generated(api):
     """Runs the generator when the engine's API, the generator or the classes in use have changed."""
     output = Path("build/binding")
     inputs = [api / "extension_api.json", api / "gdextension_interface.h", *sorted(BINDING.rglob("*.py"))]
+    inputs += sorted(BINDING.glob("*.txt"))
     inputs += sorted(path for folder in ("nodes", "binding") for path in Path("extension", folder).rglob("*.[hc]pp"))
     digest = hashlib.sha256()
     for path in inputs:
         digest.update(str(path).encode() + b"\0" + path.read_bytes())
     stamp = output / ".done"
     if not stamp.is_file() or stamp.read_text() != digest.hexdigest():
-        subprocess.run([sys.executable, BINDING / "generate.py", "--api", api, "--output", output], check=True)
+        described = ["--api", api / "extension_api.json", "--interface", api / "gdextension_interface.h"]
+        subprocess.run([sys.executable, BINDING / "generate.py", *described, "--output", output], check=True)
         stamp.write_text(digest.hexdigest())
     return output / "include", sorted(str(path) for path in (output / "src").rglob("*.cpp"))
