@@ -165,11 +165,12 @@ void Surroundings::bring_near(double length, const Vec3& center) {
     }
 }
 
-// The remembered triangles around a point of the part, gathered anew where the old ones do not reach far enough.
-Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local) {
+// The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of the given
+// length from there.
+Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local, double way) {
     Record& record = records_[index];
     const double now = odometer_for(record);
-    const double needed = radius_ + tolerances_.skin + tolerances_.reach;
+    const double needed = radius_ + tolerances_.skin + tolerances_.reach + way;
     if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_until - now >= needed) {
         return &hoods_[static_cast<std::size_t>(record.hood)];
     }
@@ -224,7 +225,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
     near.clear();
     double nearest = std::numeric_limits<double>::infinity();
 
-    Neighbourhood* const hood = hood_around(index, local);
+    Neighbourhood* const hood = hood_around(index, local, 0.0);
     Record& record = records_[index];
     const double now = odometer_for(record);
     const auto look = [&](std::uint32_t pack) {
@@ -282,49 +283,61 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep
     }
 }
 
-// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at; beyond
-// it, the tree itself is swept.
+// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at. A way that
+// leads out of it is answered by gathering farther, or, where it is long, by the tree itself.
 double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Vec3& motion, double length,
                                 double limit) {
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
     const double stop = radius_ + tolerances_.stop;
-    Neighbourhood* const hood = hood_around(index, start);
-    if (!hood) {
-        return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+    for (const double way : {0.0, length * limit}) {
+        if (way > 2.0 * ticks_remembered * pace_) {
+            break;
+        }
+        const Neighbourhood* const hood = hood_around(index, start, way);
+        if (!hood) {
+            break;
+        }
+        const double now = odometer_for(records_[index]);
+        const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
+        const double covered = std::min(limit, std::max(reached, 0.0));
+        const double t = sweep_hood(*hood, tree, start, motion, length, covered, now);
+        if (t <= covered || reached >= limit) {
+            return t <= covered ? t : 2.0 * limit + 1.0;
+        }
     }
-    const double now = odometer_for(records_[index]);
-    const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
-    double best = std::min(limit, std::max(reached, 0.0));
+    return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+}
+
+double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
+                                const Vec3& motion, double length, double limit, double now) const {
+    const double stop = radius_ + tolerances_.stop;
+    const double untouched = now + stop + tolerances_.arrival;
+    // The nearest first: its hit shortens the way for all others.
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < hood.count; ++i) {
+        first = hood.packs[i].distance < hood.packs[first].distance ? i : first;
+    }
+    double best = limit;
     bool found = false;
     const auto sweep_pack = [&](const NearPack& remembered) {
+        if (remembered.distance - untouched > best * length) {
+            return;
+        }
         const double t = sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
         }
     };
-    const auto within_way = [&](const NearPack& remembered) {
-        return remembered.distance - now - stop - tolerances_.arrival <= best * length;
-    };
-    // The nearest first: its hit shortens the way for all others.
-    std::size_t first = hood->count;
-    for (std::size_t i = 0; i < hood->count; ++i) {
-        if (within_way(hood->packs[i]) && (first == hood->count || hood->packs[i].distance < hood->packs[first].distance)) {
-            first = i;
+    if (hood.count > 0) {
+        sweep_pack(hood.packs[first]);
+    }
+    for (std::size_t i = 0; i < hood.count; ++i) {
+        if (i != first) {
+            sweep_pack(hood.packs[i]);
         }
     }
-    if (first < hood->count) {
-        sweep_pack(hood->packs[first]);
-    }
-    for (std::size_t i = 0; i < hood->count; ++i) {
-        if (i != first && within_way(hood->packs[i])) {
-            sweep_pack(hood->packs[i]);
-        }
-    }
-    if (found || reached >= limit) {
-        return found ? best : 2.0 * limit + 1.0;
-    }
-    return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+    return found ? best : 2.0 * limit + 1.0;
 }
 
 double Surroundings::sweep(const Vec3& center, const Vec3& motion) {

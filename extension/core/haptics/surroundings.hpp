@@ -82,8 +82,10 @@ private:
     void retire_distant_parts();
     double odometer_for(const Record& record) const { return odometer_ + record.slack; }
     double distance_bound(std::uint32_t part, const Vec3& center) const;
-    Neighbourhood* hood_around(std::uint32_t part, const Vec3& local);
+    Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
+    double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start, const Vec3& motion,
+                      double length, double limit, double now) const;
     void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
 
