@@ -149,7 +149,7 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     mouse_target_ = eye + ray * (depth / slant);
     const Workspace mapping = workspace();
     const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
-    mouse_->aim({to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});
+    mouse_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});
 }
 
 void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {

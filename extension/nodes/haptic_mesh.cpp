@@ -9,6 +9,7 @@
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/mesh_reading.hpp"
+#include "nodes/messages.hpp"
 
 namespace tactus {
 
