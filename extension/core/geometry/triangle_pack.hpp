@@ -70,6 +70,24 @@ inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& 
     return {select(inside, plane.offset, best.offset), select(inside, plane.squared, best.squared)};
 }
 
+// What is known of a pack after one look: no triangle of lane i is nearer to a point x than normal_i . x + offset_i.
+// Distance to a convex set lies above its tangents, so this stays true wherever x goes, and nearly exact while x slides
+// along the surface.
+struct PackBound {
+    LanesVec3 normal;
+    Lanes offset;  // (unit: meters)
+};
+
+inline PackBound bound_from(const PackOffset& seen, const LanesVec3& from) {
+    const Lanes distance = lanes_sqrt(seen.squared);
+    const LanesVec3 normal = seen.offset * (splat(1.0) / lanes_max(distance, splat(1e-150)));
+    return {normal, distance - dot(normal, from)};
+}
+
+inline Lanes least_distances(const PackBound& bound, const LanesVec3& point) {
+    return dot(bound.normal, point) + bound.offset;
+}
+
 // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle of the
 // pack, or a value above `limit` where it does not. Starting within the distance counts at t = 0 when moving closer,
 // not when moving away.
