@@ -34,7 +34,6 @@ def generated(api):
         digest.update(str(path).encode() + b"\0" + path.read_bytes())
     stamp = output / ".done"
     if not stamp.is_file() or stamp.read_text() != digest.hexdigest():
-        described = ["--api", api / "extension_api.json", "--interface", api / "gdextension_interface.h"]
-        subprocess.run([sys.executable, BINDING / "generate.py", *described, "--output", output], check=True)
+        subprocess.run([sys.executable, BINDING / "generate.py", "--api", api, "--output", output], check=True)
         stamp.write_text(digest.hexdigest())
     return output / "include", sorted(str(path) for path in (output / "src").rglob("*.cpp"))
