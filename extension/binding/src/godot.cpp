@@ -60,8 +60,11 @@ void deinitialize_level(void*, GDExtensionInitializationLevel level) {
         terminator(static_cast<ModuleInitializationLevel>(level));
     }
     release_classes(level);
-    if (level == GDEXTENSION_INITIALIZATION_CORE) {
+    // The servers among the singletons are destroyed between this level and the next one.
+    if (level == GDEXTENSION_INITIALIZATION_SCENE) {
         release_singletons();
+    }
+    if (level == GDEXTENSION_INITIALIZATION_CORE) {
         release_names();
     }
 }

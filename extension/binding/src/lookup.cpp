@@ -104,7 +104,7 @@ GodotObject* find_singleton(const char* name) {
     return object;
 }
 
-// The engine's singletons outlive this library: their wrappers must go before it does.
+// Their wrappers must go before the engine's singletons do, and before this library does.
 void release_singletons() {
     const std::lock_guard lock(singletons_mutex);
     for (GodotObject* object : singletons) {
