@@ -24,3 +24,6 @@ def compile_flags(target):
 
 # Jolt is compiled without run-time type information, so what derives from its classes must be, too.
 FLAGS_OF_LAYER = {"physics": ["-fno-rtti"]}
+
+# Runs on any processor, to say what is missing on an older one.
+FLAGS_OF_FILE = {"extension/nodes/entry.cpp": ["-march=x86-64"]}

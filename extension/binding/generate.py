@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Writes the godot-cpp API for the classes in classes.txt, from the engine's own description of itself.
 
-    generate.py --api extension_api.json --interface gdextension_interface.h --output DIR
+    generate.py --api FOLDER --output DIR
 
-writes DIR/include and DIR/src. The hand-written half is in include/ and src/ beside this file.
+reads FOLDER/extension_api.json and FOLDER/gdextension_interface.h, writes DIR/include and DIR/src. The hand-written
+half is in include/ and src/ beside this file.
 """
 
 import argparse
@@ -28,16 +29,18 @@ def read_class_list(path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--api", type=Path, required=True, help="extension_api.json")
-    parser.add_argument("--interface", type=Path, required=True, help="gdextension_interface.h")
+    parser.add_argument("--api", type=Path, required=True, help="folder of the engine's dump, or extension_api.json")
+    parser.add_argument("--interface", type=Path, help="gdextension_interface.h, if it is not beside the JSON")
     parser.add_argument("--output", type=Path, required=True, help="folder to write include/ and src/ into")
     parser.add_argument("--classes", type=Path, default=HERE / "classes.txt", help="list of engine classes")
     parser.add_argument("--report", action="store_true", help="list the methods that were left out")
     arguments = parser.parse_args()
 
-    api = Api(arguments.api, read_class_list(arguments.classes))
+    description = arguments.api / "extension_api.json" if arguments.api.is_dir() else arguments.api
+    interface = arguments.interface or description.parent / "gdextension_interface.h"
+    api = Api(description, read_class_list(arguments.classes))
     output = Output(arguments.output)
-    write_interface(output, arguments.interface.read_text(encoding="utf-8"))
+    write_interface(output, interface.read_text(encoding="utf-8"))
     write_sizes(api, output)
     write_global_constants(api, output)
     write_builtins(api, output)

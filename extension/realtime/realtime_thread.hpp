@@ -14,7 +14,7 @@ inline constexpr int last_processor = -2;  // of those the process may use: devi
 struct RealtimeRequest {
     int fifo_priority = 70;       // SCHED_FIFO, 1 … 99; 0: stay with the ordinary scheduler
     bool lock_memory = true;      // pages that have been touched are never swapped out or dropped
-    int cpu = last_processor;     // the one to stay on: its number, or one of the above
+    int cpu = last_processor;     // to stay on, if SCHED_FIFO is granted: a number, or one of the above
     bool keep_awake = true;       // never let that processor sleep, see awake_processor.hpp
     Nanoseconds timer_slack = 1;  // how late the ordinary scheduler may let a sleep end, to save power; ≥ 1
 };
@@ -22,6 +22,7 @@ struct RealtimeRequest {
 struct RealtimeReport {
     bool fifo = false;
     int fifo_priority = 0;
+    bool short_turns = false;  // the next best of the ordinary scheduler, where SCHED_FIFO was refused
     bool memory_locked = false;
     int cpu = any_processor;
     bool kept_awake = false;

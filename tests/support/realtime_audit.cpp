@@ -157,8 +157,11 @@ private:
 
 using tactus::testing::Recorder;
 
-// --- Memory
-// -------------------------------------------------------------------------------------------------------
+// What stands in front of the C library has to be seen by the other libraries too, however the rest is
+// compiled.
+#pragma GCC visibility push(default)
+
+// --- Memory ---
 
 extern "C" {
 
@@ -219,8 +222,7 @@ void free(void* block) noexcept {
 
 }  // extern "C"
 
-// --- Locks and waits
-// ----------------------------------------------------------------------------------------------
+// --- Locks and waits ---
 
 namespace {
 
@@ -276,8 +278,9 @@ TACTUS_INTERPOSE_CANCELLABLE(sem_wait, (sem_t * s), (s), Recorder::wait())
 TACTUS_INTERPOSE_CANCELLABLE(sem_timedwait, (sem_t * s, const timespec* t), (s, t), Recorder::wait())
 TACTUS_INTERPOSE(sem_trywait, (sem_t * s), (s), Recorder::wait())
 
-// --- System calls
-// -------------------------------------------------------------------------------------------------
+#pragma GCC visibility pop
+
+// --- System calls ---
 //
 // Syscall user dispatch: while the selector says so, the kernel turns every system call of the thread into a
 // SIGSYS. The handler counts it and makes it after all. Calls from within the code between the two labels

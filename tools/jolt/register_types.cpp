@@ -1,5 +1,5 @@
-// Registers what a world of rigid bodies uses. Jolt's own list also names its vehicles, ragdolls and hair, and so would
-// pull all of them into the library.
+// Registers what a world of rigid bodies uses. Jolt's own list also names its vehicles, ragdolls and hair,
+// and so would pull all of them into the library.
 
 #include <Jolt/Jolt.h>
 
@@ -29,10 +29,11 @@
 
 JPH_NAMESPACE_BEGIN
 
-bool VerifyJoltVersionIDInternal(uint64 client_version) { return client_version == JPH_VERSION_ID; }
+bool VerifyJoltVersionIDInternal(uint64 client_version) {
+    return client_version == JPH_VERSION_ID;
+}
 
-void RegisterTypesInternal(uint64 client_version)
-{
+void RegisterTypesInternal(uint64 client_version) {
     // A client compiled with other JPH_ definitions would see other layouts.
     if (!VerifyJoltVersionIDInternal(client_version))
         std::abort();
@@ -66,8 +67,7 @@ void RegisterTypesInternal(uint64 client_version)
         PhysicsMaterial::sDefault = new PhysicsMaterialSimple("Default", Color::sGrey);
 }
 
-void UnregisterTypes()
-{
+void UnregisterTypes() {
     if (Factory::sInstance != nullptr)
         Factory::sInstance->Clear();
     PhysicsMaterial::sDefault = nullptr;

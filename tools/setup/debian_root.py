@@ -16,25 +16,33 @@ class AptError(RuntimeError):
 
 
 def mirror() -> str:
-    """The address of the machine's own Debian archive, from its apt sources (either syntax)."""
+    """The address of the machine's own Debian archive, from its apt sources."""
     etc = Path("/etc/apt")
-    for path in sorted(etc.glob("sources.list.d/*.sources")):
-        for stanza in path.read_text().split("\n\n"):
-            fields = dict(re.findall(r"^(\w[\w-]*):[ \t]*(.*)$", stanza, re.M))
-            if "deb" in fields.get("Types", "").split() and fields.get("Enabled", "yes") != "no":
-                for address in fields.get("URIs", "").split():
-                    if _is_debian_archive(address):
-                        return address
-    for path in [etc / "sources.list", *sorted(etc.glob("sources.list.d/*.list"))]:
-        for line in path.read_text().splitlines() if path.is_file() else []:
-            found = re.match(r"deb\s+(?:\[[^\]]*\]\s+)?(\S+)\s", line)
-            if found and _is_debian_archive(found[1]):
-                return found[1]
+    paths = [etc / "sources.list", *sorted(etc.glob("sources.list.d/*"))]
+    for path in paths:
+        address = archive_address(path.suffix, path.read_text()) if path.is_file() else None
+        if address:
+            return address
     raise AptError("no Debian archive in /etc/apt/sources.list or /etc/apt/sources.list.d")
 
 
-def _is_debian_archive(address: str) -> bool:
-    return bool(re.search(r"/debian/?$", address))
+def archive_address(suffix: str, text: str) -> str | None:
+    """The first Debian archive named: stanzas in .sources files, lines in .list files."""
+    addresses = _of_stanzas(text) if suffix == ".sources" else _of_lines(text)
+    return next((address for address in addresses if re.search(r"/debian/?$", address)), None)
+
+
+def _of_stanzas(text: str) -> list[str]:
+    found = []
+    for stanza in text.split("\n\n"):
+        fields = dict(re.findall(r"^(\w[\w-]*):[ \t]*(.*)$", stanza, re.M))
+        if "deb" in fields.get("Types", "").split() and fields.get("Enabled", "yes") != "no":
+            found += fields.get("URIs", "").split()
+    return found
+
+
+def _of_lines(text: str) -> list[str]:
+    return re.findall(r"^deb\s+(?:\[[^\]]*\]\s+)?(\S+)\s", text, re.M)
 
 
 class DebianRoot:

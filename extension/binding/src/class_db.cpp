@@ -3,6 +3,7 @@
 #include <godot_cpp/classes/editor_plugin_registration.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/private/bind_virtual.hpp>
+#include <godot_cpp/private/checked_call.hpp>
 #include <godot_cpp/private/interface.hpp>
 #include <godot_cpp/private/lifetime.hpp>
 #include <memory>
@@ -74,15 +75,8 @@ bool prepare(const MethodBind& bind, const GDExtensionConstVariantPtr* given, GD
 
 void call(void* userdata, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr* given,
           GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError* error) {
-    const MethodBind& bind = *static_cast<const MethodBind*>(userdata);
-    constexpr size_t usual = 16;
-    const Variant* few[usual];
-    std::vector<const Variant*> many(bind.argument_list.size() > usual ? bind.argument_list.size() : 0);
-    const Variant** arguments = many.empty() ? few : many.data();
-    error->error = GDEXTENSION_CALL_OK;
-    if (prepare(bind, given, count, arguments, error)) {
-        bind.call(static_cast<Wrapped*>(instance), arguments, static_cast<Variant*>(result));
-    }
+    call_checked(*static_cast<const MethodBind*>(userdata), static_cast<Wrapped*>(instance), given, count, result,
+                 error);
 }
 
 void ptrcall(void* userdata, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr* arguments,
@@ -128,6 +122,18 @@ void announce(const StringName& class_name, MethodBind& bind) {
 }
 
 }  // namespace
+
+void call_checked(const MethodBind& bind, Wrapped* instance, const GDExtensionConstVariantPtr* given,
+                  GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError* error) {
+    constexpr size_t usual = 16;
+    const Variant* few[usual];
+    std::vector<const Variant*> many(bind.argument_list.size() > usual ? bind.argument_list.size() : 0);
+    const Variant** arguments = many.empty() ? few : many.data();
+    error->error = GDEXTENSION_CALL_OK;
+    if (prepare(bind, given, count, arguments, error)) {
+        bind.call(instance, arguments, static_cast<Variant*>(result));
+    }
+}
 
 void bind_virtual_call(const StringName& class_name, const char* method, GDExtensionClassCallVirtual call) {
     ClassDB::bind_virtual_method(class_name, method, call);

@@ -25,8 +25,8 @@ namespace pack_detail {
 // Offset of a point from a segment; `from_start` = point - start. A segment without length is its start.
 inline PackOffset offset_from_segment(const LanesVec3& from_start, const LanesVec3& edge) {
     const Lanes squared_length = lanes_max(dot(edge, edge), splat(1e-300));
-    const Lanes along = lanes_min(lanes_max(dot(from_start, edge) / squared_length, splat(0.0)), splat(1.0));
-    const LanesVec3 offset = from_start - edge * along;
+    const Lanes share = lanes_min(lanes_max(dot(from_start, edge) / squared_length, splat(0.0)), splat(1.0));
+    const LanesVec3 offset = along(from_start, edge, -share);
     return {offset, dot(offset, offset)};
 }
 
@@ -84,7 +84,7 @@ inline double sweep_to_triangles(const TrianglePack& triangles, const Vec3& star
     Lanes hit = never;
     LaneMask open = t == t;
     for (int i = 0; i < most_iterations && any(open); ++i) {
-        const PackOffset at = offset_from_triangles(triangles, origin + direction * t);
+        const PackOffset at = offset_from_triangles(triangles, along(origin, direction, t));
         const Lanes length = lanes_sqrt(lanes_max(at.squared, splat(1e-300)));
         const Lanes gap = length - splat(distance);
         const Lanes rate = dot(at.offset, direction) / length;

@@ -16,9 +16,18 @@ struct Pending {
     float key;  // what the search prunes by: squared distance, or entry parameter
 };
 
+// A large tree does not fit into any cache: what will be looked at soon is asked for early.
+void fetch(const void* object, std::size_t bytes) {
+    constexpr std::size_t line = 64;
+    for (std::size_t offset = 0; offset < bytes; offset += line) {
+        __builtin_prefetch(static_cast<const char*>(object) + offset);
+    }
+}
+
 // Children in the order of their keys, nearest on top of the stack.
 template <class Visit>
-void push_sorted(const BoxNode& node, FloatLanes keys, float bound, Pending* stack, int& depth, Visit&& leaf) {
+void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNode* nodes, const TrianglePack* packs,
+                 Pending* stack, int& depth, Visit&& leaf) {
     Pending near[node_width];
     int count = 0;
     for (int i = 0; i < node_width; ++i) {
@@ -31,6 +40,11 @@ void push_sorted(const BoxNode& node, FloatLanes keys, float bound, Pending* sta
             --place;
         }
         near[place] = {node.child[i], keys[i]};
+        if (node.child[i] & BoxNode::leaf_bit) {
+            fetch(&packs[node.child[i] & ~BoxNode::leaf_bit], sizeof(TrianglePack));
+        } else {
+            fetch(&nodes[node.child[i]], sizeof(BoxNode));
+        }
     }
     // Leaves are answered at once, nearest first: they tighten the bound before any deeper node is opened.
     for (int i = count - 1; i >= 0; --i) {
@@ -106,7 +120,8 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             continue;
         }
         const BoxNode& node = nodes_[item.node];
-        push_sorted(node, squared_distance_to_boxes(node, at), limit, stack, depth, leaf);
+        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.data(),
+                    stack, depth, leaf);
     }
     return result;
 }
@@ -144,7 +159,8 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
             continue;
         }
         const BoxNode& node = nodes_[item.node];
-        push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, stack, depth, leaf);
+        push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(),
+                    packs_.data(), stack, depth, leaf);
     }
     return found ? best : 2.0 * limit + 1.0;
 }

@@ -13,6 +13,7 @@ struct Contact {
     Vec3 u{1.0, 0.0, 0.0};
     double bend_u = 0.0;
     double bend_v = 0.0;
+    Vec3 pivot{0.0};  // centre of the curvature bend_u, in the world (unit: meters); meaningless where it is 0
     int body = -1;          // slot in the TouchScene
     double pressure = 0.0;  // penetration this contact holds back: the force over the stiffness (unit: meters)
 };

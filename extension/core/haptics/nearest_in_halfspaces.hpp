@@ -8,8 +8,8 @@
 namespace tactus {
 
 struct HalfSpace {
-    Vec3 normal{0.0, 1.0, 0.0};  // unit; allowed where normal . x >= offset
-    double offset = 0.0;        // (unit: meters)
+    Vec3 normal;    // unit; allowed where normal . x >= offset
+    double offset;  // (unit: meters)
 };
 
 struct NearestInHalfSpaces {

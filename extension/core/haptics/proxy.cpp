@@ -89,7 +89,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     touching_.clear();
     for (tick.steps = 0; tick.steps < settings_.most_steps; ++tick.steps) {
         surroundings_.find_contacts(position_, contacts_, keep_all);
-        step = constrained_step(hand - position_, contacts_.all(), tolerances.same);
+        step = constrained_step(hand - position_, contacts_.all(), tolerances.same, stretch_);
         double wanted = glm::length(step.motion);
         if (const double limit = friction_limit(step); limit > 0.0) {
             const double slide = glm::length(step.slide);

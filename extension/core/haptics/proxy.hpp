@@ -68,6 +68,7 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
+    Stretch stretch_;
     ContactList contacts_;
     ContactList touching_;
 };

@@ -5,8 +5,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
-
 namespace tactus {
 
 namespace {
@@ -16,91 +14,6 @@ constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles
 // A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means looking
 // at more packs in between. Chosen by the bench `proxy`.
 constexpr double ticks_remembered = 5.0;
-
-// One triangle near the proxy's centre, in the frame of its part.
-struct NearTriangle {
-    TriangleClosestPoint closest;
-    Vec3 offset;  // from the closest point to the centre
-    double distance;
-    std::uint32_t id;
-    Vec3 a, b, c;
-};
-
-struct NearTriangles {
-    static constexpr int capacity = 48;
-    std::array<NearTriangle, capacity> items;
-    int count = 0;
-
-    void add(const TriangleTree& tree, std::uint32_t pack, int lane_index, const Vec3& center) {
-        const std::uint32_t id = tree.triangle_ids(pack)[static_cast<std::size_t>(lane_index)];
-        for (int i = 0; i < count; ++i) {
-            if (items[static_cast<std::size_t>(i)].id == id) {
-                return;  // the repeated last triangle of a pack
-            }
-        }
-        if (count == capacity) {
-            return;
-        }
-        const TrianglePack& triangles = tree.pack(pack);
-        NearTriangle& added = items[static_cast<std::size_t>(count++)];
-        added.a = lane(triangles.a, lane_index);
-        added.b = lane(triangles.b, lane_index);
-        added.c = lane(triangles.c, lane_index);
-        added.closest = closest_point_on_triangle(center, added.a, added.b, added.c);
-        added.offset = center - added.closest.point;
-        added.distance = glm::length(added.offset);
-        added.id = id;
-    }
-};
-
-// An edge or corner counts only where it is nearest to the sphere on every triangle that shares it. Where another
-// triangle contains the same point and is nearer, the surface there is flat or concave seen from the sphere: that
-// triangle's own contact stands for it. Where several share it equally, the first owns it. Decided from the triangles
-// at hand, it needs no adjacency, and holds for T-junctions and soups, from either side.
-bool is_covered(const NearTriangles& near, int index, double same) {
-    const NearTriangle& candidate = near.items[static_cast<std::size_t>(index)];
-    if (candidate.closest.feature == TriangleFeature::face) {
-        return false;
-    }
-    const double on_it = 16.0 * same;
-    for (int i = 0; i < near.count; ++i) {
-        const NearTriangle& other = near.items[static_cast<std::size_t>(i)];
-        const bool nearer = other.distance < candidate.distance - same;
-        const bool equal = other.distance <= candidate.distance + same;
-        const bool stands_first = other.closest.feature == TriangleFeature::face || i < index;
-        if (i == index || !(nearer || (equal && stands_first))) {
-            continue;
-        }
-        const Vec3& point = candidate.closest.point;
-        const Vec3 gap = closest_point_on_triangle(point, other.a, other.b, other.c).point - point;
-        if (glm::dot(gap, gap) <= on_it * on_it) {
-            return true;
-        }
-    }
-    return false;
-}
-
-Contact to_contact(const NearTriangle& near, const ScenePart& part, double rest) {
-    Contact contact;
-    const Vec3 normal = near.distance > 0.0 ? near.offset / near.distance : Vec3(0.0, 1.0, 0.0);
-    Vec3 u = std::abs(normal.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-    u = glm::normalize(glm::cross(normal, u));
-    const double bend = near.distance > 0.0 ? 1.0 / near.distance : 0.0;
-    if (near.closest.feature == TriangleFeature::edge) {
-        const Vec3 across = glm::cross(normal, near.closest.edge_direction);
-        const double length = glm::length(across);
-        u = length > 0.5 ? across / length : u;
-        contact.bend_u = bend;
-    } else if (near.closest.feature == TriangleFeature::corner) {
-        contact.bend_u = contact.bend_v = bend;
-    }
-    contact.point = to_parent(part.pose, near.closest.point);
-    contact.normal = direction_to_parent(part.pose, normal);
-    contact.u = direction_to_parent(part.pose, u);
-    contact.gap = near.distance - rest;
-    contact.body = static_cast<int>(part.body);
-    return contact;
-}
 
 }  // namespace
 
@@ -116,7 +29,8 @@ void ContactList::add(const Contact& contact) {
     }
 }
 
-Surroundings::Surroundings(std::size_t most_parts) : records_(most_parts), hoods_(hood_count) {
+Surroundings::Surroundings(std::size_t most_parts) 
+    : records_(most_parts), hoods_(hood_count), near_triangles_(std::make_unique<NearTriangles>()) {
     far_.reserve(2 * most_parts + 1);
     near_.reserve(most_parts);
     free_hoods_.reserve(hood_count);
@@ -251,11 +165,12 @@ void Surroundings::bring_near(double length, const Vec3& center) {
     }
 }
 
-// The remembered triangles around a point of the part, gathered anew where the old ones do not reach far enough.
-Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local) {
+// The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of the given
+// length from there.
+Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local, double way) {
     Record& record = records_[index];
     const double now = odometer_for(record);
-    const double needed = radius_ + tolerances_.skin + tolerances_.reach;
+    const double needed = radius_ + tolerances_.skin + tolerances_.reach + way;
     if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_until - now >= needed) {
         return &hoods_[static_cast<std::size_t>(record.hood)];
     }
@@ -294,6 +209,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     contact.gap = at.distance - rest;
     contact.bend_u = at.bend_u;
     contact.bend_v = at.bend_v;
+    contact.pivot = at.bend_u > 0.0 ? to_parent(placed.pose, local - at.normal / at.bend_u) : contact.point;
     contact.body = static_cast<int>(placed.body);
     out.add(contact);
 }
@@ -305,10 +221,11 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
     const double limit = rest + tolerances_.reach;
     const double squared_limit = limit * limit;
     const LanesVec3 center = splat(local);
-    NearTriangles near;
+    NearTriangles& near = *near_triangles_;
+    near.clear();
     double nearest = std::numeric_limits<double>::infinity();
 
-    Neighbourhood* const hood = hood_around(index, local);
+    Neighbourhood* const hood = hood_around(index, local, 0.0);
     Record& record = records_[index];
     const double now = odometer_for(record);
     const auto look = [&](std::uint32_t pack) {
@@ -341,9 +258,9 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
         nearest = found.nearest;
     }
     record.clear_until = now + nearest - limit;
-    for (int i = 0; i < near.count; ++i) {
-        if (keep_all || !is_covered(near, i, tolerances_.same)) {
-            out.add(to_contact(near.items[static_cast<std::size_t>(i)], placed, rest));
+    for (int i = 0; i < near.count(); ++i) {
+        if (keep_all || !near.is_covered(i, tolerances_.same)) {
+            out.add(near.contact(i, placed, rest));
         }
     }
 }
@@ -366,49 +283,61 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep
     }
 }
 
-// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at; beyond
-// it, the tree itself is swept.
+// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at. A way that
+// leads out of it is answered by gathering farther, or, where it is long, by the tree itself.
 double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Vec3& motion, double length,
                                 double limit) {
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
     const double stop = radius_ + tolerances_.stop;
-    Neighbourhood* const hood = hood_around(index, start);
-    if (!hood) {
-        return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+    for (const double way : {0.0, length * limit}) {
+        if (way > 2.0 * ticks_remembered * pace_) {
+            break;
+        }
+        const Neighbourhood* const hood = hood_around(index, start, way);
+        if (!hood) {
+            break;
+        }
+        const double now = odometer_for(records_[index]);
+        const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
+        const double covered = std::min(limit, std::max(reached, 0.0));
+        const double t = sweep_hood(*hood, tree, start, motion, length, covered, now);
+        if (t <= covered || reached >= limit) {
+            return t <= covered ? t : 2.0 * limit + 1.0;
+        }
     }
-    const double now = odometer_for(records_[index]);
-    const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
-    double best = std::min(limit, std::max(reached, 0.0));
+    return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+}
+
+double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
+                                const Vec3& motion, double length, double limit, double now) const {
+    const double stop = radius_ + tolerances_.stop;
+    const double untouched = now + stop + tolerances_.arrival;
+    // The nearest first: its hit shortens the way for all others.
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < hood.count; ++i) {
+        first = hood.packs[i].distance < hood.packs[first].distance ? i : first;
+    }
+    double best = limit;
     bool found = false;
     const auto sweep_pack = [&](const NearPack& remembered) {
+        if (remembered.distance - untouched > best * length) {
+            return;
+        }
         const double t = sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
         }
     };
-    const auto within_way = [&](const NearPack& remembered) {
-        return remembered.distance - now - stop - tolerances_.arrival <= best * length;
-    };
-    // The nearest first: its hit shortens the way for all others.
-    std::size_t first = hood->count;
-    for (std::size_t i = 0; i < hood->count; ++i) {
-        if (within_way(hood->packs[i]) && (first == hood->count || hood->packs[i].distance < hood->packs[first].distance)) {
-            first = i;
+    if (hood.count > 0) {
+        sweep_pack(hood.packs[first]);
+    }
+    for (std::size_t i = 0; i < hood.count; ++i) {
+        if (i != first) {
+            sweep_pack(hood.packs[i]);
         }
     }
-    if (first < hood->count) {
-        sweep_pack(hood->packs[first]);
-    }
-    for (std::size_t i = 0; i < hood->count; ++i) {
-        if (i != first && within_way(hood->packs[i])) {
-            sweep_pack(hood->packs[i]);
-        }
-    }
-    if (found || reached >= limit) {
-        return found ? best : 2.0 * limit + 1.0;
-    }
-    return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+    return found ? best : 2.0 * limit + 1.0;
 }
 
 double Surroundings::sweep(const Vec3& center, const Vec3& motion) {

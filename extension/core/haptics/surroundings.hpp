@@ -7,10 +7,12 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/haptics/contact.hpp"
+#include "core/haptics/near_triangles.hpp"
 #include "core/haptics/neighbourhood.hpp"
 #include "core/haptics/tolerances.hpp"
 #include "core/haptics/touch_scene.hpp"
@@ -41,7 +43,7 @@ public:
     void travelled(double length) { odometer_ += length; }
 
     // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and corners
-    // that another triangle covers (see drop_covered in surroundings.cpp).
+    // that another triangle covers (see NearTriangles).
     void find_contacts(const Vec3& center, ContactList& out, bool keep_all = false);
 
     // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1: free.
@@ -80,8 +82,10 @@ private:
     void retire_distant_parts();
     double odometer_for(const Record& record) const { return odometer_ + record.slack; }
     double distance_bound(std::uint32_t part, const Vec3& center) const;
-    Neighbourhood* hood_around(std::uint32_t part, const Vec3& local);
+    Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
+    double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start, const Vec3& motion,
+                      double length, double limit, double now) const;
     void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
 
@@ -98,6 +102,7 @@ private:
     std::vector<std::uint32_t> near_;
     std::vector<Neighbourhood> hoods_;
     std::vector<std::int16_t> free_hoods_;
+    std::unique_ptr<NearTriangles> near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time
 };
 
 }  // namespace tactus

@@ -37,6 +37,15 @@ inline Lanes select(LaneMask mask, Lanes yes, Lanes no) { return mask ? yes : no
 inline bool any(LaneMask mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
 #endif
 
+// a * b + c and a * b - c, rounded once where the processor can: written out, so that every build gives the same bits.
+#if defined(__FMA__)
+inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_pd(a, b, c); }
+inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) { return _mm256_fmsub_pd(a, b, c); }
+#else
+inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return a * b + c; }
+inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) { return a * b - c; }
+#endif
+
 inline double smallest(Lanes a) {
     const double low = a[0] < a[1] ? a[0] : a[1];
     const double high = a[2] < a[3] ? a[2] : a[3];
@@ -51,9 +60,16 @@ inline LanesVec3 splat(const Vec3& v) { return {splat(v.x), splat(v.y), splat(v.
 inline LanesVec3 operator+(const LanesVec3& a, const LanesVec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline LanesVec3 operator-(const LanesVec3& a, const LanesVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline LanesVec3 operator*(const LanesVec3& a, Lanes s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Lanes dot(const LanesVec3& a, const LanesVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Lanes dot(const LanesVec3& a, const LanesVec3& b) {
+    return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
+}
 inline LanesVec3 cross(const LanesVec3& a, const LanesVec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return {multiply_subtract(a.y, b.z, a.z * b.y), multiply_subtract(a.z, b.x, a.x * b.z),
+            multiply_subtract(a.x, b.y, a.y * b.x)};
+}
+// p + v t
+inline LanesVec3 along(const LanesVec3& p, const LanesVec3& v, Lanes t) {
+    return {multiply_add(v.x, t, p.x), multiply_add(v.y, t, p.y), multiply_add(v.z, t, p.z)};
 }
 inline LanesVec3 select(LaneMask mask, const LanesVec3& yes, const LanesVec3& no) {
     return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
