@@ -13,6 +13,8 @@
 
 namespace tactus {
 
+static_assert(JPH::BodyID::cMaxBodyIndex == 0x7fffffu, "BodyId::index() takes these bits");
+
 namespace {
 
 JPH::EMotionType motion_type(Motion motion) {
@@ -274,6 +276,14 @@ void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
 
 std::size_t PhysicsWorld::awake_count() const {
     return impl_->system.GetNumActiveBodies(JPH::EBodyType::RigidBody);
+}
+
+std::size_t PhysicsWorld::awake_bodies(std::span<BodyId> out) const {
+    const std::size_t count = std::min(out.size(), awake_count());
+    const JPH::BodyID* active = impl_->system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = BodyId{active[i].GetIndexAndSequenceNumber()};
+    return count;
 }
 
 bool PhysicsWorld::anything_awake() const {

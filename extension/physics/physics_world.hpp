@@ -25,6 +25,8 @@ struct BodyId {
     std::uint32_t value = 0xffffffffu;
 
     bool valid() const { return value != 0xffffffffu; }
+    // Below PhysicsSettings::max_bodies, and different for all bodies that are in the world at the same time.
+    std::uint32_t index() const { return value & 0x7fffffu; }
     friend bool operator==(BodyId, BodyId) = default;
 };
 
@@ -105,6 +107,8 @@ public:
 
     bool anything_awake() const;
     std::size_t awake_count() const;
+    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on every run.
+    std::size_t awake_bodies(std::span<BodyId> out) const;
 
     // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.
     std::uint32_t step(double seconds);

@@ -1,0 +1,2 @@
+const Variant& operator[](const Variant& p_key) const;
+Variant& operator[](const Variant& p_key);

@@ -1,0 +1,1 @@
+NodePath(const char* p_utf8);

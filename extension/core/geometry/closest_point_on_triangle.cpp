@@ -1,0 +1,57 @@
+#include "core/geometry/closest_point_on_triangle.hpp"
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+TriangleClosestPoint closest_on_segment(const Vec3& point, const Vec3& start, const Vec3& end) {
+    const Vec3 edge = end - start;
+    const double squared_length = glm::dot(edge, edge);
+    const double along = squared_length > 1e-300 ? glm::dot(point - start, edge) / squared_length : 0.0;
+    if (along <= 0.0) {
+        return {start, TriangleFeature::corner, Vec3(0.0)};
+    }
+    if (along >= 1.0) {
+        return {end, TriangleFeature::corner, Vec3(0.0)};
+    }
+    return {start + edge * along, TriangleFeature::edge, edge / std::sqrt(squared_length)};
+}
+
+double squared_distance(const Vec3& p, const Vec3& q) {
+    const Vec3 offset = p - q;
+    return glm::dot(offset, offset);
+}
+
+}  // namespace
+
+// The same steps as in offset_from_triangles, for the same reasons.
+TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double flat_area = 1e-12;
+    TriangleClosestPoint best = closest_on_segment(point, a, b);
+    for (const auto& [start, end] : {std::array{b, c}, std::array{c, a}}) {
+        const TriangleClosestPoint other = closest_on_segment(point, start, end);
+        if (squared_distance(point, other.point) < squared_distance(point, best.point)) {
+            best = other;
+        }
+    }
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const Vec3 ap = point - a;
+    const Vec3 normal = glm::cross(ab, ac);
+    const double squared_normal = glm::dot(normal, normal);
+    const double area_ab = glm::dot(normal, glm::cross(ab, ap));
+    const double area_ca = glm::dot(normal, glm::cross(ap, ac));
+    const double area_bc = squared_normal - area_ab - area_ca;
+    if (area_ab >= 0.0 && area_ca >= 0.0 && area_bc >= 0.0 &&
+        squared_normal > glm::dot(ab, ab) * glm::dot(ac, ac) * flat_area * flat_area) {
+        const double height = glm::dot(normal, point - best.point) / squared_normal;
+        return {point - normal * height, TriangleFeature::face, Vec3(0.0)};
+    }
+    return best;
+}
+
+}  // namespace tactus

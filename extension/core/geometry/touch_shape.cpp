@@ -1,0 +1,133 @@
+#include "core/geometry/touch_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/geometry/mesh_check.hpp"
+
+namespace tactus {
+
+namespace {
+
+bool is_length(double value) { return value > 0.0 && value <= 1e9; }
+
+// An empty text, or why the shape cannot be touched.
+struct Check {
+    std::string operator()(const SphereShape& s) const {
+        return is_length(s.radius) ? "" : "the sphere's radius is not a positive length: set it above 0 m";
+    }
+    std::string operator()(const BoxShape& b) const {
+        const Vec3& h = b.half_extents;
+        return is_length(h.x) && is_length(h.y) && is_length(h.z)
+                   ? ""
+                   : "a side of the box is not a positive length: set all three above 0 m";
+    }
+    std::string operator()(const CapsuleShape& c) const {
+        return is_length(c.radius) && c.half_segment >= 0.0 && c.half_segment <= 1e9
+                   ? ""
+                   : "the capsule's radius or height is not a positive length: set both above 0 m";
+    }
+    std::string operator()(const CylinderShape& c) const {
+        return is_length(c.radius) && is_length(c.half_height)
+                   ? ""
+                   : "the cylinder's radius or height is not a positive length: set both above 0 m";
+    }
+    std::string operator()(const PlaneShape& p) const {
+        return std::abs(glm::length(p.normal) - 1.0) < 1e-6 && std::abs(p.offset) <= 1e9
+                   ? ""
+                   : "the plane's normal has no direction: give it a length of 1";
+    }
+    std::string operator()(const ConvexHullShape& h) const {
+        return h.hull ? check_mesh(*h.hull) : "the convex hull has no points: give it at least four";
+    }
+    std::string operator()(const MeshShape& m) const {
+        return m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
+    }
+    std::string operator()(const HeightFieldShape& f) const {
+        const bool sized = f.columns >= 2 && f.rows >= 2 && f.heights &&
+                           f.heights->size() == std::size_t{f.columns} * f.rows;
+        if (!sized) {
+            return "the height field needs at least 2 x 2 samples and as many heights as samples: set its size and data";
+        }
+        if (!is_length(f.scale.x) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
+            return "the height field's spacing is not a positive length: set its scale above 0 m";
+        }
+        const bool finite = std::ranges::all_of(*f.heights, [](float h) { return std::isfinite(h); });
+        return finite ? "" : "a height of the height field is not a finite number: repair its data";
+    }
+};
+
+TouchPart with_tree(const Pose& pose, const TriangleMesh& mesh, const ParallelRunner& run) {
+    auto tree = std::make_shared<TriangleTree>(TriangleTree::build(mesh, run));
+    const Vec3 center = tree->center();
+    const double radius = tree->radius();
+    return {pose, std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius};
+}
+
+struct Compile {
+    const Pose& pose;
+    const ParallelRunner& run;
+
+    TouchPart operator()(const ConvexHullShape& h) const { return with_tree(pose, *h.hull, run); }
+    TouchPart operator()(const MeshShape& m) const { return with_tree(pose, *m.mesh, run); }
+    TouchPart operator()(const HeightFieldShape& f) const { return with_tree(pose, height_field_mesh(f), run); }
+    template <class ClosedForm>
+    TouchPart operator()(const ClosedForm& shape) const {
+        const Solid solid = shape;
+        return {pose, solid, Vec3(0.0), bounding_radius(solid)};
+    }
+};
+
+bool is_sound(const Pose& pose) {
+    const Vec3& p = pose.position;
+    return std::abs(p.x) <= 1e9 && std::abs(p.y) <= 1e9 && std::abs(p.z) <= 1e9 &&
+           std::abs(glm::length(pose.rotation) - 1.0) < 1e-3;
+}
+
+}  // namespace
+
+TriangleMesh height_field_mesh(const HeightFieldShape& field) {
+    TriangleMesh mesh;
+    mesh.vertices.reserve(std::size_t{field.columns} * field.rows);
+    const double half_width = 0.5 * (field.columns - 1);
+    const double half_depth = 0.5 * (field.rows - 1);
+    for (std::uint32_t z = 0; z < field.rows; ++z) {
+        for (std::uint32_t x = 0; x < field.columns; ++x) {
+            const double height = (*field.heights)[std::size_t{z} * field.columns + x];
+            mesh.vertices.push_back(field.scale * Vec3(x - half_width, height, z - half_depth));
+        }
+    }
+    mesh.triangles.reserve(2 * std::size_t{field.columns - 1} * (field.rows - 1));
+    for (std::uint32_t z = 0; z + 1 < field.rows; ++z) {
+        for (std::uint32_t x = 0; x + 1 < field.columns; ++x) {
+            const std::uint32_t corner = z * field.columns + x;
+            mesh.triangles.push_back({corner, corner + field.columns, corner + 1});
+            mesh.triangles.push_back({corner + 1, corner + field.columns, corner + field.columns + 1});
+        }
+    }
+    return mesh;
+}
+
+TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes, const ParallelRunner& run) {
+    if (shapes.empty()) {
+        return {nullptr, "the body has no shape: add a CollisionShape3D with a shape below it"};
+    }
+    auto result = std::make_shared<TouchShape>();
+    for (const PlacedShape& placed : shapes) {
+        std::string error = std::visit(Check{}, placed.shape);
+        if (error.empty() && !is_sound(placed.pose)) {
+            error = "the shape's place in its body is not a finite position with a pure rotation: reset its transform";
+        }
+        if (!error.empty()) {
+            return {nullptr, std::move(error)};
+        }
+        TouchPart part = std::visit(Compile{placed.pose, run}, placed.shape);
+        result->reach =
+            std::max(result->reach, glm::length(to_parent(part.pose, part.center)) + part.radius);
+        result->parts.push_back(std::move(part));
+    }
+    return {std::move(result), {}};
+}
+
+}  // namespace tactus

@@ -1,0 +1,48 @@
+// What the proxy touches: the shapes of one body, made ready for distance and sweep queries. Immutable, shared by every
+// body of the same form. Made off the haptic thread; queries allocate nothing.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/geometry/shape.hpp"
+#include "core/geometry/solid.hpp"
+#include "core/geometry/triangle_tree.hpp"
+
+namespace tactus {
+
+struct TouchPart {
+    Pose pose;  // of the part in the body's frame
+    std::variant<Solid, std::shared_ptr<const TriangleTree>> surface;
+    Vec3 center{0.0};     // of a ball that holds the part, in the part's frame (unit: meters)
+    double radius = 0.0;  // of that ball; infinite for a half-space (unit: meters)
+
+    const TriangleTree* tree() const {
+        const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);
+        return shared ? shared->get() : nullptr;
+    }
+    const Solid& solid() const { return *std::get_if<Solid>(&surface); }
+};
+
+struct TouchShape {
+    std::vector<TouchPart> parts;
+    // Largest distance of any point of the body from its origin: how far a turn of one radian moves it at most
+    // (unit: meters). Infinite with a half-space.
+    double reach = 0.0;
+};
+
+struct TouchShapeResult {
+    std::shared_ptr<const TouchShape> shape;  // null where there is an error
+    std::string error;                        // what is wrong and what to do
+};
+
+// Refuses an empty list, sizes that are not positive finite numbers and meshes that check_mesh refuses.
+TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes, const ParallelRunner& run = run_serially);
+
+// The surface of a height field as triangles, two a cell, counter-clockwise from above.
+TriangleMesh height_field_mesh(const HeightFieldShape& field);
+
+}  // namespace tactus

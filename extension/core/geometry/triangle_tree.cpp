@@ -1,0 +1,174 @@
+#include "core/geometry/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tactus {
+
+namespace {
+
+// Deep enough for every tree the builder makes: its depth is at most 24 wide levels, each leaving 7 siblings behind.
+constexpr int stack_size = 24 * (node_width - 1) + 1;
+
+struct Pending {
+    std::uint32_t node;
+    float key;  // what the search prunes by: squared distance, or entry parameter
+};
+
+// A large tree does not fit into any cache: what will be looked at soon is asked for early.
+void fetch(const void* object, std::size_t bytes) {
+    constexpr std::size_t line = 64;
+    for (std::size_t offset = 0; offset < bytes; offset += line) {
+        __builtin_prefetch(static_cast<const char*>(object) + offset);
+    }
+}
+
+// Children in the order of their keys, nearest on top of the stack.
+template <class Visit>
+void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNode* nodes, const TrianglePack* packs,
+                 Pending* stack, int& depth, Visit&& leaf) {
+    Pending near[node_width];
+    int count = 0;
+    for (int i = 0; i < node_width; ++i) {
+        if (!(keys[i] <= bound)) {
+            continue;
+        }
+        int place = count++;
+        while (place > 0 && near[place - 1].key < keys[i]) {
+            near[place] = near[place - 1];
+            --place;
+        }
+        near[place] = {node.child[i], keys[i]};
+        if (node.child[i] & BoxNode::leaf_bit) {
+            fetch(&packs[node.child[i] & ~BoxNode::leaf_bit], sizeof(TrianglePack));
+        } else {
+            fetch(&nodes[node.child[i]], sizeof(BoxNode));
+        }
+    }
+    // Leaves are answered at once, nearest first: they tighten the bound before any deeper node is opened.
+    for (int i = count - 1; i >= 0; --i) {
+        if (near[i].node & BoxNode::leaf_bit) {
+            leaf(near[i]);
+        }
+    }
+    for (int i = 0; i < count; ++i) {
+        if (!(near[i].node & BoxNode::leaf_bit)) {
+            stack[depth++] = near[i];
+        }
+    }
+}
+
+float square_up(double value) {
+    const double squared = value * value;
+    return squared > 1e38 ? std::numeric_limits<float>::infinity() : static_cast<float>(squared * (1.0 + 1e-6));
+}
+
+float inverse_for_slabs(double motion) {
+    constexpr double tiny = 1e-30;
+    return static_cast<float>(1.0 / (std::abs(motion) < tiny ? std::copysign(tiny, motion) : motion));
+}
+
+}  // namespace
+
+void run_serially(std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = 0; i < count; ++i) {
+        task(i);
+    }
+}
+
+// Rounding a coordinate difference to float errs by at most 2^-24 of its operands; three axes and the rounding of the
+// query point itself stay below four times that.
+double TriangleTree::float_slack(const Vec3& relative) const {
+    const double largest = std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)});
+    return 4.0 * 0x1p-23 * (largest + extent_);
+}
+
+CollectResult TriangleTree::collect(const Vec3& point, double reach, double far, std::span<NearPack> out) const {
+    CollectResult result;
+    result.nearest = far;
+    const Vec3 relative = point - origin_;
+    const double slack = float_slack(relative);
+    const FloatPoint at = to_float_point(relative);
+    const LanesVec3 exact = splat(point);
+
+    auto bound = [&] { return square_up(std::max(reach, result.nearest) + slack); };
+    auto leaf = [&](const Pending& item) {
+        if (!(item.key <= bound())) {
+            return;
+        }
+        const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
+        const PackOffset seen = offset_from_triangles(packs_[index], exact);
+        const double distance = std::sqrt(smallest(seen.squared));
+        result.nearest = std::min(result.nearest, distance);
+        if (distance > reach) {
+            return;
+        }
+        if (result.count == out.size()) {
+            result.complete = false;
+            return;
+        }
+        out[result.count++] = {bound_from(seen, exact), index};
+    };
+
+    Pending stack[stack_size];
+    int depth = 0;
+    stack[depth++] = {0, 0.0f};
+    while (depth > 0 && result.complete) {
+        const Pending item = stack[--depth];
+        const float limit = bound();
+        if (!(item.key <= limit)) {
+            continue;
+        }
+        const BoxNode& node = nodes_[item.node];
+        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.data(),
+                    stack, depth, leaf);
+    }
+    return result;
+}
+
+double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit) const {
+    const Vec3 relative = start - origin_;
+    const Vec3 end = relative + motion * limit;
+    const double rounding = std::max(float_slack(relative), float_slack(end));
+    const float margin = static_cast<float>((distance + slack + rounding) * (1.0 + 1e-6));
+    const FloatRay ray{to_float_point(relative),
+                       {splat_float(inverse_for_slabs(motion.x)), splat_float(inverse_for_slabs(motion.y)),
+                        splat_float(inverse_for_slabs(motion.z))}};
+    double best = limit;
+    bool found = false;
+    auto bound = [&] { return static_cast<float>(best * (1.0 + 1e-6)); };
+    auto leaf = [&](const Pending& item) {
+        if (!(item.key <= bound())) {
+            return;
+        }
+        const TrianglePack& triangles = packs_[item.node & ~BoxNode::leaf_bit];
+        const double t = sweep_to_triangles(triangles, start, motion, distance, slack, best);
+        if (t <= best) {
+            best = t;
+            found = true;
+        }
+    };
+
+    Pending stack[stack_size];
+    int depth = 0;
+    stack[depth++] = {0, 0.0f};
+    while (depth > 0) {
+        const Pending item = stack[--depth];
+        const float reach = bound();
+        if (!(item.key <= reach)) {
+            continue;
+        }
+        const BoxNode& node = nodes_[item.node];
+        push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(),
+                    packs_.data(), stack, depth, leaf);
+    }
+    return found ? best : 2.0 * limit + 1.0;
+}
+
+std::size_t TriangleTree::bytes() const {
+    return nodes_.size() * sizeof(BoxNode) + packs_.size() * sizeof(TrianglePack) +
+           ids_.size() * sizeof(std::uint32_t);
+}
+
+}  // namespace tactus

@@ -1,0 +1,80 @@
+// A tree over the triangles of one mesh, built for the proxy: eight boxes a node, four triangles a leaf, laid out for
+// vector instructions. Immutable once built and free of pointers to elsewhere: any number of bodies and threads share
+// one tree.
+//
+// All points and distances are in the mesh's own frame, in metres. Queries allocate nothing.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/box_node.hpp"
+#include "core/geometry/triangle_mesh.hpp"
+#include "core/geometry/triangle_pack.hpp"
+
+namespace tactus {
+
+// Runs task(0) … task(count - 1), in any order, on any threads, and returns when all are done.
+using ParallelRunner = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
+
+void run_serially(std::size_t count, const std::function<void(std::size_t)>& task);
+
+// A pack near a query point, and what the query has learnt about its distance.
+struct NearPack {
+    PackBound bound;
+    std::uint32_t pack;
+};
+
+struct CollectResult {
+    std::size_t count = 0;   // packs written
+    bool complete = true;    // false: there were more than fit
+    double nearest = 0.0;    // distance of the nearest triangle, or `far` where none is nearer
+};
+
+class TriangleTree {
+public:
+    // The mesh must be sound (see check_mesh in mesh_check.hpp). The result does not depend on the runner.
+    static TriangleTree build(const TriangleMesh& mesh, const ParallelRunner& run = run_serially);
+
+    // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's shape.
+    void refit(const TriangleMesh& moved);
+
+    // Every pack with a triangle within `reach` of the point, and the nearest distance up to `far` >= reach.
+    CollectResult collect(const Vec3& point, double reach, double far, std::span<NearPack> out) const;
+
+    // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle; above
+    // `limit` where it does not. See sweep_to_triangles.
+    double sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit) const;
+
+    const TrianglePack& pack(std::uint32_t index) const { return packs_[index]; }
+    // Which triangles of the mesh stand in the lanes of a pack.
+    std::span<const std::uint32_t, lane_count> triangle_ids(std::uint32_t pack) const {
+        return std::span<const std::uint32_t, lane_count>(&ids_[pack * lane_count], lane_count);
+    }
+
+    std::size_t triangle_count() const { return triangle_count_; }
+    std::size_t bytes() const;
+    Vec3 center() const { return origin_; }
+    double radius() const { return radius_; }  // of the ball around center() that holds every triangle
+    // Largest coordinate in use (unit: meters): what rounding errors scale with.
+    double magnitude() const { return magnitude_; }
+
+private:
+    double float_slack(const Vec3& relative) const;
+    void refit_bounds();
+
+    std::vector<BoxNode> nodes_;  // parents before children
+    std::vector<TrianglePack> packs_;
+    std::vector<std::uint32_t> ids_;
+    Vec3 origin_{0.0};
+    double radius_ = 0.0;
+    double extent_ = 0.0;  // largest distance of a box side from the origin along an axis
+    double magnitude_ = 0.0;
+    std::size_t triangle_count_ = 0;
+
+    friend class TriangleTreeBuilder;
+};
+
+}  // namespace tactus

@@ -1,0 +1,64 @@
+#include "core/haptics/force_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+// Speed at which the hand goes into the surface, seen from the body (unit: meters per second).
+double approach_speed(const TouchBody& body, const Contact& contact, const Vec3& hand_velocity, double seconds) {
+    const Vec3 surface_velocity = (contact.point - previous_place(body, contact.point)) / seconds;
+    return -glm::dot(hand_velocity - surface_velocity, contact.normal);
+}
+
+}  // namespace
+
+HandForce contact_force(const TouchScene& scene, std::span<const Contact> touching, const Vec3& slide,
+                        const Vec3& hand_velocity, double seconds) {
+    HandForce force;
+    double all_pressure = 0.0;
+    for (const Contact& contact : touching) {
+        all_pressure += contact.pressure;
+    }
+    for (const Contact& contact : touching) {
+        if (force.contact_count == HandForce::most_contacts) {
+            break;
+        }
+        const TouchBody& body = scene.body(contact.body);
+        const TouchMaterial& material = body.material;
+        const double spring = material.stiffness * contact.pressure;
+        const double damper = material.damping * approach_speed(body, contact, hand_velocity, seconds);
+        const Vec3 held = slide * (contact.pressure / all_pressure);
+        ContactForce& part = force.contacts[force.contact_count++];
+        part.body = contact.body;
+        part.point = contact.point;
+        part.on_hand = contact.normal * std::max(0.0, spring + damper) - held * material.stiffness;
+        force.total += part.on_hand;
+    }
+    return force;
+}
+
+void smooth(HandForce& force, const Vec3& before) {
+    const Vec3 change = 0.5 * (before - force.total);
+    double all = 0.0;
+    for (int i = 0; i < force.contact_count; ++i) {
+        all += glm::length(force.contacts[i].on_hand);
+    }
+    for (int i = 0; i < force.contact_count && all > 0.0; ++i) {
+        force.contacts[i].on_hand += change * (glm::length(force.contacts[i].on_hand) / all);
+    }
+    force.total += change;
+}
+
+Vec3 limited_force(const Vec3& force, double limit) {
+    const double length = glm::length(force);
+    if (!std::isfinite(length)) {
+        return Vec3(0.0);
+    }
+    return length > limit ? force * (limit / length) : force;
+}
+
+}  // namespace tactus

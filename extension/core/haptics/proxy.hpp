@@ -1,0 +1,85 @@
+// The proxy: a sphere that goes where the hand goes and never enters a surface.
+//
+// Thesis 3.2.2 walks in three steps: towards the hand until contact, along the first plane, along the line of two
+// planes. Here the same walk goes on, collecting planes, until the proxy stands at the place nearest to the hand that
+// its surfaces allow, within a bounded number of steps a tick; what is then still missing is known (`residual`).
+#pragma once
+
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "core/haptics/constrained_step.hpp"
+#include "core/haptics/surroundings.hpp"
+
+namespace tactus {
+
+struct ProxySettings {
+    double radius = 0.01;               // (unit: meters), > 0
+    std::uint32_t mask = 0xffff'ffffu;  // layers it touches
+    int most_steps = 64;                // a tick; what is missing then is made up in the next
+};
+
+enum ProxyStatus : std::uint32_t {
+    proxy_absent = 1u << 0,       // the hand is inside a body since the start: no touch until it is out
+    proxy_touching = 1u << 1,     // at least one contact holds it back
+    proxy_sliding = 1u << 2,      // dynamic friction applies
+    proxy_unfinished = 1u << 3,   // the steps of this tick did not suffice: residual is not small
+    proxy_squeezed = 1u << 4,     // moving bodies leave it no room
+};
+
+struct ProxyTick {
+    Vec3 position{0.0};  // of the sphere's centre, in the world (unit: meters)
+    Vec3 slide{0.0};     // pull along the surfaces that friction holds (unit: meters)
+    double residual = 0.0;  // length of the step that would come next (unit: meters)
+    std::uint32_t status = 0;
+    int steps = 0;
+};
+
+class Proxy {
+public:
+    Proxy(std::size_t most_parts, const ProxySettings& settings);
+
+    void set_settings(const ProxySettings& settings) { settings_ = settings; }
+    const ProxySettings& settings() const { return settings_; }
+
+    // One tick: the scene as it is now, the hand where it is now. Allocates nothing.
+    ProxyTick move(const TouchScene& scene, const Vec3& hand);
+
+    // The contacts that hold the proxy back after the last move, with their pressure.
+    std::span<const Contact> touching() const { return touching_.all(); }
+    const Vec3& position() const { return position_; }
+
+    // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
+    void displace(const Vec3& offset) {
+        position_ += offset;
+        surroundings_.travelled(glm::length(offset));
+    }
+    // As if just started: present again as soon as the hand is in a free place.
+    void restart() {
+        present_ = false;
+        sliding_ = false;
+        touching_.clear();
+    }
+
+private:
+    bool appear(const Vec3& hand);
+    void ride_along(ProxyTick& tick);
+    void advance(const Vec3& motion, bool& free, int except = -1);
+    int carrier() const;
+    void descend(const Vec3& hand, ProxyTick& tick);
+    double friction_limit(const ConstrainedStep& step) const;
+    void keep_touching(const ConstrainedStep& step);
+
+    ProxySettings settings_;
+    Surroundings surroundings_;
+    const TouchScene* scene_ = nullptr;
+    Vec3 position_{0.0};
+    bool present_ = false;
+    bool sliding_ = false;
+    Stretch stretch_;
+    ContactList contacts_;
+    ContactList touching_;
+};
+
+}  // namespace tactus

@@ -1,0 +1,120 @@
+// What one proxy knows about the scene around it: which parts could be touched soon, which not, and for how long that
+// stays true. Answers the two questions of the motion: which surfaces are in contact, and how far is the way free.
+//
+// A part at distance D cannot be reached before proxy and part together have travelled D. So a far part is looked at
+// again only when the odometer says so: in free space a tick looks at no part at all, however many there are.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/haptics/contact.hpp"
+#include "core/haptics/near_triangles.hpp"
+#include "core/haptics/neighbourhood.hpp"
+#include "core/haptics/tolerances.hpp"
+#include "core/haptics/touch_scene.hpp"
+
+namespace tactus {
+
+struct ContactList {
+    static constexpr int capacity = 40;
+
+    std::array<Contact, capacity> items;
+    int count = 0;
+
+    void clear() { count = 0; }
+    // Where it is full, the contact with the widest gap gives way.
+    void add(const Contact& contact);
+    std::span<Contact> all() { return {items.data(), static_cast<std::size_t>(count)}; }
+    std::span<const Contact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
+};
+
+class Surroundings {
+public:
+    explicit Surroundings(std::size_t most_parts);
+
+    // Opens a tick: takes in what the scene says has changed. `center` is where the proxy is.
+    void begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
+
+    // The proxy has moved by `length`, or a way of that length is about to be asked for.
+    void travelled(double length) { odometer_ += length; }
+
+    // True where nothing can be met within `length` of the centre, as far as is already known.
+    bool is_clear(double length) const;
+
+    // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and corners
+    // that another triangle covers (see NearTriangles).
+    void find_contacts(const Vec3& center, ContactList& out, bool keep_all = false);
+
+    // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1: free. The
+    // body `except` is not in the way: the one that causes the motion.
+    double sweep(const Vec3& center, const Vec3& motion, int except = -1);
+
+    // The next part near the proxy, counting from `from`, that has run into it since the last tick; false where there is
+    // none. `displacement` is what keeps the proxy from being passed. The body `carrier` does not count: the proxy
+    // already moved with it.
+    struct Push {
+        int body = -1;
+        Vec3 displacement{0.0};
+    };
+    bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
+
+    // Everything remembered is void: the proxy has been put elsewhere.
+    void invalidate() { revision_ = 0; }
+
+    // Distance from the centre to the nearest surface, up to `far`. Negative inside a solid.
+    double clearance(const Vec3& center, double far) const;
+
+    const Tolerances& tolerances() const { return tolerances_; }
+
+private:
+    enum class Place : std::uint8_t { absent, far, near };
+
+    struct Record {
+        double clear_until = 0.0;  // odometer + slack reading before which the sphere cannot touch the part
+        double slack = 0.0;        // how far the part itself has moved since it was first met
+        Place place = Place::absent;
+        std::int16_t hood = -1;   // its neighbourhood, -1: none
+        std::uint32_t stamp = 0;  // tells entries of the far heap that are out of date
+    };
+
+    struct Far {
+        double due;  // odometer reading at which to look again
+        std::uint32_t part;
+        std::uint32_t stamp;
+    };
+
+    void forget(const Vec3& center);
+    void bring_near(double length, const Vec3& center);
+    void make_near(std::uint32_t part);
+    void send_far(std::uint32_t part, double distance);
+    void retire_distant_parts();
+    double odometer_for(const Record& record) const { return odometer_ + record.slack; }
+    double distance_bound(std::uint32_t part, const Vec3& center) const;
+    Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
+    double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
+    double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start, const Vec3& motion,
+                      double limit) const;
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
+    void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
+
+    const TouchScene* scene_ = nullptr;
+    std::uint64_t revision_ = 0;
+    std::uint32_t mask_ = 0;
+    double radius_ = 0.0;
+    Tolerances tolerances_{};
+    double odometer_ = 0.0;
+    double odometer_at_tick_ = 0.0;
+    double pace_ = 0.0;  // recent travel per tick (unit: meters)
+    std::vector<Record> records_;
+    std::vector<Far> far_;  // a heap, soonest due on top
+    std::vector<std::uint32_t> near_;
+    std::vector<Neighbourhood> hoods_;
+    std::vector<std::int16_t> free_hoods_;
+    std::unique_ptr<NearTriangles> near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time
+};
+
+}  // namespace tactus

@@ -1,0 +1,107 @@
+#include "core/haptics/touch_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+// No point within `reach` of the origin moves farther than this between the two poses.
+double farthest_motion(const Pose& from, const Pose& to, double reach) {
+    const Quat turn = to.rotation * glm::conjugate(from.rotation);
+    // |sin(angle / 2)| is the length of the vector part; a chord is 2 reach sin(angle / 2).
+    const double half_sine = glm::length(Vec3(turn.x, turn.y, turn.z));
+    return glm::length(to.position - from.position) + (half_sine > 0.0 ? 2.0 * reach * half_sine : 0.0);
+}
+
+bool same_pose(const Pose& p, const Pose& q) { return p.position == q.position && p.rotation == q.rotation; }
+
+}  // namespace
+
+TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts) : bodies_(most_bodies), parts_(most_parts) {
+    moved_.reserve(most_bodies);
+}
+
+// First fit: removed bodies leave gaps that later ones fill.
+int TouchScene::find_parts(std::size_t count) const {
+    std::size_t free = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+        free = parts_[i].part ? 0 : free + 1;
+        if (free == count) {
+            return static_cast<int>(i + 1 - count);
+        }
+    }
+    return -1;
+}
+
+int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material, std::uint32_t layer) {
+    const auto slot = std::ranges::find_if(bodies_, [](const TouchBody& body) { return !body.shape; });
+    const int first_part = find_parts(shape.parts.size());
+    if (slot == bodies_.end() || first_part < 0) {
+        return -1;
+    }
+    const int index = static_cast<int>(slot - bodies_.begin());
+    *slot = {&shape, pose, pose, material, layer, false, 0.0, static_cast<std::uint32_t>(first_part)};
+    for (std::size_t i = 0; i < shape.parts.size(); ++i) {
+        const Pose placed = compose(pose, shape.parts[i].pose);
+        parts_[slot->first_part + i] = {&shape.parts[i], static_cast<std::uint32_t>(index), placed, placed};
+    }
+    ++revision_;
+    return index;
+}
+
+void TouchScene::remove(int body) {
+    TouchBody& removed = body_at(body);
+    for (std::size_t i = 0; i < removed.shape->parts.size(); ++i) {
+        parts_[removed.first_part + i] = {};
+    }
+    std::erase(moved_, body);
+    removed = {};
+    ++revision_;
+}
+
+void TouchScene::begin_tick() {
+    for (const int index : moved_) {
+        TouchBody& body = body_at(index);
+        body.previous = body.pose;
+        body.moved = false;
+        body.moved_by = 0.0;
+        for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+            ScenePart& part = parts_[body.first_part + i];
+            part.previous = part.pose;
+        }
+    }
+    moved_.clear();
+}
+
+void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {
+    TouchBody& body = body_at(index);
+    if (same_pose(pose, body.pose)) {
+        return;
+    }
+    body.pose = pose;
+    if (teleport) {
+        body.previous = pose;
+        ++revision_;
+    } else if (!body.moved) {
+        body.moved = true;
+        moved_.push_back(index);
+    }
+    body.moved_by = teleport ? 0.0 : farthest_motion(body.previous, pose, body.shape->reach);
+    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+        ScenePart& part = parts_[body.first_part + i];
+        part.pose = compose(pose, body.shape->parts[i].pose);
+        if (teleport) {
+            part.previous = part.pose;
+        }
+    }
+}
+
+void TouchScene::set_layer(int body, std::uint32_t layer) {
+    body_at(body).layer = layer;
+    ++revision_;
+}
+
+}  // namespace tactus

@@ -1,0 +1,71 @@
+// Every body that can be touched, where it is now and where it was a tick ago. Owned by one session; proxies read it.
+//
+// Slots are reserved at set-up: add, move and remove allocate nothing. The scene does not own the shapes: whoever adds
+// a body keeps its shape alive until the body is removed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/geometry/touch_shape.hpp"
+#include "core/haptics/touch_material.hpp"
+
+namespace tactus {
+
+struct TouchBody {
+    const TouchShape* shape = nullptr;  // null: the slot is free
+    Pose pose;                          // in the world, now
+    Pose previous;                      // in the world, one tick ago
+    TouchMaterial material;
+    std::uint32_t layer = 1;  // bits; a proxy touches it where its mask has one of them
+    bool moved = false;       // since the last tick
+    double moved_by = 0.0;    // no point of the body moved farther since the last tick (unit: meters)
+    std::uint32_t first_part = 0;  // its parts are scene parts first_part … first_part + shape->parts.size() - 1
+};
+
+// One part of one body, placed in the world.
+struct ScenePart {
+    const TouchPart* part = nullptr;  // null: the slot is free
+    std::uint32_t body = 0;
+    Pose pose;
+    Pose previous;
+};
+
+class TouchScene {
+public:
+    TouchScene(std::size_t most_bodies, std::size_t most_parts);
+
+    // Returns the body's slot, or -1 where the scene is full.
+    int add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material, std::uint32_t layer);
+    void remove(int body);
+
+    // Call once at the start of a tick, before the poses of that tick are set.
+    void begin_tick();
+    // Where the body is this tick. Proxies sweep along the way it took; `teleport` says that it took none.
+    void set_pose(int body, const Pose& pose, bool teleport = false);
+    void set_material(int body, const TouchMaterial& material) { body_at(body).material = material; }
+    void set_layer(int body, std::uint32_t layer);
+
+    const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
+    std::span<const ScenePart> parts() const { return parts_; }
+    std::span<const int> moved_bodies() const { return moved_; }
+    // Changes whenever bodies were added, removed, teleported or changed layers: what a proxy remembers is void then.
+    std::uint64_t revision() const { return revision_; }
+
+private:
+    TouchBody& body_at(int slot) { return bodies_[static_cast<std::size_t>(slot)]; }
+    int find_parts(std::size_t count) const;
+
+    std::vector<TouchBody> bodies_;
+    std::vector<ScenePart> parts_;
+    std::vector<int> moved_;
+    std::uint64_t revision_ = 1;
+};
+
+// Where a point fixed to the body was one tick ago, given where it is now.
+inline Vec3 previous_place(const TouchBody& body, const Vec3& point) {
+    return body.moved ? to_parent(body.previous, to_local(body.pose, point)) : point;
+}
+
+}  // namespace tactus

@@ -1,0 +1,206 @@
+#include "nodes/body_mirror.hpp"
+
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/core/object.hpp>
+
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_mesh.hpp"
+#include "nodes/shape_reading.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+bool operator==(const TouchMaterial& a, const TouchMaterial& b) {
+    return a.stiffness == b.stiffness && a.damping == b.damping && a.static_friction == b.static_friction &&
+           a.dynamic_friction == b.dynamic_friction;
+}
+
+bool operator==(const SurfaceMaterial& a, const SurfaceMaterial& b) {
+    return a.friction == b.friction && a.restitution == b.restitution && a.rough == b.rough &&
+           a.absorbent == b.absorbent;
+}
+
+bool operator==(const CollisionLayers& a, const CollisionLayers& b) { return a.layer == b.layer && a.mask == b.mask; }
+
+PhysicsServer3D::BodyMode own_mode(const RigidBody3D& body) {
+    if (body.is_freeze_enabled()) {
+        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC ? PhysicsServer3D::BODY_MODE_KINEMATIC
+                                                                            : PhysicsServer3D::BODY_MODE_STATIC;
+    }
+    return body.is_lock_rotation_enabled() ? PhysicsServer3D::BODY_MODE_RIGID_LINEAR
+                                           : PhysicsServer3D::BODY_MODE_RIGID;
+}
+
+}  // namespace
+
+CollisionObject3D* BodyMirror::body() const {
+    return Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(id_));
+}
+
+// Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its own, and what
+// is outside the world still finds the body where it is.
+void BodyMirror::hold_still_in_godot(CollisionObject3D& body) const {
+    PhysicsServer3D* server = PhysicsServer3D::get_singleton();
+    if (is_rigid(body) && server->body_get_mode(body.get_rid()) != PhysicsServer3D::BODY_MODE_STATIC) {
+        server->body_set_mode(body.get_rid(), PhysicsServer3D::BODY_MODE_STATIC);
+    }
+}
+
+void BodyMirror::remember_place(CollisionObject3D& body) {
+    place_ = body.get_global_transform();
+    if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
+        linear_velocity_ = rigid->get_linear_velocity();
+        angular_velocity_ = rigid->get_angular_velocity();
+    }
+}
+
+void BodyMirror::add(Session& session, const MirrorContext& context) {
+    CollisionObject3D& node = *body();
+    tried_ = true;
+    key_ = shape_key(node);
+    mesh_changes_ = HapticMesh::changes();
+    makings_ = read_makings(node);
+    values_ = read_values(node, context.defaults);
+    shown_from_ = context.takes_effect;
+    for (const Ref<Shape3D>& shape : shapes_of(node)) {
+        if (!shape->is_connected("changed", context.on_shape_change)) {
+            shape->connect("changed", context.on_shape_change);
+        }
+    }
+    BodyReading reading = read_shapes(node);
+    problems_ = std::move(reading.problems);
+    remember_place(node);
+    shapes_ = reading.addition;
+    if (!reading.touchable) {
+        return;
+    }
+    BodyAddition& addition = reading.addition;
+    put_into(addition, values_);
+    put_into(addition.description, makings_);
+    addition.description.pose = pose_of(place_);
+    addition.description.may_move = is_rigid(node);
+    addition.description.linear_velocity = from_godot(linear_velocity_);
+    addition.description.angular_velocity = from_godot(angular_velocity_);
+    const AddResult added = session.add_body(addition);
+    handle_ = added.handle;
+    if (handle_ == no_handle) {
+        problems_.push_back(added.error);
+        return;
+    }
+    hold_still_in_godot(node);
+}
+
+bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) {
+    if (!tried_ || !(read_makings(node) == makings_) || !(shape_key(node) == key_)) {
+        return true;
+    }
+    if (!shapes_changed && mesh_changes_ == HapticMesh::changes()) {
+        return false;
+    }
+    mesh_changes_ = HapticMesh::changes();
+    const BodyReading now = read_shapes(node);
+    return now.problems != problems_ ||
+           !same_shapes(now.addition.description.shapes, shapes_.description.shapes) ||
+           !same_shapes(now.addition.touch_shapes, shapes_.touch_shapes);
+}
+
+void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
+    const BodyValues before = values_;
+    values_ = read_values(*body(), defaults);
+    if (!(values_.touch == before.touch)) {
+        session.set_touch_material(handle_, values_.touch);
+    }
+    if (!(values_.surface == before.surface)) {
+        session.set_body_surface(handle_, values_.surface);
+    }
+    if (!(values_.layers == before.layers)) {
+        session.set_body_layers(handle_, values_.layers);
+    }
+    if (values_.motion != before.motion) {
+        session.set_body_motion(handle_, values_.motion);
+    }
+    if (values_.gravity_scale != before.gravity_scale) {
+        session.set_body_gravity_scale(handle_, values_.gravity_scale);
+    }
+    if (values_.linear_damping != before.linear_damping || values_.angular_damping != before.angular_damping) {
+        session.set_body_damping(handle_, values_.linear_damping, values_.angular_damping);
+    }
+}
+
+void BodyMirror::send_motion(Session& session, double seconds, std::uint64_t takes_effect) {
+    CollisionObject3D& node = *body();
+    if (!(node.get_global_transform() == place_) && node.get_global_transform().is_finite()) {
+        place_ = node.get_global_transform();
+        if (values_.motion == Motion::Dynamic) {
+            session.teleport_body(handle_, pose_of(place_));
+            shown_from_ = takes_effect;
+        } else {
+            session.move_body(handle_, pose_of(place_), seconds);
+        }
+    }
+    const auto* rigid = Object::cast_to<RigidBody3D>(&node);
+    if (rigid == nullptr || values_.motion != Motion::Dynamic) {
+        return;
+    }
+    const Vector3 linear = rigid->get_linear_velocity();
+    const Vector3 angular = rigid->get_angular_velocity();
+    if (!(linear == linear_velocity_) || !(angular == angular_velocity_)) {
+        linear_velocity_ = linear;
+        angular_velocity_ = angular;
+        session.set_body_velocity(handle_, from_godot(linear), from_godot(angular));
+        shown_from_ = takes_effect;
+    }
+}
+
+void BodyMirror::synchronise(Session& session, const MirrorContext& context, double seconds) {
+    CollisionObject3D* node = body();
+    if (node == nullptr) {
+        return;
+    }
+    if (needs_a_new_twin(*node, context.shapes_changed)) {
+        if (handle_ != no_handle) {
+            session.remove_body(handle_);
+            handle_ = no_handle;
+            shown_change_ = 0;
+        }
+        add(session, context);
+        return;
+    }
+    if (handle_ != no_handle) {
+        hold_still_in_godot(*node);
+        send_values(session, context.defaults);
+        send_motion(session, seconds, context.takes_effect);
+    }
+}
+
+void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
+    CollisionObject3D* node = body();
+    auto* rigid = Object::cast_to<RigidBody3D>(node);
+    if (rigid == nullptr || values_.motion != Motion::Dynamic || tick < shown_from_ ||
+        state.changed_at == shown_change_) {
+        return;
+    }
+    shown_change_ = state.changed_at;
+    const Transform3D pose = to_godot(state.pose);
+    rigid->set_global_transform(Transform3D(pose.basis * key_.scaling, pose.origin));
+    rigid->set_linear_velocity(to_godot(state.linear_velocity));
+    rigid->set_angular_velocity(to_godot(state.angular_velocity));
+    remember_place(*rigid);
+}
+
+void BodyMirror::release(Session& session) {
+    if (handle_ != no_handle) {
+        session.remove_body(handle_);
+        handle_ = no_handle;
+    }
+    tried_ = false;
+    if (auto* rigid = Object::cast_to<RigidBody3D>(body())) {
+        PhysicsServer3D::get_singleton()->body_set_mode(rigid->get_rid(), own_mode(*rigid));
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,67 @@
+// One Godot body and its twin in the session: what changes on Godot's side is passed on, and what the session moves is
+// shown on Godot's side. Main thread only.
+#pragma once
+
+#include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/variant/callable.hpp>
+#include <string>
+#include <vector>
+
+#include "nodes/body_reading.hpp"
+#include "session/session.hpp"
+
+namespace tactus {
+
+// What all mirrors of a world share in one synchronise().
+struct MirrorContext {
+    BodyDefaults defaults;
+    godot::Callable on_shape_change;  // is connected to the shapes
+    bool shapes_changed = false;      // it was called since the last time
+    std::uint64_t takes_effect = 0;   // the first tick that has certainly taken what is sent now
+};
+
+class BodyMirror {
+public:
+    explicit BodyMirror(godot::CollisionObject3D& body) : id_(body.get_instance_id()) {}
+
+    std::uint64_t id() const { return id_; }
+    SessionHandle handle() const { return handle_; }
+    godot::CollisionObject3D* body() const;  // null when the node is gone
+
+    // Brings the session up to date. What moved on Godot's side since the last call took `seconds` for it.
+    void synchronise(Session& session, const MirrorContext& context, double seconds);
+
+    // `tick` is the tick of the snapshot that the state is from.
+    void apply(const BodyState& state, std::uint64_t tick);
+
+    // Takes the twin out and gives the body back to Godot's own physics.
+    void release(Session& session);
+
+    // Why it cannot be touched, or only in part; as it was found in the last synchronise().
+    const std::vector<std::string>& problems() const { return problems_; }
+
+private:
+    void add(Session& session, const MirrorContext& context);
+    bool needs_a_new_twin(godot::CollisionObject3D& body, bool shapes_changed);
+    void send_values(Session& session, const BodyDefaults& defaults);
+    void send_motion(Session& session, double seconds, std::uint64_t takes_effect);
+    void hold_still_in_godot(godot::CollisionObject3D& body) const;
+    void remember_place(godot::CollisionObject3D& body);
+
+    std::uint64_t id_;
+    SessionHandle handle_ = no_handle;
+    ShapeKey key_;
+    std::uint64_t mesh_changes_ = 0;
+    BodyMakings makings_;
+    BodyValues values_;
+    BodyAddition shapes_;          // only its shapes are of interest
+    godot::Transform3D place_;     // of Godot's body, when we last saw or set it
+    godot::Vector3 linear_velocity_;
+    godot::Vector3 angular_velocity_;
+    std::uint64_t shown_change_ = 0;  // BodyState::changed_at that Godot's side shows
+    std::uint64_t shown_from_ = 0;    // earlier ticks do not know yet what was sent last
+    bool tried_ = false;
+    std::vector<std::string> problems_;
+};
+
+}  // namespace tactus

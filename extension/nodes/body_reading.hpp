@@ -1,0 +1,82 @@
+// An ordinary Godot body, as it is now, in the session's terms.
+#pragma once
+
+#include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/variant/string.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/haptics/touch_material.hpp"
+#include "session/session.hpp"
+
+namespace tactus {
+
+class HapticMesh;
+
+// What a world adds to each of its bodies.
+struct BodyDefaults {
+    TouchMaterial touch;           // of bodies without a physics_material_override
+    double linear_damping = 0.1;   // that Godot's project settings give to every rigid body (unit: 1/seconds)
+    double angular_damping = 0.1;  // likewise
+};
+
+// What touch and collision take their form from. Two equal ones need no new reading, unless a shape said that it changed.
+struct ShapeKey {
+    struct Entry {
+        std::uint64_t shape = 0;  // instance id
+        godot::Transform3D place;
+        bool operator==(const Entry& other) const { return shape == other.shape && place == other.place; }
+    };
+    std::vector<Entry> shapes;
+    godot::Basis scaling;
+    bool operator==(const ShapeKey& other) const { return shapes == other.shapes && scaling == other.scaling; }
+};
+
+// Whether a world mirrors this object at all: areas are not solid.
+bool is_solid_body(const godot::Object* object);
+
+bool is_rigid(const godot::CollisionObject3D& body);
+Motion motion_of(const godot::CollisionObject3D& body);
+
+HapticMesh* haptic_mesh_of(const godot::CollisionObject3D& body);
+
+ShapeKey shape_key(godot::CollisionObject3D& body);
+std::vector<godot::Ref<godot::Shape3D>> shapes_of(godot::CollisionObject3D& body);
+
+struct BodyReading {
+    BodyAddition addition;
+    std::vector<std::string> problems;  // of single shapes; the rest of the body can still be touched
+    bool touchable = false;             // false: nothing is left to touch, the problems say why
+};
+
+// Everything but the values below, which are cheap enough to ask for in every frame.
+BodyReading read_shapes(godot::CollisionObject3D& body);
+
+// What a running body can take over as it is, without being made anew.
+struct BodyValues {
+    Motion motion = Motion::Static;
+    TouchMaterial touch;
+    SurfaceMaterial surface;
+    CollisionLayers layers;
+    double gravity_scale = 1.0;
+    double linear_damping = 0.0;
+    double angular_damping = 0.0;
+};
+BodyValues read_values(const godot::CollisionObject3D& body, const BodyDefaults& defaults);
+
+// What a body is made from: a change makes it anew.
+struct BodyMakings {
+    double mass = 1.0;
+    godot::Vector3 inertia;         // zero: that of the shapes
+    std::optional<Vec3> center_of_mass;
+    bool continuous = false;
+    bool can_sleep = true;
+    std::uint32_t locks = 0;  // bit i: axis i of x, y, z, and of the turns about x, y, z
+    bool operator==(const BodyMakings&) const = default;
+};
+BodyMakings read_makings(const godot::CollisionObject3D& body);
+
+void put_into(BodyDescription& description, const BodyMakings& makings);
+void put_into(BodyAddition& addition, const BodyValues& values);
+
+}  // namespace tactus

@@ -1,0 +1,224 @@
+#include "nodes/haptic_device.hpp"
+
+#include <cmath>
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/input.hpp>
+#include <godot_cpp/classes/input_event_mouse_button.hpp>
+#include <godot_cpp/classes/input_event_mouse_motion.hpp>
+#include <godot_cpp/classes/viewport.hpp>
+#include <godot_cpp/core/class_db.hpp>
+
+#include "devices/path_device.hpp"
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/roll.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+// The hand of a mouse stays at least this far in front of the camera (unit: meters).
+constexpr double nearest_depth = 0.02;
+
+// How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
+constexpr double even_scale = 1e-3;
+
+}  // namespace
+
+void HapticDevice::changed() {
+    port_.reset();
+    mouse_.reset();
+    update_configuration_warnings();
+}
+
+void HapticDevice::set_driver(Driver driver) {
+    driver_ = driver;
+    notify_property_list_changed();
+    changed();
+}
+
+void HapticDevice::set_path(const Ref<HapticPath>& path) {
+    const Callable on_change(this, "_path_changed");
+    if (path_.is_valid() && path_->is_connected("changed", on_change)) {
+        path_->disconnect("changed", on_change);
+    }
+    path_ = path;
+    if (path_.is_valid()) {
+        path_->connect("changed", on_change);
+    }
+    changed();
+}
+
+void HapticDevice::set_wheel_step(double meters) {
+    if (!is_above_zero(meters)) {
+        refuse(get_name(), "wheel_step", meters, "a finite number above 0");
+        return;
+    }
+    wheel_step_ = meters;
+}
+
+void HapticDevice::set_force_limit(double newtons) {
+    if (!is_at_least_zero(newtons)) {
+        refuse(get_name(), "force_limit", newtons, "a finite number, 0 or more");
+        return;
+    }
+    force_limit_ = newtons;
+}
+
+Vector3 HapticDevice::get_hand_position() const { return to_godot(state_.position); }
+Vector3 HapticDevice::get_hand_velocity() const { return to_godot(state_.velocity); }
+Vector3 HapticDevice::get_force() const { return to_godot(state_.force); }
+
+String HapticDevice::problem() const {
+    if (driver_ == DRIVER_PATH && path_.is_null()) {
+        return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another driver";
+    }
+    if (driver_ == DRIVER_PATH && !path_->get_problem().is_empty()) {
+        return "its path cannot be followed: " + path_->get_problem();
+    }
+    if (is_inside_tree() && get_global_transform().basis.determinant() == 0) {
+        return "it is scaled to zero: give it and the nodes above it a scale that is not zero";
+    }
+    return String();
+}
+
+String HapticDevice::get_state_text() const {
+    const String wrong = problem();
+    if (!wrong.is_empty()) {
+        return wrong;
+    }
+    if (HapticWorld::of(this) == nullptr) {
+        return "no HapticWorld is running: put one into the scene, best above this node";
+    }
+    return state_.connected ? "connected" : "waiting for the first tick";
+}
+
+PackedStringArray HapticDevice::_get_configuration_warnings() const {
+    PackedStringArray warnings;
+    const String wrong = problem();
+    if (!wrong.is_empty()) {
+        warnings.push_back("This HapticDevice does nothing: " + wrong + ".");
+    }
+    if (is_inside_tree()) {
+        const Vector3 scale = get_global_transform().basis.get_scale().abs();
+        if (std::abs(scale.x - scale.y) > even_scale * scale.x || std::abs(scale.x - scale.z) > even_scale * scale.x) {
+            warnings.push_back("This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
+                               "evenly.");
+        }
+    }
+    return warnings;
+}
+
+std::shared_ptr<Device> HapticDevice::port() {
+    if (!problem().is_empty()) {
+        return nullptr;
+    }
+    if (port_ == nullptr && driver_ == DRIVER_PATH) {
+        port_ = std::make_shared<PathDevice>(path_->hand_path());
+    }
+    if (port_ == nullptr && driver_ == DRIVER_MOUSE) {
+        mouse_ = std::make_shared<MouseDevice>(MouseDevice::Settings{});
+        port_ = mouse_;
+        mouse_target_ = from_godot(get_global_position());
+    }
+    return port_;
+}
+
+Workspace HapticDevice::workspace() const {
+    const Transform3D transform = get_global_transform();
+    const double volume = std::abs(static_cast<double>(transform.basis.determinant()));
+    return {pose_of(transform), std::cbrt(volume), force_limit_, clutch_};
+}
+
+void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change) {
+    Camera3D* camera = is_inside_tree() ? get_viewport()->get_camera_3d() : nullptr;
+    if (mouse_ == nullptr || camera == nullptr) {
+        return;
+    }
+    const Vec3 eye = from_godot(camera->project_ray_origin(screen_position));
+    const Vec3 ray = from_godot(camera->project_ray_normal(screen_position));
+    const Vec3 forward = -from_godot(camera->get_global_transform().basis.get_column(2).normalized());
+    const double depth = std::max(nearest_depth, glm::dot(mouse_target_ - eye, forward) + depth_change);
+    const double slant = glm::dot(ray, forward);
+    if (!(slant > 0.0)) {
+        return;
+    }
+    mouse_target_ = eye + ray * (depth / slant);
+    const Workspace mapping = workspace();
+    const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
+    mouse_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});
+}
+
+void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {
+    if (mouse_ == nullptr || Engine::get_singleton()->is_editor_hint()) {
+        return;
+    }
+    if (const auto* motion = Object::cast_to<InputEventMouseMotion>(event.ptr())) {
+        aim_mouse(motion->get_position(), 0.0);
+    } else if (const auto* button = Object::cast_to<InputEventMouseButton>(event.ptr())) {
+        const bool away = button->is_pressed() && button->get_button_index() == MOUSE_BUTTON_WHEEL_UP;
+        const bool closer = button->is_pressed() && button->get_button_index() == MOUSE_BUTTON_WHEEL_DOWN;
+        aim_mouse(button->get_position(), wheel_step_ * (away ? 1.0 : closer ? -1.0 : 0.0));
+    }
+}
+
+void HapticDevice::_notification(int what) {
+    if (Engine::get_singleton()->is_editor_hint()) {
+        return;
+    }
+    if (what == NOTIFICATION_ENTER_TREE) {
+        Roll<HapticDevice>::enter(this);
+    } else if (what == NOTIFICATION_EXIT_TREE) {
+        Roll<HapticDevice>::leave(this);
+        changed();
+        clear_state();
+    }
+}
+
+void HapticDevice::_validate_property(PropertyInfo& property) const {
+    const bool of_path = property.name == StringName("path");
+    const bool of_mouse = property.name == StringName("wheel_step");
+    if ((of_path && driver_ != DRIVER_PATH) || (of_mouse && driver_ != DRIVER_MOUSE)) {
+        property.usage = PROPERTY_USAGE_STORAGE;
+    }
+}
+
+void HapticDevice::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("set_driver", "driver"), &HapticDevice::set_driver);
+    ClassDB::bind_method(D_METHOD("get_driver"), &HapticDevice::get_driver);
+    ClassDB::bind_method(D_METHOD("set_path", "path"), &HapticDevice::set_path);
+    ClassDB::bind_method(D_METHOD("get_path_resource"), &HapticDevice::get_path_resource);
+    ClassDB::bind_method(D_METHOD("set_wheel_step", "meters"), &HapticDevice::set_wheel_step);
+    ClassDB::bind_method(D_METHOD("get_wheel_step"), &HapticDevice::get_wheel_step);
+    ClassDB::bind_method(D_METHOD("set_force_limit", "newtons"), &HapticDevice::set_force_limit);
+    ClassDB::bind_method(D_METHOD("get_force_limit"), &HapticDevice::get_force_limit);
+    ClassDB::bind_method(D_METHOD("set_clutch", "held"), &HapticDevice::set_clutch);
+    ClassDB::bind_method(D_METHOD("is_clutch_held"), &HapticDevice::is_clutch_held);
+    ClassDB::bind_method(D_METHOD("is_device_connected"), &HapticDevice::is_device_connected);
+    ClassDB::bind_method(D_METHOD("get_hand_position"), &HapticDevice::get_hand_position);
+    ClassDB::bind_method(D_METHOD("get_hand_velocity"), &HapticDevice::get_hand_velocity);
+    ClassDB::bind_method(D_METHOD("get_force"), &HapticDevice::get_force);
+    ClassDB::bind_method(D_METHOD("get_buttons"), &HapticDevice::get_buttons);
+    ClassDB::bind_method(D_METHOD("get_state_text"), &HapticDevice::get_state_text);
+    ClassDB::bind_method(D_METHOD("aim_mouse", "screen_position", "depth_change"), &HapticDevice::aim_mouse,
+                         DEFVAL(0.0));
+    ClassDB::bind_method(D_METHOD("_path_changed"), &HapticDevice::changed);
+
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse"), "set_driver",
+                 "get_driver");
+    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "path", PROPERTY_HINT_RESOURCE_TYPE, "HapticPath"), "set_path",
+                 "get_path_resource");
+    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "wheel_step", PROPERTY_HINT_RANGE, "0.001,0.1,0.001,suffix:m"),
+                 "set_wheel_step", "get_wheel_step");
+    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "force_limit", PROPERTY_HINT_RANGE, "0,20,0.1,or_greater,suffix:N"),
+                 "set_force_limit", "get_force_limit");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "clutch"), "set_clutch", "is_clutch_held");
+
+    BIND_ENUM_CONSTANT(DRIVER_PATH);
+    BIND_ENUM_CONSTANT(DRIVER_MOUSE);
+}
+
+}  // namespace tactus

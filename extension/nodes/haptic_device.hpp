@@ -1,0 +1,79 @@
+#pragma once
+
+#include <godot_cpp/classes/camera3d.hpp>
+#include <godot_cpp/classes/input_event.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <memory>
+
+#include "core/ports/device.hpp"
+#include "devices/mouse_device.hpp"
+#include "nodes/haptic_path.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+// The hand. Its transform maps the device's workspace into the scene: move, turn or scale the node, and positions and
+// forces follow.
+class HapticDevice : public godot::Node3D {
+    GDCLASS(HapticDevice, godot::Node3D)
+
+public:
+    enum Driver { DRIVER_PATH, DRIVER_MOUSE };
+
+    void set_driver(Driver driver);
+    Driver get_driver() const { return driver_; }
+    void set_path(const godot::Ref<HapticPath>& path);
+    godot::Ref<HapticPath> get_path_resource() const { return path_; }
+    void set_wheel_step(double meters);
+    double get_wheel_step() const { return wheel_step_; }
+    void set_force_limit(double newtons);
+    double get_force_limit() const { return force_limit_; }
+    void set_clutch(bool held) { clutch_ = held; }
+    bool is_clutch_held() const { return clutch_; }
+
+    bool is_device_connected() const { return state_.connected; }
+    godot::Vector3 get_hand_position() const;
+    godot::Vector3 get_hand_velocity() const;
+    godot::Vector3 get_force() const;
+    int64_t get_buttons() const { return state_.buttons; }
+    godot::String get_state_text() const;
+
+    // Puts the hand of a mouse under this point of the screen, at the depth where it is now.
+    void aim_mouse(const godot::Vector2& screen_position, double depth_change);
+
+    void _unhandled_input(const godot::Ref<godot::InputEvent>& event) override;
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // --- for the world that runs it
+
+    // Null where the driver has nothing to work with; another one after a change of driver or path.
+    std::shared_ptr<Device> port();
+    Workspace workspace() const;
+    void take_state(const DeviceState& state) { state_ = state; }
+    void clear_state() { state_ = {}; }
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+    void _validate_property(godot::PropertyInfo& property) const;
+
+private:
+    godot::String problem() const;
+    void changed();
+
+    Driver driver_ = DRIVER_PATH;
+    godot::Ref<HapticPath> path_;
+    double wheel_step_ = 0.01;
+    double force_limit_ = 8.0;
+    bool clutch_ = false;
+
+    std::shared_ptr<Device> port_;
+    std::shared_ptr<MouseDevice> mouse_;  // the same as port_ where the driver is the mouse
+    Vec3 mouse_target_{0.0};              // in the scene (unit: meters)
+    DeviceState state_;
+};
+
+}  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticDevice::Driver);

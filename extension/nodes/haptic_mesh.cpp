@@ -1,0 +1,159 @@
+#include "nodes/haptic_mesh.hpp"
+
+#include <godot_cpp/classes/array_mesh.hpp>
+#include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/core/class_db.hpp>
+
+#include "core/geometry/mesh_check.hpp"
+#include "nodes/conversions.hpp"
+#include "nodes/mesh_drawing.hpp"
+#include "nodes/mesh_library.hpp"
+#include "nodes/mesh_reading.hpp"
+#include "nodes/messages.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+std::uint64_t change_count = 0;
+
+}  // namespace
+
+std::uint64_t HapticMesh::changes() { return change_count; }
+
+void HapticMesh::forget_triangles() {
+    is_read_ = false;
+    triangles_ = {};
+    ++change_count;
+    update_configuration_warnings();
+}
+
+void HapticMesh::resource_changed() { forget_triangles(); }
+
+void HapticMesh::set_mesh(const Ref<Mesh>& mesh) {
+    const Callable on_change(this, "_resource_changed");
+    if (mesh_.is_valid() && mesh_->is_connected("changed", on_change)) {
+        mesh_->disconnect("changed", on_change);
+    }
+    mesh_ = mesh;
+    if (mesh_.is_valid()) {
+        mesh_->connect("changed", on_change);
+    }
+    notify_property_list_changed();
+    forget_triangles();
+}
+
+void HapticMesh::set_library_mesh(const String& name) {
+    if (library_mesh_ != name) {
+        library_mesh_ = name;
+        forget_triangles();
+    }
+}
+
+const HapticMesh::Triangles& HapticMesh::triangles() const {
+    if (is_read_) {
+        return triangles_;
+    }
+    is_read_ = true;
+    if (mesh_.is_valid()) {
+        auto mesh = std::make_shared<TriangleMesh>(mesh_from_resource(mesh_));
+        triangles_.error = check_mesh(*mesh);
+        triangles_.mesh = triangles_.error.empty() ? std::move(mesh) : nullptr;
+    } else if (library_mesh_.is_empty()) {
+        triangles_.error = "it has no mesh: set 'mesh', or 'library_mesh' to one of " +
+                           from_godot(String(", ").join(mesh_library_names()));
+    } else {
+        LibraryMesh loaded = load_library_mesh(library_mesh_);
+        triangles_ = {std::move(loaded.mesh), std::move(loaded.error)};
+    }
+    return triangles_;
+}
+
+ShapeReading HapticMesh::read(const Basis& body_scale) const {
+    const Triangles& source = triangles();
+    if (source.mesh == nullptr) {
+        return {{}, source.error};
+    }
+    const Transform3D local = Transform3D(body_scale, Vector3()) * get_transform();
+    if (!local.is_finite()) {
+        return {{}, "its transform is not made of finite numbers: reset it in the inspector"};
+    }
+    if (local.basis.determinant() == 0) {
+        return {{}, "it is scaled to zero along an axis: give it a scale that is not zero"};
+    }
+    const Basis scaling = scaling_of(local.basis);
+    const auto mesh = scaling.is_equal_approx(Basis())
+                          ? source.mesh
+                          : std::make_shared<const TriangleMesh>(scaled(*source.mesh, scaling));
+    return {{PlacedShape{MeshShape{mesh}, pose_of(local)}}, {}};
+}
+
+double HapticMesh::get_library_mass() const {
+    const std::optional<LibraryEntry> entry = mesh_library_entry(library_mesh_);
+    return entry ? entry->mass : 0.0;
+}
+
+String HapticMesh::get_library_source() const {
+    const std::optional<LibraryEntry> entry = mesh_library_entry(library_mesh_);
+    return entry ? entry->source : String();
+}
+
+PackedStringArray HapticMesh::get_library_names() { return mesh_library_names(); }
+
+Ref<Mesh> HapticMesh::create_library_mesh(const String& name) {
+    const LibraryMesh loaded = load_library_mesh(name);
+    if (loaded.mesh == nullptr) {
+        UtilityFunctions::push_error("HapticMesh: ", to_godot(loaded.error), ".");
+        return Ref<Mesh>();
+    }
+    return drawn_mesh(*loaded.mesh);
+}
+
+PackedStringArray HapticMesh::_get_configuration_warnings() const {
+    PackedStringArray warnings;
+    if (Object::cast_to<CollisionObject3D>(get_parent()) == nullptr) {
+        warnings.push_back("This HapticMesh touches nothing: make it a child of a StaticBody3D, AnimatableBody3D or "
+                           "RigidBody3D.");
+    }
+    const ShapeReading reading = read(Basis());
+    if (!reading.error.empty()) {
+        warnings.push_back("This mesh cannot be touched: " + to_godot(reading.error) + ".");
+    }
+    return warnings;
+}
+
+void HapticMesh::_notification(int what) {
+    if (what == NOTIFICATION_ENTER_TREE) {
+        set_notify_local_transform(true);
+        ++change_count;
+    } else if (what == NOTIFICATION_EXIT_TREE || what == NOTIFICATION_LOCAL_TRANSFORM_CHANGED) {
+        ++change_count;
+    }
+}
+
+void HapticMesh::_validate_property(PropertyInfo& property) const {
+    if (property.name == StringName("library_mesh")) {
+        property.hint_string = String(",").join(mesh_library_names());
+    }
+}
+
+void HapticMesh::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("set_mesh", "mesh"), &HapticMesh::set_mesh);
+    ClassDB::bind_method(D_METHOD("get_mesh"), &HapticMesh::get_mesh);
+    ClassDB::bind_method(D_METHOD("set_library_mesh", "name"), &HapticMesh::set_library_mesh);
+    ClassDB::bind_method(D_METHOD("get_library_mesh"), &HapticMesh::get_library_mesh);
+    ClassDB::bind_method(D_METHOD("get_library_mass"), &HapticMesh::get_library_mass);
+    ClassDB::bind_method(D_METHOD("get_library_source"), &HapticMesh::get_library_source);
+    ClassDB::bind_method(D_METHOD("_resource_changed"), &HapticMesh::resource_changed);
+    ClassDB::bind_static_method("HapticMesh", D_METHOD("get_library_names"), &HapticMesh::get_library_names);
+    ClassDB::bind_static_method("HapticMesh", D_METHOD("create_library_mesh", "name"),
+                                &HapticMesh::create_library_mesh);
+
+    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "mesh", PROPERTY_HINT_RESOURCE_TYPE, "Mesh"), "set_mesh", "get_mesh");
+    ADD_PROPERTY(PropertyInfo(Variant::STRING, "library_mesh", PROPERTY_HINT_ENUM_SUGGESTION, ""),
+                 "set_library_mesh", "get_library_mesh");
+}
+
+}  // namespace tactus

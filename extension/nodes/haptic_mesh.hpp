@@ -1,0 +1,57 @@
+#pragma once
+
+#include <godot_cpp/classes/mesh.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <memory>
+#include <string>
+
+#include "nodes/shape_reading.hpp"
+
+namespace tactus {
+
+// As a child of a body: touch this mesh instead of the body's collision shapes. The body keeps colliding with other
+// bodies by its own shapes; where it has none, the mesh serves for that, too.
+class HapticMesh : public godot::Node3D {
+    GDCLASS(HapticMesh, godot::Node3D)
+
+public:
+    void set_mesh(const godot::Ref<godot::Mesh>& mesh);
+    godot::Ref<godot::Mesh> get_mesh() const { return mesh_; }
+    void set_library_mesh(const godot::String& name);
+    godot::String get_library_mesh() const { return library_mesh_; }
+
+    double get_library_mass() const;
+    godot::String get_library_source() const;
+    static godot::PackedStringArray get_library_names();
+    static godot::Ref<godot::Mesh> create_library_mesh(const godot::String& name);
+
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves out.
+    ShapeReading read(const godot::Basis& body_scale) const;
+
+    // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
+    static std::uint64_t changes();
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+    void _validate_property(godot::PropertyInfo& property) const;
+
+private:
+    struct Triangles {
+        std::shared_ptr<const TriangleMesh> mesh;
+        std::string error;
+    };
+
+    const Triangles& triangles() const;
+    void resource_changed();
+    void forget_triangles();
+
+    godot::Ref<godot::Mesh> mesh_;
+    godot::String library_mesh_;
+    mutable Triangles triangles_;  // read once, when somebody asks
+    mutable bool is_read_ = false;
+};
+
+}  // namespace tactus

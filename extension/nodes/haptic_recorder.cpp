@@ -1,0 +1,225 @@
+#include "nodes/haptic_recorder.hpp"
+
+#include <godot_cpp/classes/dir_access.hpp>
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/classes/project_settings.hpp>
+#include <godot_cpp/core/class_db.hpp>
+
+#include "nodes/body_reading.hpp"
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/proxy_pointer.hpp"
+#include "nodes/roll.hpp"
+#include "session/record_csv.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+// Eight seconds at 1 kHz: longer than any pause between two frames that a program survives.
+constexpr std::size_t ring_capacity = 8192;
+
+}  // namespace
+
+HapticRecorder::~HapticRecorder() { stop(); }
+
+void HapticRecorder::set_proxy(const NodePath& path) {
+    proxy_ = path;
+    update_configuration_warnings();
+}
+
+void HapticRecorder::set_object(const NodePath& path) {
+    object_ = path;
+    update_configuration_warnings();
+}
+
+void HapticRecorder::set_csv_path(const String& path) {
+    csv_path_ = path;
+    update_configuration_warnings();
+}
+
+void HapticRecorder::set_trace_path(const String& path) {
+    trace_path_ = path;
+    update_configuration_warnings();
+}
+
+void HapticRecorder::set_trace_seconds(double seconds) {
+    if (!is_above_zero(seconds)) {
+        refuse(get_name(), "trace_seconds", seconds, "a finite number above 0");
+        return;
+    }
+    trace_seconds_ = seconds;
+}
+
+const ProxyPointer* HapticRecorder::proxy_node() const {
+    return is_inside_tree() && !proxy_.is_empty() ? Object::cast_to<ProxyPointer>(get_node_or_null(proxy_)) : nullptr;
+}
+
+const Node* HapticRecorder::object_node() const {
+    return is_inside_tree() && !object_.is_empty() ? get_node_or_null(object_) : nullptr;
+}
+
+String HapticRecorder::problem() const {
+    if (proxy_node() == nullptr) {
+        return proxy_.is_empty() ? String("it has no proxy: set 'proxy' to a ProxyPointer of the scene")
+                                 : "its proxy '" + String(proxy_) +
+                                       "' is not a ProxyPointer of the scene: set 'proxy' anew";
+    }
+    if (!object_.is_empty() && !is_solid_body(object_node())) {
+        return "its object '" + String(object_) + "' is not a body of the scene: set 'object' anew, or leave it empty";
+    }
+    return String();
+}
+
+PackedStringArray HapticRecorder::_get_configuration_warnings() const {
+    PackedStringArray warnings;
+    if (is_inside_tree() && !problem().is_empty()) {
+        warnings.push_back("This HapticRecorder cannot record all: " + problem() + ".");
+    }
+    if (csv_path_.is_empty() && trace_path_.is_empty()) {
+        warnings.push_back("This HapticRecorder writes nothing: set 'csv_path', 'trace_path' or both.");
+    }
+    return warnings;
+}
+
+void HapticRecorder::fail(const String& what) {
+    UtilityFunctions::push_warning(name_of(*this), ": ", what, ".");
+}
+
+HapticRecorder::File HapticRecorder::open(const String& path) {
+    if (path.is_empty()) {
+        return nullptr;
+    }
+    const String whole = ProjectSettings::get_singleton()->globalize_path(path);
+    const String folder = whole.get_base_dir();
+    if (!folder.is_empty()) {
+        DirAccess::make_dir_recursive_absolute(folder);
+    }
+    File file(std::fopen(from_godot(whole).c_str(), "wb"));
+    if (file == nullptr) {
+        fail("'" + whole + "' cannot be written: choose a folder that exists and may be written to");
+    }
+    return file;
+}
+
+bool HapticRecorder::start() {
+    stop();
+    rows_ = lost_ = 0;
+    ticks_.clear();
+    csv_ = open(csv_path_);
+    trace_file_ = open(trace_path_);
+    if (csv_ == nullptr && trace_file_ == nullptr) {
+        return false;
+    }
+    text_ = record_csv_header();
+    ring_ = std::make_shared<RecorderRing<SessionRecord>>(ring_capacity);
+    return true;
+}
+
+void HapticRecorder::stop() {
+    if (ring_ == nullptr) {
+        return;
+    }
+    HapticWorld::finish_recording(this);
+    write_trace();
+    ring_.reset();
+    csv_.reset();
+    trace_file_.reset();
+}
+
+void HapticRecorder::drain(Nanoseconds epoch) {
+    if (ring_ == nullptr) {
+        return;
+    }
+    ring_->drain([this, epoch](const SessionRecord& record) {
+        append_record_csv(text_, record, epoch);
+        ++rows_;
+    });
+    if (csv_ != nullptr && std::fwrite(text_.data(), 1, text_.size(), csv_.get()) != text_.size()) {
+        fail("'" + csv_path_ + "' could not be written to its end: is the disk full?");
+        csv_.reset();
+    }
+    text_.clear();
+    if (const std::uint64_t lost = ring_->take_lost(); lost > 0) {
+        lost_ += static_cast<int64_t>(lost);
+        fail(String::num_uint64(lost) + " ticks were not recorded: the program stood still for too long");
+    }
+}
+
+void HapticRecorder::drain_trace(TickTrace& trace) {
+    if (trace_file_ == nullptr) {
+        return;
+    }
+    trace.drain(ticks_);
+    const auto since_start = [this](const TickRecord& tick) {
+        return to_seconds(tick.scheduled - ticks_.front().scheduled);
+    };
+    while (!ticks_.empty() && since_start(ticks_.back()) > trace_seconds_) {
+        ticks_.pop_back();
+    }
+}
+
+void HapticRecorder::write_trace() {
+    if (trace_file_ == nullptr) {
+        return;
+    }
+    const Nanoseconds origin = ticks_.empty() ? 0 : ticks_.front().start;
+    if (!write_trace_events(trace_file_.get(), ticks_, origin, "haptic loop")) {
+        fail("'" + trace_path_ + "' could not be written to its end: is the disk full?");
+    }
+    ticks_.clear();
+}
+
+void HapticRecorder::_notification(int what) {
+    if (Engine::get_singleton()->is_editor_hint()) {
+        return;
+    }
+    if (what == NOTIFICATION_ENTER_TREE) {
+        Roll<HapticRecorder>::enter(this);
+        if (autostart_ && !(csv_path_.is_empty() && trace_path_.is_empty())) {
+            start();
+        }
+    } else if (what == NOTIFICATION_EXIT_TREE) {
+        stop();
+        Roll<HapticRecorder>::leave(this);
+    }
+}
+
+void HapticRecorder::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("set_proxy", "path"), &HapticRecorder::set_proxy);
+    ClassDB::bind_method(D_METHOD("get_proxy"), &HapticRecorder::get_proxy);
+    ClassDB::bind_method(D_METHOD("set_object", "path"), &HapticRecorder::set_object);
+    ClassDB::bind_method(D_METHOD("get_object"), &HapticRecorder::get_object);
+    ClassDB::bind_method(D_METHOD("set_csv_path", "path"), &HapticRecorder::set_csv_path);
+    ClassDB::bind_method(D_METHOD("get_csv_path"), &HapticRecorder::get_csv_path);
+    ClassDB::bind_method(D_METHOD("set_trace_path", "path"), &HapticRecorder::set_trace_path);
+    ClassDB::bind_method(D_METHOD("get_trace_path"), &HapticRecorder::get_trace_path);
+    ClassDB::bind_method(D_METHOD("set_trace_seconds", "seconds"), &HapticRecorder::set_trace_seconds);
+    ClassDB::bind_method(D_METHOD("get_trace_seconds"), &HapticRecorder::get_trace_seconds);
+    ClassDB::bind_method(D_METHOD("set_autostart", "autostart"), &HapticRecorder::set_autostart);
+    ClassDB::bind_method(D_METHOD("is_autostart"), &HapticRecorder::is_autostart);
+    ClassDB::bind_method(D_METHOD("start"), &HapticRecorder::start);
+    ClassDB::bind_method(D_METHOD("stop"), &HapticRecorder::stop);
+    ClassDB::bind_method(D_METHOD("is_recording"), &HapticRecorder::is_recording);
+    ClassDB::bind_method(D_METHOD("get_rows"), &HapticRecorder::get_rows);
+    ClassDB::bind_method(D_METHOD("get_lost_rows"), &HapticRecorder::get_lost_rows);
+
+    ADD_PROPERTY(PropertyInfo(Variant::NODE_PATH, "proxy", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "ProxyPointer"),
+                 "set_proxy", "get_proxy");
+    ADD_PROPERTY(PropertyInfo(Variant::NODE_PATH, "object", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "PhysicsBody3D"),
+                 "set_object", "get_object");
+    ADD_PROPERTY(PropertyInfo(Variant::STRING, "csv_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.csv"), "set_csv_path",
+                 "get_csv_path");
+    ADD_PROPERTY(PropertyInfo(Variant::STRING, "trace_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.json"),
+                 "set_trace_path", "get_trace_path");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "trace_seconds", PROPERTY_HINT_RANGE, "0.1,60,0.1,or_greater,suffix:s"),
+        "set_trace_seconds", "get_trace_seconds");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "autostart"), "set_autostart", "is_autostart");
+}
+
+}  // namespace tactus

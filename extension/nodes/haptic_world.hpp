@@ -1,0 +1,98 @@
+#pragma once
+
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
+#include <memory>
+
+#include "core/haptics/touch_material.hpp"
+#include "nodes/haptic_material.hpp"
+
+namespace tactus {
+
+class HapticRecorder;
+class WorldRun;
+
+// Its subtree is what can be touched. While the scene plays, it runs the haptic loop with a physics world of its own, and
+// moves the RigidBody3D nodes of its subtree.
+class HapticWorld : public godot::Node3D {
+    GDCLASS(HapticWorld, godot::Node3D)
+
+public:
+    enum Clock { CLOCK_REAL_TIME, CLOCK_STEPPED };
+
+    HapticWorld();
+    ~HapticWorld() override;
+
+    void set_tick_rate(int hertz);
+    int get_tick_rate() const { return tick_rate_; }
+    void set_clock(Clock clock);
+    Clock get_clock() const { return clock_; }
+    void set_gravity(const godot::Vector3& gravity);
+    godot::Vector3 get_gravity() const { return gravity_; }
+    void set_default_material(const godot::Ref<HapticMaterial>& material) { default_material_ = material; }
+    godot::Ref<HapticMaterial> get_default_material() const { return default_material_; }
+    void set_most_bodies(int count);
+    int get_most_bodies() const { return most_bodies_; }
+    void set_realtime_priority(int priority);
+    int get_realtime_priority() const { return realtime_priority_; }
+    void set_processor(int processor);
+    int get_processor() const { return processor_; }
+    void set_lock_memory(bool lock);
+    bool is_locking_memory() const { return lock_memory_; }
+    void set_measure_baseline(bool measure);
+    bool is_measuring_baseline() const { return measure_baseline_; }
+
+    int64_t advance(double seconds);
+    bool is_running() const { return run_ != nullptr; }
+    int64_t get_ticks() const;
+    double get_time() const;
+    godot::Dictionary get_statistics() const;
+    void reset_statistics();
+    godot::Dictionary get_period_distribution() const;
+    godot::Dictionary get_baseline_period_distribution() const;
+    godot::PackedStringArray get_problems() const;
+
+    void _process(double seconds) override;
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // --- for the other nodes
+
+    // The running world above the node; else the first one that runs anywhere; null where none does.
+    static HapticWorld* of(const godot::Node* node);
+    // The last rows are written before the recorder closes its files.
+    static void finish_recording(HapticRecorder* recorder);
+    TouchMaterial default_touch() const;
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+
+private:
+    const HapticWorld* world_above() const;
+    void start();
+    void stop();
+    void restart();
+    void node_added(godot::Node* node);
+    void node_removed(godot::Node* node);
+    void shape_changed();
+    void report_status(double seconds);
+
+    int tick_rate_ = 1000;
+    Clock clock_ = CLOCK_REAL_TIME;
+    godot::Vector3 gravity_;
+    godot::Ref<HapticMaterial> default_material_;
+    int most_bodies_ = 1024;
+    int realtime_priority_ = 70;
+    int processor_ = -1;
+    bool lock_memory_ = true;
+    bool measure_baseline_ = false;
+
+    std::unique_ptr<WorldRun> run_;  // null while nothing runs: in the editor, always
+    double owed_seconds_ = 0.0;      // of stepped time, less than a tick
+    double since_report_ = 0.0;      // (unit: seconds)
+};
+
+}  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticWorld::Clock);

@@ -1,0 +1,90 @@
+#include "nodes/mesh_library.hpp"
+
+#include <godot_cpp/classes/dir_access.hpp>
+#include <godot_cpp/classes/file_access.hpp>
+#include <godot_cpp/classes/gd_extension_manager.hpp>
+#include <godot_cpp/classes/json.hpp>
+#include <godot_cpp/variant/array.hpp>
+#include <godot_cpp/variant/dictionary.hpp>
+
+#include "core/geometry/mesh_check.hpp"
+#include "core/geometry/obj_text.hpp"
+#include "nodes/conversions.hpp"
+
+namespace tactus {
+
+namespace {
+
+using godot::FileAccess;
+using godot::String;
+
+constexpr const char* extension_file = "tactus.gdextension";
+
+String all_names() { return String(", ").join(mesh_library_names()); }
+
+// A name, not a way out of the folder.
+bool is_plain_name(const String& name) {
+    return !name.is_empty() && !name.contains("/") && !name.contains("\\") && !name.contains(":");
+}
+
+}  // namespace
+
+String mesh_library_folder() {
+    const godot::PackedStringArray loaded = godot::GDExtensionManager::get_singleton()->get_loaded_extensions();
+    for (std::int64_t i = 0; i < loaded.size(); ++i) {
+        const String path = loaded[i];
+        if (path.get_file() == extension_file) {
+            return path.get_base_dir().path_join("meshes");
+        }
+    }
+    return "res://addons/tactus/meshes";
+}
+
+godot::PackedStringArray mesh_library_names() {
+    godot::PackedStringArray names;
+    const godot::PackedStringArray files = godot::DirAccess::get_files_at(mesh_library_folder());
+    for (std::int64_t i = 0; i < files.size(); ++i) {
+        const String file = files[i];
+        if (file.get_extension() == "obj") {
+            names.push_back(file.get_basename());
+        }
+    }
+    names.sort();
+    return names;
+}
+
+LibraryMesh load_library_mesh(const String& name) {
+    const String path = mesh_library_folder().path_join(name + ".obj");
+    if (!is_plain_name(name) || !FileAccess::file_exists(path)) {
+        return {nullptr, from_godot("the mesh library has no mesh '" + name + "': choose one of " + all_names() +
+                                    ", or put " + name + ".obj into " + mesh_library_folder())};
+    }
+    const std::string text = from_godot(FileAccess::get_file_as_string(path));
+    ObjResult read = read_obj_text(text);
+    if (read.error.empty()) {
+        read.error = check_mesh(read.mesh);
+    }
+    if (!read.error.empty()) {
+        return {nullptr, from_godot(path) + ": " + read.error};
+    }
+    return {std::make_shared<TriangleMesh>(std::move(read.mesh)), {}};
+}
+
+std::optional<LibraryEntry> mesh_library_entry(const String& name) {
+    const String path = mesh_library_folder().path_join("library.json");
+    if (!FileAccess::file_exists(path)) {
+        return std::nullopt;
+    }
+    const godot::Variant whole = godot::JSON::parse_string(FileAccess::get_file_as_string(path));
+    if (whole.get_type() != godot::Variant::DICTIONARY) {
+        return std::nullopt;
+    }
+    const godot::Dictionary entries = whole;
+    if (!entries.has(name)) {
+        return std::nullopt;
+    }
+    const godot::Dictionary entry = entries[name];
+    return LibraryEntry{entry.get("mass_kg", 0.0), entry.get("source", "")};
+}
+
+}  // namespace tactus

@@ -1,0 +1,314 @@
+#include "nodes/proxy_pointer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <godot_cpp/classes/cylinder_mesh.hpp>
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/sphere_mesh.hpp>
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/core/object.hpp>
+
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_device.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/mesh_drawing.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/roll.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+// Of the pictures, relative to the proxy's radius.
+constexpr double hand_size = 0.5;
+constexpr double line_size = 0.2;
+
+const Color proxy_color(0.15f, 0.55f, 1.0f);
+const Color hand_color(1.0f, 0.25f, 0.2f);
+
+Ref<SphereMesh> sphere_mesh() {
+    Ref<SphereMesh> mesh;
+    mesh.instantiate();
+    mesh->set_radius(1.0f);
+    mesh->set_height(2.0f);
+    return mesh;
+}
+
+Ref<CylinderMesh> line_mesh() {
+    Ref<CylinderMesh> mesh;
+    mesh.instantiate();
+    mesh->set_top_radius(0.5f);
+    mesh->set_bottom_radius(0.5f);
+    mesh->set_height(1.0f);
+    mesh->set_radial_segments(8);
+    return mesh;
+}
+
+// Stretches a unit cylinder along y from one point to another.
+Transform3D between(const Vector3& from, const Vector3& to, double thickness) {
+    const Vector3 way = to - from;
+    const Vector3 y = way.normalized();
+    const Vector3 x = (std::abs(y.y) < 0.9f ? Vector3(0, 1, 0) : Vector3(1, 0, 0)).cross(y).normalized();
+    const Vector3 z = x.cross(y);
+    const auto thin = static_cast<real_t>(thickness);
+    Basis basis;
+    basis.set_column(0, x * thin);
+    basis.set_column(1, way);
+    basis.set_column(2, z * thin);
+    return Transform3D(basis, (from + to) * 0.5f);
+}
+
+}  // namespace
+
+void ProxyPointer::set_device(const NodePath& path) {
+    device_ = path;
+    update_configuration_warnings();
+}
+
+void ProxyPointer::set_radius(double meters) {
+    if (!is_above_zero(meters)) {
+        refuse(get_name(), "radius", meters, "a finite number above 0");
+        return;
+    }
+    radius_ = meters;
+    place_pictures();
+}
+
+void ProxyPointer::set_show_proxy(bool show) {
+    show_proxy_ = show;
+    make_pictures();
+}
+
+void ProxyPointer::set_show_hand(bool show) {
+    show_hand_ = show;
+    make_pictures();
+}
+
+Vector3 ProxyPointer::get_force() const { return to_godot(state_.force); }
+Vector3 ProxyPointer::get_hand_position() const { return to_godot(state_.hand); }
+Vector3 ProxyPointer::get_proxy_position() const { return to_godot(state_.position); }
+bool ProxyPointer::is_touching() const { return (state_.status & proxy_touching) != 0; }
+bool ProxyPointer::is_present() const { return state_.handle != no_handle && (state_.status & proxy_absent) == 0; }
+
+TypedArray<Dictionary> ProxyPointer::get_contacts() const {
+    TypedArray<Dictionary> contacts;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(state_.contact_count); ++i) {
+        Dictionary contact;
+        contact["body"] = ObjectDB::get_instance(contact_bodies_[i]);
+        contact["point"] = to_godot(state_.points[i]);
+        contact["normal"] = to_godot(state_.normals[i]);
+        contacts.push_back(contact);
+    }
+    return contacts;
+}
+
+HapticDevice* ProxyPointer::device_node() const {
+    return is_inside_tree() && !device_.is_empty() ? Object::cast_to<HapticDevice>(get_node_or_null(device_)) : nullptr;
+}
+
+String ProxyPointer::get_state_text() const {
+    if (device_.is_empty()) {
+        return "it has no device: set 'device' to a HapticDevice of the scene";
+    }
+    if (device_node() == nullptr) {
+        return "its device '" + String(device_) + "' is not a HapticDevice of the scene: set 'device' anew";
+    }
+    if (Engine::get_singleton()->is_editor_hint()) {
+        return String();
+    }
+    if (HapticWorld::of(this) == nullptr) {
+        return "no HapticWorld is running: put one into the scene, best above this node";
+    }
+    if (state_.handle == no_handle) {
+        return "waiting for the first tick";
+    }
+    if (!is_present()) {
+        return "the hand began inside a body: move it out once";
+    }
+    return is_touching() ? "touching" : "free";
+}
+
+PackedStringArray ProxyPointer::_get_configuration_warnings() const {
+    PackedStringArray warnings;
+    if (is_inside_tree() && device_node() == nullptr) {
+        warnings.push_back("This ProxyPointer cannot move: " + get_state_text() + ".");
+    }
+    return warnings;
+}
+
+ProxyDescription ProxyPointer::description(SessionHandle device) const {
+    ProxyDescription description;
+    description.device = device;
+    description.settings.radius = radius_;
+    description.settings.mask = mask_;
+    description.force_law = force_law_ == FORCE_LAW_SMOOTHED ? ForceLaw::smoothed : ForceLaw::spring;
+    description.enabled = enabled_;
+    return description;
+}
+
+void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
+    const std::vector<std::uint64_t> before = std::exchange(touched_, touched);
+    const auto emit_for_missing = [this](const std::vector<std::uint64_t>& in, const std::vector<std::uint64_t>& from,
+                                         const char* signal) {
+        for (const std::uint64_t body : in) {
+            Object* object = std::find(from.begin(), from.end(), body) == from.end() ? ObjectDB::get_instance(body)
+                                                                                     : nullptr;
+            if (object != nullptr) {
+                emit_signal(signal, object);
+            }
+        }
+    };
+    emit_for_missing(before, touched, "contact_ended");
+    emit_for_missing(touched, before, "contact_started");
+}
+
+void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
+    state_ = state;
+    contact_bodies_ = bodies;
+    if (is_present()) {
+        set_global_position(to_godot(state.position));
+    }
+    place_pictures();
+    std::vector<std::uint64_t> touched;
+    for (const std::uint64_t body : bodies) {
+        if (body != 0 && std::find(touched.begin(), touched.end(), body) == touched.end()) {
+            touched.push_back(body);
+        }
+    }
+    emit_changes(touched);
+}
+
+void ProxyPointer::clear_state() {
+    if (state_.handle == no_handle) {
+        return;
+    }
+    state_ = {};
+    contact_bodies_ = {};
+    place_pictures();
+    emit_changes({});
+}
+
+MeshInstance3D* ProxyPointer::add_picture(const Ref<Mesh>& mesh, const Ref<Material>& look) {
+    MeshInstance3D* picture = memnew(MeshInstance3D);
+    picture->set_mesh(mesh);
+    picture->set_material_override(look);
+    picture->set_as_top_level(true);
+    add_child(picture, false, INTERNAL_MODE_BACK);
+    return picture;
+}
+
+void ProxyPointer::make_pictures() {
+    if (!is_inside_tree()) {
+        return;
+    }
+    if (show_proxy_ && proxy_picture_ == nullptr) {
+        proxy_picture_ = add_picture(sphere_mesh(), plain_material(proxy_color, true));
+    }
+    if (show_hand_ && hand_picture_ == nullptr) {
+        hand_picture_ = add_picture(sphere_mesh(), plain_material(hand_color, true));
+        line_picture_ = add_picture(line_mesh(), plain_material(hand_color, false));
+    }
+    place_pictures();
+}
+
+void ProxyPointer::place_pictures() {
+    if (!is_inside_tree()) {
+        return;
+    }
+    const bool running = state_.handle != no_handle;
+    const Vector3 proxy = get_global_position();
+    const Vector3 hand = running ? to_godot(state_.hand) : proxy;
+    const auto ball = [](const Vector3& place, double radius) {
+        const auto size = static_cast<real_t>(radius);
+        return Transform3D(Basis::from_scale(Vector3(size, size, size)), place);
+    };
+    if (proxy_picture_ != nullptr) {
+        proxy_picture_->set_visible(show_proxy_ && is_visible_in_tree() && (!running || is_present()));
+        proxy_picture_->set_global_transform(ball(proxy, radius_));
+    }
+    if (hand_picture_ != nullptr) {
+        const bool visible = show_hand_ && is_visible_in_tree() && running;
+        const bool apart = static_cast<double>(proxy.distance_to(hand)) > 1e-3 * radius_;
+        hand_picture_->set_visible(visible);
+        hand_picture_->set_global_transform(ball(hand, hand_size * radius_));
+        line_picture_->set_visible(visible && apart && is_present());
+        if (apart) {
+            line_picture_->set_global_transform(between(proxy, hand, line_size * radius_));
+        }
+    }
+}
+
+void ProxyPointer::_notification(int what) {
+    switch (what) {
+        case NOTIFICATION_ENTER_TREE:
+            make_pictures();
+            if (Engine::get_singleton()->is_editor_hint()) {
+                set_notify_transform(true);
+            } else {
+                Roll<ProxyPointer>::enter(this);
+            }
+            break;
+        case NOTIFICATION_EXIT_TREE:
+            if (!Engine::get_singleton()->is_editor_hint()) {
+                Roll<ProxyPointer>::leave(this);
+                clear_state();
+            }
+            break;
+        case NOTIFICATION_TRANSFORM_CHANGED:
+        case NOTIFICATION_VISIBILITY_CHANGED:
+            place_pictures();
+            break;
+        default:
+            break;
+    }
+}
+
+void ProxyPointer::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("set_device", "path"), &ProxyPointer::set_device);
+    ClassDB::bind_method(D_METHOD("get_device"), &ProxyPointer::get_device);
+    ClassDB::bind_method(D_METHOD("set_radius", "meters"), &ProxyPointer::set_radius);
+    ClassDB::bind_method(D_METHOD("get_radius"), &ProxyPointer::get_radius);
+    ClassDB::bind_method(D_METHOD("set_collision_mask", "mask"), &ProxyPointer::set_collision_mask);
+    ClassDB::bind_method(D_METHOD("get_collision_mask"), &ProxyPointer::get_collision_mask);
+    ClassDB::bind_method(D_METHOD("set_force_law", "law"), &ProxyPointer::set_force_law);
+    ClassDB::bind_method(D_METHOD("get_force_law"), &ProxyPointer::get_force_law);
+    ClassDB::bind_method(D_METHOD("set_enabled", "enabled"), &ProxyPointer::set_enabled);
+    ClassDB::bind_method(D_METHOD("is_enabled"), &ProxyPointer::is_enabled);
+    ClassDB::bind_method(D_METHOD("set_show_proxy", "show"), &ProxyPointer::set_show_proxy);
+    ClassDB::bind_method(D_METHOD("get_show_proxy"), &ProxyPointer::get_show_proxy);
+    ClassDB::bind_method(D_METHOD("set_show_hand", "show"), &ProxyPointer::set_show_hand);
+    ClassDB::bind_method(D_METHOD("get_show_hand"), &ProxyPointer::get_show_hand);
+    ClassDB::bind_method(D_METHOD("get_force"), &ProxyPointer::get_force);
+    ClassDB::bind_method(D_METHOD("get_hand_position"), &ProxyPointer::get_hand_position);
+    ClassDB::bind_method(D_METHOD("get_proxy_position"), &ProxyPointer::get_proxy_position);
+    ClassDB::bind_method(D_METHOD("is_touching"), &ProxyPointer::is_touching);
+    ClassDB::bind_method(D_METHOD("is_present"), &ProxyPointer::is_present);
+    ClassDB::bind_method(D_METHOD("get_status"), &ProxyPointer::get_status);
+    ClassDB::bind_method(D_METHOD("get_residual"), &ProxyPointer::get_residual);
+    ClassDB::bind_method(D_METHOD("get_contacts"), &ProxyPointer::get_contacts);
+    ClassDB::bind_method(D_METHOD("get_state_text"), &ProxyPointer::get_state_text);
+
+    ADD_PROPERTY(PropertyInfo(Variant::NODE_PATH, "device", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "HapticDevice"),
+                 "set_device", "get_device");
+    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "radius", PROPERTY_HINT_RANGE, "0.001,0.1,0.0005,or_greater,suffix:m"),
+                 "set_radius", "get_radius");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "collision_mask", PROPERTY_HINT_LAYERS_3D_PHYSICS), "set_collision_mask",
+                 "get_collision_mask");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "force_law", PROPERTY_HINT_ENUM, "Spring,Smoothed"), "set_force_law",
+                 "get_force_law");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "enabled"), "set_enabled", "is_enabled");
+    ADD_GROUP("Show", "show_");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "show_proxy"), "set_show_proxy", "get_show_proxy");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "show_hand"), "set_show_hand", "get_show_hand");
+
+    const PropertyInfo body(Variant::OBJECT, "body", PROPERTY_HINT_NODE_TYPE, "CollisionObject3D");
+    ADD_SIGNAL(MethodInfo("contact_started", body));
+    ADD_SIGNAL(MethodInfo("contact_ended", body));
+
+    BIND_ENUM_CONSTANT(FORCE_LAW_SPRING);
+    BIND_ENUM_CONSTANT(FORCE_LAW_SMOOTHED);
+}
+
+}  // namespace tactus

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/node_path.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
+#include <vector>
+
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+class HapticDevice;
+
+// The fingertip that never enters a surface. Its place follows the proxy.
+class ProxyPointer : public godot::Node3D {
+    GDCLASS(ProxyPointer, godot::Node3D)
+
+public:
+    enum Law { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
+
+    void set_device(const godot::NodePath& path);
+    godot::NodePath get_device() const { return device_; }
+    void set_radius(double meters);
+    double get_radius() const { return radius_; }
+    void set_collision_mask(int64_t mask) { mask_ = static_cast<std::uint32_t>(mask); }
+    int64_t get_collision_mask() const { return mask_; }
+    void set_force_law(Law law) { force_law_ = law; }
+    Law get_force_law() const { return force_law_; }
+    void set_enabled(bool enabled) { enabled_ = enabled; }
+    bool is_enabled() const { return enabled_; }
+    void set_show_proxy(bool show);
+    bool get_show_proxy() const { return show_proxy_; }
+    void set_show_hand(bool show);
+    bool get_show_hand() const { return show_hand_; }
+
+    godot::Vector3 get_force() const;
+    godot::Vector3 get_hand_position() const;
+    godot::Vector3 get_proxy_position() const;
+    bool is_touching() const;
+    bool is_present() const;
+    int64_t get_status() const { return state_.status; }
+    double get_residual() const { return state_.residual; }
+    godot::TypedArray<godot::Dictionary> get_contacts() const;
+    godot::String get_state_text() const;
+
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // --- for the world that runs it
+
+    HapticDevice* device_node() const;
+    ProxyDescription description(SessionHandle device) const;
+    // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
+    using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;
+    void take_state(const ProxyState& state, const BodyIds& bodies);
+    void clear_state();
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+
+private:
+    void emit_changes(const std::vector<std::uint64_t>& touched);
+    void make_pictures();
+    void place_pictures();
+    godot::MeshInstance3D* add_picture(const godot::Ref<godot::Mesh>& mesh, const godot::Ref<godot::Material>& look);
+
+    godot::NodePath device_;
+    double radius_ = 0.01;
+    std::uint32_t mask_ = 0xffff'ffffu;
+    Law force_law_ = FORCE_LAW_SPRING;
+    bool enabled_ = true;
+    bool show_proxy_ = true;
+    bool show_hand_ = true;
+
+    ProxyState state_;
+    std::vector<std::uint64_t> touched_;  // ids of the bodies that are touched
+    BodyIds contact_bodies_{};
+    godot::MeshInstance3D* proxy_picture_ = nullptr;
+    godot::MeshInstance3D* hand_picture_ = nullptr;
+    godot::MeshInstance3D* line_picture_ = nullptr;
+};
+
+}  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::ProxyPointer::Law);

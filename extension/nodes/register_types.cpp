@@ -1,0 +1,44 @@
+#include "nodes/register_types.hpp"
+
+#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/godot.hpp>
+
+#include "nodes/haptic_device.hpp"
+#include "nodes/haptic_material.hpp"
+#include "nodes/haptic_mesh.hpp"
+#include "nodes/haptic_path.hpp"
+#include "nodes/haptic_recorder.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/proxy_pointer.hpp"
+
+namespace tactus {
+
+namespace {
+
+void register_classes(godot::ModuleInitializationLevel level) {
+    if (level != godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
+        return;
+    }
+    GDREGISTER_CLASS(HapticMaterial);
+    GDREGISTER_CLASS(HapticPath);
+    GDREGISTER_CLASS(HapticMesh);
+    GDREGISTER_CLASS(HapticDevice);
+    GDREGISTER_CLASS(ProxyPointer);
+    GDREGISTER_CLASS(HapticRecorder);
+    GDREGISTER_CLASS(HapticWorld);
+}
+
+void nothing_to_undo(godot::ModuleInitializationLevel) {}
+
+}  // namespace
+
+GDExtensionBool initialize_library(GDExtensionInterfaceGetProcAddress get_proc_address,
+                                   GDExtensionClassLibraryPtr library, GDExtensionInitialization* initialization) {
+    const godot::GDExtensionBinding::InitObject init(get_proc_address, library, initialization);
+    init.register_initializer(register_classes);
+    init.register_terminator(nothing_to_undo);
+    init.set_minimum_library_initialization_level(godot::MODULE_INITIALIZATION_LEVEL_SCENE);
+    return init.init();
+}
+
+}  // namespace tactus

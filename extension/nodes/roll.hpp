@@ -1,0 +1,23 @@
+// Which nodes of a kind are in the running scene tree: how a world finds what belongs to it. Main thread only.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace tactus {
+
+template <typename NodeType>
+class Roll {
+public:
+    static const std::vector<NodeType*>& all() { return nodes(); }
+    static void enter(NodeType* node) { nodes().push_back(node); }
+    static void leave(NodeType* node) { std::erase(nodes(), node); }
+
+private:
+    static std::vector<NodeType*>& nodes() {
+        static std::vector<NodeType*> living;
+        return living;
+    }
+};
+
+}  // namespace tactus

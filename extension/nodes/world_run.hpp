@@ -1,0 +1,132 @@
+// What a HapticWorld owns while it runs: the session, its loop, and what of the scene tree stands in it.
+//
+// Threads: everything but tick() belongs to the main thread. tick() is called by the haptic thread in real time and by
+// advance() in stepped time; it touches the session's loop side, the trace and the clock's own members, nothing else.
+#pragma once
+
+#include <atomic>
+#include <godot_cpp/classes/node3d.hpp>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "nodes/body_mirror.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/proxy_pointer.hpp"
+#include "realtime/baseline_loop.hpp"
+#include "realtime/tick_loop.hpp"
+#include "session/session.hpp"
+
+namespace tactus {
+
+class HapticDevice;
+class HapticRecorder;
+class HapticWorld;
+
+struct RunSettings {
+    SessionSettings session;
+    TickLoopSettings loop;
+    bool real_time = true;
+    bool baseline = false;  // a bare loop runs beside
+};
+
+class WorldRun {
+public:
+    WorldRun(HapticWorld& world, const RunSettings& settings);
+    ~WorldRun();
+    WorldRun(const WorldRun&) = delete;
+    WorldRun& operator=(const WorldRun&) = delete;
+
+    // Real time only. The text is empty, or why the loop could not start.
+    std::string start_loop();
+    void stop_loop();
+
+    // Passes on what changed in the scene tree; `seconds`: since the last call.
+    void synchronise(double seconds);
+    // Shows in the scene tree what the loop has done.
+    void show();
+    // Stepped time only: ticks at once, here.
+    void advance(std::int64_t ticks);
+
+    void bodies_changed() { bodies_changed_ = true; }
+    void shapes_changed() { shapes_changed_ = true; }
+    void forget(HapticDevice* device);
+    void forget(ProxyPointer* proxy);
+    void forget(HapticRecorder* recorder);
+    // The recorder is about to close its files: gives it what is there, then lets it go.
+    void finish(HapticRecorder* recorder);
+
+    Session& session() { return session_; }
+    TickLoop& loop() { return loop_; }
+    const TickLoop& loop() const { return loop_; }
+    BaselineLoop* baseline() { return baseline_.get(); }
+    std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
+    TickStatus take_status();
+    std::size_t body_count() const { return mirrors_.size(); }
+    std::vector<std::string> problems() const;  // each names its node
+
+private:
+    struct DeviceLink {
+        HapticDevice* node = nullptr;
+        std::shared_ptr<Device> port;
+        SessionHandle handle = no_handle;
+        Workspace sent;
+    };
+    struct ProxyLink {
+        ProxyPointer* node = nullptr;
+        SessionHandle handle = no_handle;
+        ProxyDescription sent;
+    };
+
+    static TickStatus tick_loop_function(void* self, Nanoseconds scheduled);
+    TickStatus tick(Nanoseconds now);
+
+    void collect_bodies(godot::Node* node, std::vector<godot::CollisionObject3D*>& found) const;
+    void find_bodies();
+    void synchronise_bodies(double seconds);
+    void synchronise_devices();
+    void synchronise_proxies();
+    void synchronise_recorder();
+    void connect_device(DeviceLink& link);
+    void drop_device(DeviceLink& link);
+    void want_trace();
+    void drain();
+    BodyMirror* mirror_of(std::uint64_t id);
+    BodyMirror* mirror_of_handle(SessionHandle handle);
+    SessionHandle device_handle(const HapticDevice* node) const;
+    ProxyPointer::BodyIds body_ids(const ProxyState& state);
+    void show_bodies(const SessionSnapshot& snapshot);
+    void show_devices(const SessionSnapshot& snapshot);
+    void show_proxies(const SessionSnapshot& snapshot);
+
+    HapticWorld& world_;
+    RunSettings settings_;
+    Session session_;
+    std::unique_ptr<TickTrace> trace_;
+    TickLoop loop_;
+    std::unique_ptr<BaselineLoop> baseline_;
+
+    // The session's clock starts at zero and stands still while the loop does.
+    std::atomic<std::uint64_t> ticks_{0};
+    Nanoseconds next_time_ = 0;       // of the session, for the next tick
+    bool loop_is_new_ = true;
+    std::atomic<Nanoseconds> clock_offset_{0};  // a tick's time on the monotonic clock less its time in the session
+    Nanoseconds epoch_of_monotonic_clock_;      // its zero, since the epoch
+    TickStatus stepped_status_ = 0;
+
+    std::vector<std::unique_ptr<BodyMirror>> mirrors_;
+    std::unordered_map<std::uint64_t, BodyMirror*> mirror_by_id_;
+    std::vector<BodyMirror*> mirror_by_handle_;
+    bool bodies_changed_ = true;
+    bool shapes_changed_ = false;
+    std::vector<DeviceLink> devices_;
+    std::vector<ProxyLink> proxies_;
+    HapticRecorder* recorder_ = nullptr;
+    SessionHandle recorded_proxy_ = no_handle;
+    SessionHandle recorded_object_ = no_handle;
+    std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
+    BodyDefaults defaults_;
+    Complaints complaints_;
+};
+
+}  // namespace tactus

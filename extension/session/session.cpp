@@ -1,0 +1,262 @@
+#include "session/session.hpp"
+
+#include <cmath>
+#include <deque>
+
+#include "realtime/spsc_ring.hpp"
+#include "realtime/triple_buffer.hpp"
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr std::size_t ring_capacity = 1024;
+
+// Hands out the numbers 0 … count - 1, the lowest free one first.
+class HandlePool {
+public:
+    explicit HandlePool(std::size_t count) {
+        for (std::size_t i = count; i-- > 0;) {
+            free_.push_back(static_cast<SessionHandle>(i));
+        }
+    }
+    SessionHandle take() {
+        if (free_.empty()) {
+            return no_handle;
+        }
+        const SessionHandle handle = free_.back();
+        free_.pop_back();
+        return handle;
+    }
+    void give_back(SessionHandle handle) { free_.push_back(handle); }
+
+private:
+    std::vector<SessionHandle> free_;
+};
+
+SessionSnapshot empty_snapshot(std::size_t most_bodies) {
+    SessionSnapshot snapshot;
+    snapshot.bodies.resize(most_bodies);
+    return snapshot;
+}
+
+std::string check_material(const TouchMaterial& m) {
+    const bool sound = m.stiffness >= 0.0 && m.damping >= 0.0 && m.dynamic_friction >= 0.0 &&
+                       m.static_friction >= 0.0 && std::isfinite(m.stiffness + m.damping + m.dynamic_friction +
+                                                                 m.static_friction);
+    return sound ? "" : "a value of the touch material is negative or not a number: set all of them to 0 or above";
+}
+
+std::string check_proxy(const ProxyDescription& d) {
+    return d.settings.radius > 0.0 && std::isfinite(d.settings.radius)
+               ? ""
+               : "the proxy's radius is not a positive length: set it above 0 m";
+}
+
+}  // namespace
+
+struct Session::Impl {
+    explicit Impl(const SessionSettings& s)
+        : settings(s),
+          snapshots(empty_snapshot(s.most_bodies)),
+          commands(ring_capacity),
+          retired(ring_capacity),
+          loop(s, snapshots),
+          bodies(s.most_bodies),
+          devices(most_devices),
+          proxies(most_proxies) {}
+
+    void send(Command&& command) {
+        send_backlog();
+        if (!backlog.empty() || !commands.try_push(std::move(command))) {
+            backlog.push_back(std::move(command));
+        }
+    }
+
+    void send_backlog() {
+        while (!backlog.empty() && commands.try_push(std::move(backlog.front()))) {
+            backlog.pop_front();
+        }
+    }
+
+    // Loop side. A command whose remains might find no room waits.
+    std::uint32_t take_commands(std::uint32_t most) {
+        std::uint32_t taken = 0;
+        while (taken < most && retired.size() < retired.capacity()) {
+            Command* const command = commands.front();
+            if (!command) {
+                break;
+            }
+            Retired remains;
+            if (loop.take(*command, remains)) {
+                retired.try_push(std::move(remains));
+            }
+            commands.pop();
+            ++taken;
+        }
+        return taken;
+    }
+
+    const SessionSettings settings;
+    TripleBuffer<SessionSnapshot> snapshots;
+    SpscRing<Command> commands;
+    SpscRing<Retired> retired;
+    SessionLoop loop;
+
+    HandlePool bodies, devices, proxies;
+    std::deque<Command> backlog;
+};
+
+Session::Session(const SessionSettings& settings) : impl_(std::make_unique<Impl>(settings)) {}
+Session::~Session() = default;
+
+const SessionSettings& Session::settings() const { return impl_->settings; }
+
+AddResult Session::add_body(const BodyAddition& addition) {
+    if (std::string error = check_material(addition.touch_material); !error.empty()) {
+        return {no_handle, std::move(error)};
+    }
+    const auto& touched = addition.touch_shapes.empty() ? addition.description.shapes : addition.touch_shapes;
+    TouchShapeResult touch = make_touch_shape(touched);
+    if (!touch.shape) {
+        return {no_handle, std::move(touch.error)};
+    }
+    PreparedBody body = prepare(addition.description);
+    if (!body.ready()) {
+        return {no_handle, body.error()};
+    }
+    const SessionHandle handle = impl_->bodies.take();
+    if (handle == no_handle) {
+        return {no_handle, "the world already holds its limit of " + std::to_string(impl_->settings.most_bodies) +
+                               " bodies: raise the limit or remove some"};
+    }
+    impl_->send(command::AddBody{handle, std::move(body), std::move(touch.shape), addition.touch_material,
+                                 addition.description.collision.layer, addition.description.pose,
+                                 addition.description.motion});
+    return {handle, {}};
+}
+
+void Session::remove_body(SessionHandle body) { impl_->send(command::RemoveBody{body}); }
+
+void Session::teleport_body(SessionHandle body, const Pose& pose) { impl_->send(command::TeleportBody{body, pose}); }
+
+void Session::move_body(SessionHandle body, const Pose& pose, double seconds) {
+    impl_->send(command::MoveBody{body, pose, seconds});
+}
+
+void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular) {
+    impl_->send(command::SetBodyVelocity{body, linear, angular});
+}
+
+void Session::set_touch_material(SessionHandle body, const TouchMaterial& material) {
+    if (check_material(material).empty()) {
+        impl_->send(command::SetTouchMaterial{body, material});
+    }
+}
+
+void Session::set_body_layers(SessionHandle body, const CollisionLayers& layers) {
+    impl_->send(command::SetBodyLayers{body, layers});
+}
+
+void Session::set_body_motion(SessionHandle body, Motion motion) {
+    impl_->send(command::SetBodyMotion{body, motion});
+}
+
+void Session::set_body_surface(SessionHandle body, const SurfaceMaterial& surface) {
+    impl_->send(command::SetBodySurface{body, surface});
+}
+
+void Session::set_body_gravity_scale(SessionHandle body, double scale) {
+    impl_->send(command::SetBodyGravityScale{body, scale});
+}
+
+void Session::set_body_damping(SessionHandle body, double linear, double angular) {
+    impl_->send(command::SetBodyDamping{body, linear, angular});
+}
+
+void Session::set_gravity(const Vec3& gravity) { impl_->send(command::SetGravity{gravity}); }
+
+AddResult Session::add_device(Device& device, const Workspace& workspace) {
+    const SessionHandle handle = impl_->devices.take();
+    if (handle == no_handle) {
+        return {no_handle, "a world takes at most " + std::to_string(most_devices) + " devices: remove one"};
+    }
+    impl_->send(command::AddDevice{handle, &device, workspace});
+    return {handle, {}};
+}
+
+void Session::set_workspace(SessionHandle device, const Workspace& workspace) {
+    impl_->send(command::SetWorkspace{device, workspace});
+}
+
+void Session::remove_device(SessionHandle device) { impl_->send(command::RemoveDevice{device}); }
+
+AddResult Session::add_proxy(const ProxyDescription& description) {
+    if (std::string error = check_proxy(description); !error.empty()) {
+        return {no_handle, std::move(error)};
+    }
+    const SessionHandle handle = impl_->proxies.take();
+    if (handle == no_handle) {
+        return {no_handle, "a world takes at most " + std::to_string(most_proxies) + " proxies: remove one"};
+    }
+    impl_->send(command::AddProxy{handle, std::make_unique<Proxy>(impl_->settings.most_parts, description.settings),
+                                  description});
+    return {handle, {}};
+}
+
+void Session::set_proxy(SessionHandle proxy, const ProxyDescription& description) {
+    if (check_proxy(description).empty()) {
+        impl_->send(command::SetProxy{proxy, description});
+    }
+}
+
+void Session::remove_proxy(SessionHandle proxy) { impl_->send(command::RemoveProxy{proxy}); }
+
+void Session::record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object) {
+    impl_->send(command::Record{ring, proxy, object});
+}
+
+bool Session::collect() {
+    Retired remains;
+    while (impl_->retired.try_pop(remains)) {
+        switch (remains.kind) {
+            case Retired::Kind::body:
+                impl_->bodies.give_back(remains.handle);
+                break;
+            case Retired::Kind::device:
+                impl_->devices.give_back(remains.handle);
+                break;
+            case Retired::Kind::proxy:
+                impl_->proxies.give_back(remains.handle);
+                break;
+        }
+        remains = {};
+    }
+    impl_->send_backlog();
+    return !impl_->backlog.empty() || impl_->commands.size() > 0;
+}
+
+bool Session::refresh() { return impl_->snapshots.refresh(); }
+const SessionSnapshot& Session::snapshot() const { return impl_->snapshots.front(); }
+std::size_t Session::backlog() const { return impl_->backlog.size(); }
+
+void Session::settle() {
+    do {
+        impl_->take_commands(0xffff'ffffu);
+    } while (collect());
+    impl_->loop.settle();
+}
+
+TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
+    TickStatus status = 0;
+    {
+        const TraceScope scope(trace, TickStage::take_commands);
+        if (impl_->take_commands(impl_->settings.commands_per_tick) == impl_->settings.commands_per_tick) {
+            status |= session_commands_waiting;
+        }
+    }
+    return status | impl_->loop.tick(now, trace);
+}
+
+}  // namespace tactus

@@ -1,0 +1,99 @@
+// One scenario, wired up: bodies, proxies, devices and a recorder around the tick (design: one tick of 1 ms).
+//
+// Threads: a session has two sides. The *owner* side belongs to one thread (in Godot the main thread): it adds, changes
+// and removes, and reads snapshots. The *loop* side is tick(), called by one thread at a time: the haptic thread in
+// real time, or the owner itself in virtual time. The two meet in rings and a triple buffer only; neither ever waits
+// for the other. Objects that leave the loop come back through a ring and are destroyed on the owner side.
+//
+// A session reads no clock: the same calls with the same times give the same bits.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/ports/device.hpp"
+#include "realtime/recorder_ring.hpp"
+#include "realtime/tick_status.hpp"
+#include "realtime/tick_trace.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+struct BodyAddition {
+    BodyDescription description;
+    // What the proxy touches, in the body's frame; empty: the description's own shapes.
+    std::vector<PlacedShape> touch_shapes;
+    TouchMaterial touch_material;
+};
+
+struct AddResult {
+    SessionHandle handle = no_handle;
+    std::string error;  // what is wrong and what to do; empty where the handle is valid
+};
+
+
+class Session {
+public:
+    explicit Session(const SessionSettings& settings);
+    ~Session();
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    const SessionSettings& settings() const;
+
+    // --- owner side -------------------------------------------------------------------------------------------------
+
+    // Builds the triangle tree and the rigid body here, then hands them to the loop. Nothing is added on an error.
+    AddResult add_body(const BodyAddition& addition);
+    void remove_body(SessionHandle body);
+    // Where the body is from the next tick on, without a way there: nothing is pushed.
+    void teleport_body(SessionHandle body, const Pose& pose);
+    // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
+    void move_body(SessionHandle body, const Pose& pose, double seconds);
+    void set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular);
+    void set_touch_material(SessionHandle body, const TouchMaterial& material);
+    void set_body_layers(SessionHandle body, const CollisionLayers& layers);
+    void set_body_motion(SessionHandle body, Motion motion);
+    void set_body_surface(SessionHandle body, const SurfaceMaterial& surface);
+    void set_body_gravity_scale(SessionHandle body, double scale);
+    void set_body_damping(SessionHandle body, double linear, double angular);
+    void set_gravity(const Vec3& gravity);
+
+    // The device must live until remove_device has been carried out: see collect().
+    AddResult add_device(Device& device, const Workspace& workspace);
+    void set_workspace(SessionHandle device, const Workspace& workspace);
+    void remove_device(SessionHandle device);
+
+    AddResult add_proxy(const ProxyDescription& description);
+    void set_proxy(SessionHandle proxy, const ProxyDescription& description);
+    void remove_proxy(SessionHandle proxy);
+
+    // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner drains. One
+    // recording at a time; null stops. The ring must live until the change has been carried out.
+    void record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object);
+
+    // Destroys what the loop has given back; call it now and then, as each of Godot's frames does. True while commands
+    // are still on their way to the loop.
+    bool collect();
+
+    // Takes the newest snapshot; false where there is none since the last call.
+    bool refresh();
+    const SessionSnapshot& snapshot() const;
+
+    // Commands that found the ring full and wait on the owner side; collect() sends them on.
+    std::size_t backlog() const;
+
+    // Before the loop starts, on the owner's thread: carries out everything sent so far at once.
+    void settle();
+
+    // --- loop side --------------------------------------------------------------------------------------------------
+
+    // One tick at `now`, a time that rises by the period. `trace` may be null.
+    TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace tactus

@@ -1,0 +1,201 @@
+// How the loop carries out each command of the owner.
+#include <algorithm>
+#include <cmath>
+
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+bool SessionLoop::take(Command& command, Retired& retired) {
+    return std::visit([&](auto& c) { return carry_out(c, retired); }, command);
+}
+
+SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
+    return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
+}
+
+// Enters the touch scene and the physics world together, or neither.
+bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
+    const auto give_back = [&] {
+        status_ |= session_full;
+        retired = {Retired::Kind::body, c.handle, std::move(c.body), std::move(c.shape), nullptr};
+        return true;
+    };
+    const BodyId id = physics_.add(c.body);
+    if (!id.valid()) {
+        return give_back();
+    }
+    const int slot = scene_.add(*c.shape, c.pose, c.material, c.layer);
+    if (slot < 0) {
+        c.body = physics_.remove(id);
+        return give_back();
+    }
+    bodies_[c.handle] = {id, slot, std::move(c.shape), c.motion, {}, 0};
+    handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
+    handle_of_id_[id.index()] = c.handle;
+    if (c.motion != Motion::Static) {
+        state_of_[c.handle] = static_cast<std::uint32_t>(states_.size());
+        states_.push_back({c.handle, c.pose, physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
+        states_changed_at_ = tick_ + 1;
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
+    Body* const removed = body(c.handle);
+    if (!removed) {
+        return false;
+    }
+    end_travel(c.handle);
+    scene_.remove(removed->slot);
+    handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
+    handle_of_id_[removed->id.index()] = no_handle;
+    if (const std::uint32_t state = std::exchange(state_of_[c.handle], no_handle); state != no_handle) {
+        states_[state] = states_.back();
+        states_.pop_back();
+        if (state < states_.size()) {
+            state_of_[states_[state].handle] = state;
+        }
+        states_changed_at_ = tick_ + 1;
+    }
+    retired = {Retired::Kind::body, c.handle, physics_.remove(removed->id), std::move(removed->shape), nullptr};
+    *removed = {};
+    return true;
+}
+
+bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
+    if (Body* const moved = body(c.handle)) {
+        end_travel(c.handle);
+        physics_.set_pose(moved->id, c.pose);
+        place(c.handle, c.pose, true);
+    }
+    return false;
+}
+
+void SessionLoop::start_travel(SessionHandle handle, const Pose& target, double seconds) {
+    Body& moved = bodies_[handle];
+    if (moved.ticks_left == 0 && std::ranges::find(travelling_, handle) == travelling_.end()) {
+        travelling_.push_back(handle);
+    }
+    moved.target = target;
+    moved.ticks_left = std::max(1, static_cast<int>(std::lround(seconds / seconds_)));
+}
+
+void SessionLoop::end_travel(SessionHandle handle) {
+    bodies_[handle].ticks_left = 0;
+    std::erase(travelling_, handle);
+}
+
+bool SessionLoop::carry_out(command::MoveBody& c, Retired&) {
+    if (body(c.handle)) {
+        start_travel(c.handle, c.pose, c.seconds);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
+    if (const Body* const changed = body(c.handle)) {
+        physics_.set_velocity(changed->id, c.linear, c.angular);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired&) {
+    if (const Body* const changed = body(c.handle)) {
+        scene_.set_material(changed->slot, c.material);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodySurface& c, Retired&) {
+    if (const Body* const changed = body(c.handle)) {
+        physics_.set_material(changed->id, c.surface);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyLayers& c, Retired&) {
+    if (const Body* const changed = body(c.handle)) {
+        physics_.set_collision(changed->id, c.layers);
+        scene_.set_layer(changed->slot, c.layers.layer);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
+    if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
+        end_travel(c.handle);
+        changed->motion = c.motion;
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyGravityScale& c, Retired&) {
+    if (const Body* const changed = body(c.handle)) {
+        physics_.set_gravity_scale(changed->id, c.scale);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
+    if (const Body* const changed = body(c.handle)) {
+        physics_.set_damping(changed->id, c.linear, c.angular);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetGravity& c, Retired&) {
+    physics_.set_gravity(c.gravity);
+    return false;
+}
+
+bool SessionLoop::carry_out(command::AddDevice& c, Retired&) {
+    devices_[c.handle] = {};
+    devices_[c.handle].device = c.device;
+    devices_[c.handle].workspace = c.workspace;
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
+    devices_[c.handle].workspace = c.workspace;
+    return false;
+}
+
+bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
+    devices_[c.handle] = {};
+    retired = {Retired::Kind::device, c.handle, {}, nullptr, nullptr};
+    return true;
+}
+
+bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
+    proxies_[c.handle] = {std::move(c.proxy), c.description, Vec3(0.0), {}};
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
+    ProxySlot& changed = proxies_[c.handle];
+    if (changed.proxy) {
+        if (changed.description.device != c.description.device ||
+            changed.description.settings.radius != c.description.settings.radius) {
+            changed.proxy->restart();
+        }
+        changed.description = c.description;
+        changed.proxy->set_settings(c.description.settings);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
+    retired = {Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy)};
+    proxies_[c.handle] = {};
+    return true;
+}
+
+bool SessionLoop::carry_out(command::Record& c, Retired&) {
+    recording_ = c.ring;
+    recorded_proxy_ = c.proxy;
+    recorded_object_ = c.object;
+    return false;
+}
+
+}  // namespace tactus

@@ -1,0 +1,114 @@
+// What crosses from the owner of a session to its loop, and what comes back to be destroyed. Private to session/.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "core/ports/device.hpp"
+#include "realtime/recorder_ring.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus::command {
+
+struct AddBody {
+    SessionHandle handle;
+    PreparedBody body;
+    std::shared_ptr<const TouchShape> shape;
+    TouchMaterial material;
+    std::uint32_t layer;
+    Pose pose;
+    Motion motion;
+};
+struct RemoveBody {
+    SessionHandle handle;
+};
+struct TeleportBody {
+    SessionHandle handle;
+    Pose pose;
+};
+struct MoveBody {
+    SessionHandle handle;
+    Pose pose;
+    double seconds;
+};
+struct SetBodyVelocity {
+    SessionHandle handle;
+    Vec3 linear, angular;
+};
+struct SetTouchMaterial {
+    SessionHandle handle;
+    TouchMaterial material;
+};
+struct SetBodySurface {
+    SessionHandle handle;
+    SurfaceMaterial surface;
+};
+struct SetBodyLayers {
+    SessionHandle handle;
+    CollisionLayers layers;
+};
+struct SetBodyMotion {
+    SessionHandle handle;
+    Motion motion;
+};
+struct SetBodyGravityScale {
+    SessionHandle handle;
+    double scale;
+};
+struct SetBodyDamping {
+    SessionHandle handle;
+    double linear, angular;
+};
+struct SetGravity {
+    Vec3 gravity;
+};
+struct AddDevice {
+    SessionHandle handle;
+    Device* device;
+    Workspace workspace;
+};
+struct SetWorkspace {
+    SessionHandle handle;
+    Workspace workspace;
+};
+struct RemoveDevice {
+    SessionHandle handle;
+};
+struct AddProxy {
+    SessionHandle handle;
+    std::unique_ptr<Proxy> proxy;
+    ProxyDescription description;
+};
+struct SetProxy {
+    SessionHandle handle;
+    ProxyDescription description;
+};
+struct RemoveProxy {
+    SessionHandle handle;
+};
+struct Record {
+    RecorderRing<SessionRecord>* ring;
+    SessionHandle proxy, object;
+};
+
+}  // namespace tactus::command
+
+namespace tactus {
+
+using Command =
+    std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
+                 command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
+                 command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetGravity,
+                 command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy,
+                 command::SetProxy, command::RemoveProxy, command::Record>;
+
+// What has left the loop. Its handle may be given out again once the owner has seen this.
+struct Retired {
+    enum class Kind { body, device, proxy } kind = Kind::body;
+    SessionHandle handle = no_handle;
+    PreparedBody body;
+    std::shared_ptr<const TouchShape> shape;
+    std::unique_ptr<Proxy> proxy;
+};
+
+}  // namespace tactus

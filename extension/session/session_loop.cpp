@@ -1,0 +1,293 @@
+#include "session/session_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+namespace tactus {
+
+namespace {
+
+PhysicsSettings with_room(const SessionSettings& settings) {
+    PhysicsSettings physics = settings.physics;
+    physics.max_bodies = settings.most_bodies;
+    return physics;
+}
+
+// The pose that is one of `ticks` equal parts of the way on.
+Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
+    const double share = 1.0 / ticks;
+    return {from.position + (to.position - from.position) * share, glm::slerp(from.rotation, to.rotation, share)};
+}
+
+Vec3 into_scene(const Workspace& workspace, const Vec3& point) {
+    return to_parent(workspace.pose, workspace.scale * point);
+}
+
+}  // namespace
+
+SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots)
+    : settings_(settings),
+      seconds_(to_seconds(settings.period)),
+      snapshots_(snapshots),
+      scene_(settings.most_bodies, settings.most_parts),
+      physics_(with_room(settings)),
+      bodies_(settings.most_bodies),
+      handle_of_slot_(settings.most_bodies, no_handle),
+      handle_of_id_(settings.most_bodies, no_handle),
+      state_of_(settings.most_bodies, no_handle) {
+    travelling_.reserve(settings.most_bodies);
+    awake_before_.reserve(settings.most_bodies);
+    awake_.reserve(settings.most_bodies);
+    states_.reserve(settings.most_bodies);
+}
+
+TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
+    ++tick_;
+    scene_.begin_tick();
+    follow_physics();
+    travel();
+    {
+        const TraceScope scope(trace, TickStage::read_device);
+        read_devices(now);
+    }
+    {
+        const TraceScope scope(trace, TickStage::move_proxy);
+        for (ProxySlot& slot : proxies_) {
+            if (slot.proxy) {
+                touch(slot);
+            }
+        }
+    }
+    {
+        const TraceScope scope(trace, TickStage::write_device);
+        write_devices(now);
+    }
+    {
+        const TraceScope scope(trace, TickStage::step_physics);
+        step_physics();
+    }
+    {
+        const TraceScope scope(trace, TickStage::publish_snapshot);
+        publish(now);
+    }
+    if (recording_) {
+        const TraceScope scope(trace, TickStage::append_record);
+        append_record(now);
+    }
+    return std::exchange(status_, 0u);
+}
+
+void SessionLoop::place(SessionHandle handle, const Pose& pose, bool teleport) {
+    const Body& placed = bodies_[handle];
+    scene_.set_pose(placed.slot, pose, teleport);
+    if (state_of_[handle] != no_handle) {
+        BodyState& state = states_[state_of_[handle]];
+        state.pose = pose;
+        state.linear_velocity = physics_.linear_velocity(placed.id);
+        state.angular_velocity = physics_.angular_velocity(placed.id);
+        state.changed_at = tick_;
+    }
+}
+
+// Brings what moved in the last step into the scene: what was awake before it, and what it woke.
+void SessionLoop::follow_physics() {
+    const auto follow = [this](const std::vector<BodyId>& ids) {
+        for (const BodyId id : ids) {
+            const SessionHandle handle = handle_of_id_[id.index()];
+            if (handle != no_handle && bodies_[handle].id == id) {
+                place(handle, physics_.pose(id), false);
+            }
+        }
+    };
+    follow(awake_before_);
+    awake_.resize(awake_.capacity());
+    awake_.resize(physics_.awake_bodies(awake_));
+    follow(awake_);
+}
+
+// Ways that the owner asked for. A kinematic body gets the velocity that takes it one tick further, so that it pushes;
+// a static one is simply put there.
+void SessionLoop::travel() {
+    for (std::size_t i = 0; i < travelling_.size();) {
+        const SessionHandle handle = travelling_[i];
+        Body& moving = bodies_[handle];
+        const Pose pose = moving.ticks_left > 1
+                              ? part_of_the_way(scene_.body(moving.slot).pose, moving.target, moving.ticks_left)
+                              : moving.target;
+        if (moving.motion == Motion::Kinematic) {
+            if (moving.ticks_left > 0) {
+                physics_.move_to(moving.id, pose, seconds_);
+            } else {
+                physics_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
+            }
+        } else if (moving.ticks_left > 0) {
+            physics_.set_pose(moving.id, pose);
+            place(handle, pose, false);
+        }
+        // A kinematic body needs one tick more: the last step's velocity has to be taken from it.
+        if (moving.ticks_left-- > (moving.motion == Motion::Kinematic ? 0 : 1)) {
+            ++i;
+            continue;
+        }
+        moving.ticks_left = 0;
+        travelling_[i] = travelling_.back();
+        travelling_.pop_back();
+    }
+}
+
+void SessionLoop::read_devices(Nanoseconds now) {
+    for (DeviceSlot& slot : devices_) {
+        if (!slot.device) {
+            continue;
+        }
+        slot.sample = slot.device->read(now);
+        const Vec3 before = slot.hand;
+        const Vec3 reached = into_scene(slot.workspace, slot.sample.position);
+        if (slot.workspace.clutch && slot.was_held) {
+            slot.clutch_offset = before - reached;
+        }
+        slot.was_held = slot.workspace.clutch;
+        slot.hand = reached + slot.clutch_offset;
+        slot.hand_velocity = slot.workspace.clutch
+                                 ? Vec3(0.0)
+                                 : direction_to_parent(slot.workspace.pose, slot.sample.velocity * slot.workspace.scale);
+        slot.force = Vec3(0.0);
+    }
+}
+
+void SessionLoop::touch(ProxySlot& slot) {
+    if (!slot.description.enabled || slot.description.device >= most_devices ||
+        !devices_[slot.description.device].device) {
+        slot.force = Vec3(0.0);
+        slot.proxy->restart();
+        slot.state = {};
+        return;
+    }
+    DeviceSlot& device = devices_[slot.description.device];
+    const ProxyTick tick = slot.proxy->move(scene_, device.hand);
+    HandForce force = contact_force(scene_, slot.proxy->touching(), tick.slide, device.hand_velocity, seconds_);
+    if (slot.description.force_law == ForceLaw::smoothed) {
+        smooth(force, slot.force);
+    }
+    slot.force = force.total;
+    device.force += force.total;
+    status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
+    press_bodies(force);
+    describe(slot, tick, force);
+}
+
+// The opposite of what the hand feels goes to what it touches, where it touches it.
+void SessionLoop::press_bodies(const HandForce& force) {
+    for (int i = 0; i < force.contact_count; ++i) {
+        const ContactForce& part = force.contacts[i];
+        const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(part.body)]];
+        if (pressed.motion == Motion::Dynamic) {
+            physics_.apply_force(pressed.id, -part.on_hand, part.point);
+        }
+    }
+}
+
+void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick, const HandForce& force) {
+    ProxyState& state = slot.state;
+    state.position = tick.position;
+    state.hand = devices_[slot.description.device].hand;
+    state.force = force.total;
+    state.residual = tick.residual;
+    state.status = tick.status;
+    state.contact_count = 0;
+    for (const Contact& contact : slot.proxy->touching()) {
+        if (state.contact_count == HandForce::most_contacts) {
+            break;
+        }
+        const auto i = static_cast<std::size_t>(state.contact_count++);
+        state.bodies[i] = handle_of_slot_[static_cast<std::size_t>(contact.body)];
+        state.points[i] = contact.point;
+        state.normals[i] = contact.normal;
+    }
+}
+
+void SessionLoop::write_devices(Nanoseconds now) {
+    for (DeviceSlot& slot : devices_) {
+        if (!slot.device) {
+            continue;
+        }
+        const Vec3 limited = limited_force(slot.force, slot.workspace.force_limit);
+        status_ |= limited != slot.force ? static_cast<TickStatus>(session_force_limited) : 0u;
+        slot.force = limited;
+        slot.device->write(now, direction_to_local(slot.workspace.pose, limited));
+    }
+}
+
+void SessionLoop::step_physics() {
+    awake_before_.resize(awake_before_.capacity());
+    awake_before_.resize(physics_.awake_bodies(awake_before_));
+    if (awake_before_.empty()) {
+        return;
+    }
+    const std::uint32_t step = physics_.step(seconds_);
+    status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
+    status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
+    status_ |= step & step_memory_full ? static_cast<TickStatus>(session_step_memory_full) : 0u;
+}
+
+void SessionLoop::publish(Nanoseconds now) {
+    SessionSnapshot& out = snapshots_.back();
+    // The slot holds an older snapshot: only bodies that changed since then are written, or all where some came or went.
+    const std::uint64_t known = states_changed_at_ >= out.tick ? 0 : out.tick;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+        if (states_[i].changed_at >= known) {
+            out.bodies[i] = states_[i];
+        }
+    }
+    out.body_count = states_.size();
+    out.tick = tick_;
+    out.time = now;
+    out.awake_bodies = awake_before_.size();
+    out.proxy_count = 0;
+    for (std::size_t i = 0; i < proxies_.size(); ++i) {
+        if (proxies_[i].proxy) {
+            proxies_[i].state.handle = static_cast<SessionHandle>(i);
+            out.proxies[out.proxy_count++] = proxies_[i].state;
+        }
+    }
+    out.device_count = 0;
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        const DeviceSlot& slot = devices_[i];
+        if (slot.device) {
+            out.devices[out.device_count++] = {static_cast<SessionHandle>(i),
+                                               slot.hand,
+                                               slot.workspace.pose.rotation * slot.sample.rotation,
+                                               slot.hand_velocity,
+                                               slot.force,
+                                               slot.sample.buttons,
+                                               slot.sample.connected};
+        }
+    }
+    snapshots_.publish();
+}
+
+void SessionLoop::append_record(Nanoseconds now) {
+    if (recorded_proxy_ >= most_proxies || !proxies_[recorded_proxy_].proxy) {
+        return;
+    }
+    const ProxyState& state = proxies_[recorded_proxy_].state;
+    SessionRecord row;
+    row.time = now;
+    row.proxy = recorded_proxy_;
+    row.hand = state.hand;
+    row.proxy_position = state.position;
+    row.force = state.force;
+    row.proxy_status = state.status;
+    row.contacts = static_cast<std::uint32_t>(state.contact_count);
+    if (const Body* object = body(recorded_object_)) {
+        row.object_position = scene_.body(object->slot).pose.position;
+        row.object_rotation = scene_.body(object->slot).pose.rotation;
+    }
+    if (!recording_->append(row)) {
+        status_ |= session_record_lost;
+    }
+}
+
+}  // namespace tactus

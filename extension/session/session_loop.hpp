@@ -1,0 +1,115 @@
+// The loop's half of a session: the tick and everything that only the ticking thread touches. Private to session/.
+//
+// All memory is taken in the constructor. Nothing here allocates, locks, throws, logs or reads a clock.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/haptics/touch_scene.hpp"
+#include "realtime/tick_trace.hpp"
+#include "realtime/triple_buffer.hpp"
+#include "session/session_commands.hpp"
+
+namespace tactus {
+
+class SessionLoop {
+public:
+    SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
+
+    // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is something.
+    bool take(Command& command, Retired& retired);
+
+    // After the first bodies have come in and before the first tick.
+    void settle() { physics_.settle_broad_phase(); }
+
+    TickStatus tick(Nanoseconds now, TickTrace* trace);
+
+private:
+    struct Body {
+        BodyId id;
+        int slot = -1;  // in the touch scene; -1: not in the loop
+        std::shared_ptr<const TouchShape> shape;
+        Motion motion = Motion::Static;
+        // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
+        Pose target;
+        int ticks_left = 0;
+    };
+
+    struct DeviceSlot {
+        Device* device = nullptr;
+        Workspace workspace;
+        DeviceSample sample;
+        Vec3 clutch_offset{0.0};  // in the world: what the clutch has taken out so far (unit: meters)
+        Vec3 hand{0.0};           // in the world (unit: meters)
+        Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
+        Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
+        bool was_held = false;
+    };
+
+    struct ProxySlot {
+        std::unique_ptr<Proxy> proxy;
+        ProxyDescription description;
+        Vec3 force{0.0};  // on the hand, in the world (unit: newtons)
+        ProxyState state;
+    };
+
+    bool carry_out(command::AddBody& c, Retired& retired);
+    bool carry_out(command::RemoveBody& c, Retired& retired);
+    bool carry_out(command::TeleportBody& c, Retired&);
+    bool carry_out(command::MoveBody& c, Retired&);
+    bool carry_out(command::SetBodyVelocity& c, Retired&);
+    bool carry_out(command::SetTouchMaterial& c, Retired&);
+    bool carry_out(command::SetBodySurface& c, Retired&);
+    bool carry_out(command::SetBodyLayers& c, Retired&);
+    bool carry_out(command::SetBodyMotion& c, Retired&);
+    bool carry_out(command::SetBodyGravityScale& c, Retired&);
+    bool carry_out(command::SetBodyDamping& c, Retired&);
+    bool carry_out(command::SetGravity& c, Retired&);
+    bool carry_out(command::AddDevice& c, Retired&);
+    bool carry_out(command::SetWorkspace& c, Retired&);
+    bool carry_out(command::RemoveDevice& c, Retired& retired);
+    bool carry_out(command::AddProxy& c, Retired&);
+    bool carry_out(command::SetProxy& c, Retired&);
+    bool carry_out(command::RemoveProxy& c, Retired& retired);
+    bool carry_out(command::Record& c, Retired&);
+
+    Body* body(SessionHandle handle);
+    void start_travel(SessionHandle handle, const Pose& target, double seconds);
+    void end_travel(SessionHandle handle);
+    void travel();
+    void follow_physics();
+    void place(SessionHandle handle, const Pose& pose, bool teleport);
+    void read_devices(Nanoseconds now);
+    void touch(ProxySlot& slot);
+    void press_bodies(const HandForce& force);
+    void write_devices(Nanoseconds now);
+    void step_physics();
+    void publish(Nanoseconds now);
+    void append_record(Nanoseconds now);
+    void describe(ProxySlot& slot, const ProxyTick& tick, const HandForce& force);
+
+    SessionSettings settings_;
+    double seconds_;  // of a tick
+    TripleBuffer<SessionSnapshot>& snapshots_;
+    TouchScene scene_;
+    PhysicsWorld physics_;
+    std::vector<Body> bodies_;                   // by handle
+    std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
+    std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
+    std::vector<SessionHandle> travelling_;
+    std::vector<BodyId> awake_before_;
+    std::vector<BodyId> awake_;
+    std::vector<BodyState> states_;  // of all bodies that are not static, dense
+    std::vector<std::uint32_t> state_of_;  // by handle; no_handle: none
+    std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
+    std::array<DeviceSlot, most_devices> devices_;
+    std::array<ProxySlot, most_proxies> proxies_;
+    RecorderRing<SessionRecord>* recording_ = nullptr;
+    SessionHandle recorded_proxy_ = no_handle;
+    SessionHandle recorded_object_ = no_handle;
+    std::uint64_t tick_ = 0;
+    TickStatus status_ = 0;
+};
+
+}  // namespace tactus

@@ -1,0 +1,39 @@
+"""Where nodes/ finds the godot-cpp API: an installed godot-cpp, or binding/ with its generated part."""
+
+import hashlib
+import subprocess
+import sys
+from pathlib import Path
+
+BINDING = Path("extension/binding")
+
+
+def installed(prefix, target):
+    libraries = sorted(Path(prefix, "lib").glob(f"libgodot-cpp.linux.{target}.*.a")) or sorted(
+        Path(prefix, "lib").glob("libgodot-cpp*.a")
+    )
+    if not libraries:
+        raise RuntimeError(f"{prefix}/lib has no libgodot-cpp*.a")
+    return Path(prefix, "include"), libraries[0]
+
+
+def defines(target):
+    """What godot-cpp's headers expect, for the same layout as in its library."""
+    common = ["LINUX_ENABLED", "UNIX_ENABLED", "GDEXTENSION"]
+    return common + (["DEBUG_ENABLED", "HOT_RELOAD_ENABLED"] if target == "template_debug" else [])
+
+
+def generated(api):
+    """Runs the generator when the engine's API, the generator or the classes in use have changed."""
+    output = Path("build/binding")
+    inputs = [api / "extension_api.json", api / "gdextension_interface.h", *sorted(BINDING.rglob("*.py"))]
+    inputs += sorted(BINDING.glob("*.txt"))
+    inputs += sorted(path for folder in ("nodes", "binding") for path in Path("extension", folder).rglob("*.[hc]pp"))
+    digest = hashlib.sha256()
+    for path in inputs:
+        digest.update(str(path).encode() + b"\0" + path.read_bytes())
+    stamp = output / ".done"
+    if not stamp.is_file() or stamp.read_text() != digest.hexdigest():
+        subprocess.run([sys.executable, BINDING / "generate.py", "--api", api, "--output", output], check=True)
+        stamp.write_text(digest.hexdigest())
+    return output / "include", sorted(str(path) for path in (output / "src").rglob("*.cpp"))

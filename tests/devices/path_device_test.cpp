@@ -1,0 +1,30 @@
+#include "devices/path_device.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds ms = 1'000'000;
+
+TEST(PathDevice, ItsPathBeginsWithTheFirstTick) {
+    PathDevice device(CircleWave{});
+    EXPECT_EQ(device.read(77'777 * ms).position, sample_path(CircleWave{}, 0).position);
+    const DeviceSample later = device.read(77'777 * ms + 1'500 * ms);
+    EXPECT_EQ(later.position, sample_path(CircleWave{}, 1'500 * ms).position);
+    EXPECT_EQ(later.velocity, sample_path(CircleWave{}, 1'500 * ms).velocity);
+}
+
+TEST(PathDevice, IsAlwaysConnectedAndFeelsNothing) {
+    PathDevice device(CircleWave{});
+    PathDevice pushed(CircleWave{});
+    for (Nanoseconds t = 0; t < 100 * ms; t += ms) {
+        const DeviceSample free_hand = device.read(t);
+        EXPECT_TRUE(free_hand.connected);
+        EXPECT_EQ(free_hand.position, pushed.read(t).position);
+        pushed.write(t, Vec3(0.0, 100.0, 0.0));
+    }
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,44 @@
+extends Node
+## What a headless test extends. It is a branch of the tree of its own: what it adds below goes with it.
+
+## Why the test has failed, the first reason; empty while it has not.
+var failure := ""
+
+
+func check(condition: bool, why: String) -> void:
+	if not condition and failure.is_empty():
+		failure = why
+
+
+func check_equal(found: Variant, expected: Variant, what := "value") -> void:
+	check(
+		typeof(found) == typeof(expected) and found == expected, "%s is %s, not %s" % [what, found, expected]
+	)
+
+
+func check_near(found: Variant, expected: Variant, tolerance: float, what := "value") -> void:
+	var distance: float = (
+		abs(found - expected) if found is float or found is int else (found - expected).length()
+	)
+	check(distance <= tolerance, "%s is %s, not %s within %s" % [what, found, expected, tolerance])
+
+
+## Announces that a line of Godot's errors or warnings with this text belongs to the test.
+func expect_error(text: String) -> void:
+	print("EXPECT ", text)
+
+
+## Waits for frames of the main loop.
+func frames(count: int) -> void:
+	for _frame in count:
+		await get_tree().process_frame
+
+
+## Waits until the condition holds, at most for so long; says whether it did.
+func until(condition: Callable, seconds: float) -> bool:
+	var deadline := Time.get_ticks_msec() + int(seconds * 1000.0)
+	while not condition.call():
+		if Time.get_ticks_msec() > deadline:
+			return false
+		await get_tree().process_frame
+	return true

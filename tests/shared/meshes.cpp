@@ -1,0 +1,129 @@
+#include "shared/meshes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <random>
+
+namespace tactus::shared {
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+class Midpoints {
+public:
+    Midpoints(TriangleMesh& mesh, double radius) : mesh_(mesh), radius_(radius) {}
+
+    std::uint32_t between(std::uint32_t a, std::uint32_t b) {
+        const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(a, b);
+        const auto [place, added] = known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
+        if (added) {
+            mesh_.vertices.push_back(radius_ * glm::normalize(mesh_.vertices[a] + mesh_.vertices[b]));
+        }
+        return place->second;
+    }
+
+private:
+    TriangleMesh& mesh_;
+    double radius_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known_;
+};
+
+}  // namespace
+
+TriangleMesh icosphere(int levels, double radius) {
+    const double t = (1.0 + std::sqrt(5.0)) / 2.0;
+    TriangleMesh mesh;
+    for (const Vec3& v : {Vec3(-1, t, 0), Vec3(1, t, 0), Vec3(-1, -t, 0), Vec3(1, -t, 0), Vec3(0, -1, t), Vec3(0, 1, t),
+                          Vec3(0, -1, -t), Vec3(0, 1, -t), Vec3(t, 0, -1), Vec3(t, 0, 1), Vec3(-t, 0, -1),
+                          Vec3(-t, 0, 1)}) {
+        mesh.vertices.push_back(radius * glm::normalize(v));
+    }
+    mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    for (int level = 0; level < levels; ++level) {
+        Midpoints midpoints(mesh, radius);
+        std::vector<Triangle> finer;
+        finer.reserve(mesh.triangles.size() * 4);
+        for (const auto& [a, b, c] : mesh.triangles) {
+            const std::uint32_t ab = midpoints.between(a, b);
+            const std::uint32_t bc = midpoints.between(b, c);
+            const std::uint32_t ca = midpoints.between(c, a);
+            finer.insert(finer.end(), {Triangle{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+        }
+        mesh.triangles = std::move(finer);
+    }
+    return mesh;
+}
+
+TriangleMesh box(const Vec3& half) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) {
+        mesh.vertices.push_back(half * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+    }
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    return mesh;
+}
+
+TriangleMesh terrain(int cells, double size, double height) {
+    TriangleMesh mesh;
+    const int side = cells + 1;
+    for (int z = 0; z < side; ++z) {
+        for (int x = 0; x < side; ++x) {
+            const double u = static_cast<double>(x) / cells;
+            const double v = static_cast<double>(z) / cells;
+            const double hills = std::sin(9.0 * u + 1.0) * std::cos(7.0 * v) + 0.4 * std::sin(23.0 * u * v + 5.0 * v);
+            const double ripples = 0.05 * std::sin(160.0 * u) * std::sin(140.0 * v + 3.0 * u);
+            mesh.vertices.push_back({(u - 0.5) * size, height * (hills + ripples), (v - 0.5) * size});
+        }
+    }
+    for (int z = 0; z < cells; ++z) {
+        for (int x = 0; x < cells; ++x) {
+            const auto corner = static_cast<std::uint32_t>(z * side + x);
+            const auto row = static_cast<std::uint32_t>(side);
+            mesh.triangles.push_back({corner, corner + row, corner + 1});
+            mesh.triangles.push_back({corner + 1, corner + row, corner + row + 1});
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh groove(double angle, double length) {
+    TriangleMesh mesh;
+    const double lean = 0.5 * angle;
+    const Vec3 left(-std::sin(lean), std::cos(lean), 0.0);
+    const Vec3 right(std::sin(lean), std::cos(lean), 0.0);
+    const Vec3 along(0.0, 0.0, 0.5 * length);
+    mesh.vertices = {-along, along, length * left - along, length * left + along, length * right - along,
+                     length * right + along};
+    mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5}};
+    return mesh;
+}
+
+TriangleMesh soup(int count, double radius, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> spread(-1.0, 1.0);
+    const auto in_ball = [&] {
+        Vec3 p;
+        do {
+            p = {spread(random), spread(random), spread(random)};
+        } while (glm::length(p) > 1.0);
+        return radius * p;
+    };
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const Vec3 center = in_ball();
+        for (int k = 0; k < 3; ++k) {
+            mesh.vertices.push_back(center + 0.4 * in_ball());
+        }
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    return mesh;
+}
+
+}  // namespace tactus::shared

@@ -1,0 +1,24 @@
+// Meshes that tests and benches share. All lengths in metres.
+#pragma once
+
+#include "core/geometry/triangle_mesh.hpp"
+
+namespace tactus::shared {
+
+// A sphere around the origin: an icosahedron whose triangles are split in four `levels` times and pushed out to the
+// radius. 20 * 4^levels triangles.
+TriangleMesh icosphere(int levels, double radius);
+
+// Twelve triangles around the origin.
+TriangleMesh box(const Vec3& half_extents);
+
+// cells x cells squares of two triangles over [-size/2, size/2]^2 in x-z; smooth hills with fine ripples on top.
+TriangleMesh terrain(int cells, double size, double height);
+
+// Two walls that meet along the z axis at the origin, opening upwards with the given angle between them (radians).
+TriangleMesh groove(double angle, double length);
+
+// count triangles with corners in a ball of the given radius.
+TriangleMesh soup(int count, double radius, unsigned seed);
+
+}  // namespace tactus::shared

@@ -1,0 +1,39 @@
+"""./run bench [NAME] [--key=value …]: builds and runs tests/bench/NAME.cpp, which writes build/bench/NAME.json."""
+
+import os
+import subprocess
+import sys
+
+import build
+from setup import cache
+
+
+def names() -> list[str]:
+    return sorted(path.stem for path in (cache.clone() / "tests/bench").glob("*.cpp"))
+
+
+def main(arguments: list[str]) -> int:
+    chosen = [argument for argument in arguments if not argument.startswith("--")]
+    passed_on = [argument for argument in arguments if argument.startswith("--")]
+    unknown = sorted(set(chosen) - set(names()))
+    if unknown or (passed_on and len(chosen) != 1):
+        print(f"./run bench [NAME] [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
+        return 2
+    build.build("template_release", "benches")
+    output = cache.clone() / "build/bench"
+    output.mkdir(parents=True, exist_ok=True)
+    for name in chosen or names():
+        program = cache.clone() / "build/template_release/bench" / name
+        result = output / f"{name}.json"
+        print(f"== {name}", flush=True)
+        environment = os.environ | {"TACTUS_BENCH_JSON": str(result)}
+        code = subprocess.run([program, *passed_on], env=environment).returncode
+        if code != 0:
+            return code
+        if result.is_file():
+            print(f"   {result.relative_to(cache.clone())}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,21 @@
+"""Calls SCons."""
+
+import os
+import subprocess
+import sys
+
+from setup import cache
+from setup.steps import Step
+
+
+def step(target: str) -> Step:
+    # SCons itself knows what is up to date.
+    return Step(f"Build {target}", lambda: False, lambda: build(target, "libraries", "extension", "commands"))
+
+
+def build(target: str, *what: str) -> None:
+    command = [cache.venv_bin("scons"), "-s", f"-j{os.cpu_count() or 1}", f"target={target}", *what]
+    done = subprocess.run(command, cwd=cache.clone(), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        print(done.stdout, file=sys.stderr)
+        raise RuntimeError(f"the build of {target} failed")

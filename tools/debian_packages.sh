@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Makes sure of what must come from the system. Root: installs what is missing. Otherwise: says how, and stops with 2.
+set -euo pipefail
+
+missing=()
+needs() { # needs PACKAGE COMMAND…: the package is missing when the command fails
+    local package="$1"
+    shift
+    "$@" >/dev/null 2>&1 || missing+=("$package")
+}
+
+needs python3 test -x /usr/bin/python3
+needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
+needs ca-certificates test -e /etc/ssl/certs/ca-certificates.crt
+needs g++ command -v g++
+needs cargo command -v cargo
+needs libglm-dev test -e /usr/include/glm/glm.hpp
+needs libgtest-dev test -e /usr/include/gtest/gtest.h
+[ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
+
+[ ${#missing[@]} -gt 0 ] || exit 0
+install="apt-get install --yes --no-install-recommends ${missing[*]}"
+if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null; then
+    echo "Missing on this system: ${missing[*]}. On Debian:" >&2
+    echo "  sudo $install" >&2
+    exit 2
+fi
+
+started=$SECONDS
+printf '[system] Debian packages %s … ' "${missing[*]}"
+log="$(mktemp)"
+export DEBIAN_FRONTEND=noninteractive
+if ! { apt-get update && $install; } >"$log" 2>&1; then
+    echo failed
+    tail -n 20 "$log" >&2
+    exit 1
+fi
+rm -f "$log"
+echo "$((SECONDS - started)) s"

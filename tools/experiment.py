@@ -1,0 +1,40 @@
+"""./run experiment NAME [--key=value …]: calls run(options, output) of tools/experiments/NAME.py.
+
+`options` holds the keys and values as text, `output` is build/experiments/NAME, emptied before. run returns the flat
+summary, which is written to summary.json there.
+"""
+
+import importlib
+import json
+import sys
+
+from setup import cache
+
+
+def names() -> list[str]:
+    return sorted(path.stem for path in (cache.clone() / "tools/experiments").glob("[!_]*.py"))
+
+
+def main(arguments: list[str]) -> int:
+    if not arguments or arguments[0] not in names():
+        print(f"./run experiment NAME [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
+        return 2
+    name, *rest = arguments
+    malformed = [argument for argument in rest if not argument.startswith("--") or "=" not in argument]
+    if malformed:
+        print(f"not --key=value: {' '.join(malformed)}", file=sys.stderr)
+        return 2
+    options = dict(argument[2:].split("=", 1) for argument in rest)
+    output = cache.emptied(cache.clone() / "build/experiments" / name)
+    summary = importlib.import_module(f"experiments.{name}").run(options, output)
+    (output / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
+    print(f"build/experiments/{name}/summary.json")
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1:]))
+    except (RuntimeError, ValueError) as error:
+        print(error, file=sys.stderr)
+        sys.exit(1)

@@ -1,0 +1,65 @@
+"""Carries out one command of ./run, after the set-up that it still needs."""
+
+import sys
+
+import build
+import project
+from setup import cache, steps
+from setup.steps import Step
+
+
+def main(command: str, arguments: list[str]) -> int:
+    steps.run(needed(command))
+    return COMMANDS[command](arguments)
+
+
+def needed(command: str) -> list[Step]:
+    plan = steps.dependencies()
+    debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
+    if command == "bench":
+        return plan
+    if command in ("setup", "export"):
+        return [*plan, steps.export_template(), debug, release, imported]
+    return [*plan, debug, imported]
+
+
+def setup(_: list[str]) -> int:
+    print(f"All there. What was fetched and built outside the clone is in {cache.root()}.")
+    return 0
+
+
+def demo(_: list[str]) -> int:
+    return experiment(["scenario1"]) or cache.run_tool("report.py")
+
+
+def test(arguments: list[str]) -> int:
+    return cache.run_tool("testing/run_tests.py", *arguments)
+
+
+def bench(arguments: list[str]) -> int:
+    return cache.run_tool("bench.py", *arguments)
+
+
+def experiment(arguments: list[str]) -> int:
+    return cache.run_tool("experiment.py", *arguments)
+
+
+def edit(_: list[str]) -> int:
+    return project.run("--editor")
+
+
+def app(arguments: list[str]) -> int:
+    return project.run(*arguments)
+
+
+def export(_: list[str]) -> int:
+    return project.export()
+
+
+COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, edit, app, export)}
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main(sys.argv[1], sys.argv[2:]))
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -1,0 +1,69 @@
+"""The demo project in Godot: import, editor, scene, export."""
+
+import hashlib
+import subprocess
+import sys
+from pathlib import Path
+
+from setup import cache, display, godot
+from setup.steps import Step
+
+FOLDER = cache.clone() / "demo_project"
+EXTENSION_LIST = FOLDER / ".godot/extension_list.cfg"
+
+
+def import_step() -> Step:
+    return Step("Import the project", _is_imported, import_resources)
+
+
+def import_resources() -> None:
+    # The first scan would meet the scenes before the extension whose classes they use.
+    EXTENSION_LIST.parent.mkdir(exist_ok=True)
+    EXTENSION_LIST.write_text("res://addons/tactus/tactus.gdextension\n")
+    done = subprocess.run(
+        [str(godot.command()), "--headless", "--path", FOLDER, "--import"],
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    if done.returncode != 0:
+        print(done.stdout, file=sys.stderr)
+        raise RuntimeError("Godot could not import the project")
+    _stamp().write_text(_content())
+
+
+def _is_imported() -> bool:
+    return _stamp().is_file() and _stamp().read_text() == _content()
+
+
+def _stamp() -> Path:
+    return FOLDER / ".godot/imported_content"
+
+
+def _content() -> str:
+    """Names, sizes and times of what Godot imports."""
+    digest = hashlib.sha256(str(godot.command()).encode())
+    for path in sorted(FOLDER.rglob("*")):
+        if path.is_file() and ".godot" not in path.parts:
+            status = path.stat()
+            digest.update(f"{path}\0{status.st_size}\0{status.st_mtime_ns}\n".encode())
+    return digest.hexdigest()
+
+
+def run(*arguments: str) -> int:
+    """Godot on the project, in a window; without a screen, in a virtual one."""
+    with display.environment() as environment:
+        command = [str(godot.command()), "--path", str(FOLDER), *arguments]
+        return subprocess.run(command, env=environment).returncode
+
+
+def export() -> int:
+    target = cache.clone() / "build/export/tactus.x86_64"
+    cache.emptied(target.parent)
+    command = [str(godot.command()), "--headless", "--path", FOLDER, "--export-release", "Linux", target]
+    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode != 0 or not target.is_file():
+        print(done.stdout, file=sys.stderr)
+        return 1
+    print(f"{target.relative_to(cache.clone())} runs on its own")
+    return 0

@@ -1,0 +1,49 @@
+"""Where Tactus keeps what it fetched and built outside the clone, and when such a thing counts as done."""
+
+import hashlib
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+
+def root() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(base) / "tactus"
+
+
+def clone() -> Path:
+    return Path(__file__).resolve().parents[2]
+
+
+def venv_bin(name: str) -> Path:
+    return root() / "venv" / "bin" / name
+
+
+def digest(*parts: str) -> str:
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+def is_done(folder: Path, key: str) -> bool:
+    """A folder counts only when its stamp, which is written last, names the same content."""
+    stamp = folder / ".done"
+    return stamp.is_file() and stamp.read_text() == key
+
+
+def mark_done(folder: Path, key: str) -> None:
+    partial = folder / ".done.partial"
+    partial.write_text(key)
+    partial.rename(folder / ".done")
+
+
+def emptied(folder: Path) -> Path:
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    return folder
+
+
+def run_tool(script: str, *arguments: str) -> int:
+    """A script of tools/ with the packages of the virtual environment."""
+    path = clone() / "tools"
+    environment = os.environ | {"PYTHONPATH": str(path), "PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.run([venv_bin("python"), path / script, *arguments], env=environment).returncode

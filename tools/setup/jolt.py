@@ -1,0 +1,147 @@
+"""Jolt: its source through cargo, and the part of it that rigid bodies need as a static library in the cache."""
+
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import cache
+
+CRATE = "oxijolt-sys"
+CRATE_SHA256 = "95f28c731530e7ad84db2bc94c787c41fb868089b1fd03b5aaa244bfe3e46b38"
+VERSION = "5.6.0"
+
+# What includes Jolt must be compiled with the same definitions: they change the layout of its classes.
+DEFINES = ["JPH_NO_DEBUG", "JPH_DOUBLE_PRECISION", "JPH_CROSS_PLATFORM_DETERMINISTIC", "JPH_OBJECT_LAYER_BITS=16"]
+FLAGS = [
+    "-std=c++20", "-O3", "-march=x86-64-v3", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti",
+    "-fPIC", "-fvisibility=hidden",
+]  # fmt: skip
+CHUNKS = 4  # translation units: headers are read once for each of them
+
+LEFT_OUT = re.compile(
+    r"Compute/|Shaders/|Renderer/|Skeleton/|ObjectStream/ObjectStream|Physics/(Hair|Vehicle|Ragdoll|Character)/"
+    r"|RegisterTypes\.cpp|PhysicsScene\.cpp|BroadPhaseBruteForce\.cpp|DeterminismLog\.cpp"
+)
+
+
+@dataclass
+class Jolt:
+    include: Path
+    library: Path
+    defines: list[str]
+
+
+def installed() -> Jolt | None:
+    """A Jolt built elsewhere: JOLT_PREFIX, and in JOLT_DEFINES the JPH_ definitions it was built with."""
+    prefix = os.environ.get("JOLT_PREFIX")
+    if not prefix:
+        return None
+    jolt = Jolt(Path(prefix) / "include", Path(prefix) / "lib/libJolt.a", shlex.split(os.environ.get("JOLT_DEFINES", "")))
+    if not jolt.library.is_file() or not (jolt.include / "Jolt/Jolt.h").is_file():
+        raise RuntimeError(f"JOLT_PREFIX={prefix} has no include/Jolt/Jolt.h or no lib/libJolt.a")
+    return jolt
+
+
+def ready() -> Jolt | None:
+    own = installed()
+    if own:
+        return own
+    source = _source_folder()
+    if not cache.is_done(source, CRATE_SHA256):
+        return None
+    folder = _library_folder()
+    return _built(folder) if cache.is_done(folder, folder.name) else None
+
+
+def fetch_and_build() -> Jolt:
+    if not cache.is_done(_source_folder(), CRATE_SHA256):
+        _fetch(_source_folder())
+    folder = cache.emptied(_library_folder())
+    units = [*_write_chunks(folder), cache.clone() / "tools/jolt/register_types.cpp"]
+    with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        objects = list(pool.map(lambda unit: _compile(unit, folder), units))
+    subprocess.run(["ar", "rcs", folder / "libJolt.a", *objects], check=True)
+    for path in objects:
+        path.unlink()
+    cache.mark_done(folder, folder.name)
+    return _built(folder)
+
+
+def _source_folder() -> Path:
+    return cache.root() / f"jolt-{VERSION}-source"
+
+
+def _jolt_source() -> Path:
+    return _source_folder() / "vendor/JoltPhysics"
+
+
+def _built(folder: Path) -> Jolt:
+    return Jolt(_jolt_source(), folder / "libJolt.a", DEFINES)
+
+
+def _fetch(target: Path) -> None:
+    work = cache.emptied(cache.root() / "downloads" / "jolt")
+    shutil.copy(cache.clone() / "tools/jolt/Cargo.toml", work)
+    (work / "lib.rs").touch()
+    _cargo_vendor(work)
+    crate = work / "vendor" / CRATE
+    found = json.loads((crate / ".cargo-checksum.json").read_text())["package"]
+    if found != CRATE_SHA256:
+        raise RuntimeError(f"{CRATE} has the checksum {found} instead of {CRATE_SHA256}")
+    shutil.rmtree(target, ignore_errors=True)
+    crate.rename(target)
+    shutil.rmtree(work)
+    cache.mark_done(target, CRATE_SHA256)
+
+
+def _cargo_vendor(work: Path) -> None:
+    cargo, environment = ["cargo"], dict(os.environ)
+    text = subprocess.run(["cargo", "--version"], check=True, text=True, capture_output=True).stdout
+    found = re.search(r"cargo (\d+)\.(\d+)", text)
+    if found and (int(found[1]), int(found[2])) < (1, 70):
+        # Before 1.70 cargo clones the whole index unless it is asked not to, and only lets a nightly ask.
+        cargo += ["-Z", "sparse-registry"]
+        environment["RUSTC_BOOTSTRAP"] = "1"
+    done = subprocess.run([*cargo, "vendor", "vendor"], cwd=work, env=environment, text=True, capture_output=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"cargo vendor failed:\n{done.stderr[-2000:]}")
+
+
+def _sources() -> list[Path]:
+    root = _jolt_source()
+    paths = sorted(path.relative_to(root) for path in (root / "Jolt").rglob("*.cpp"))
+    return [path for path in paths if not LEFT_OUT.search(str(path))]
+
+
+def _library_folder() -> Path:
+    compiler = subprocess.run(["g++", "--version"], check=True, text=True, capture_output=True).stdout.splitlines()[0]
+    own = (cache.clone() / "tools/jolt/register_types.cpp").read_text()
+    key = cache.digest(compiler, *FLAGS, *DEFINES, own, str(CHUNKS), *map(str, _sources()))
+    return cache.root() / f"jolt-{VERSION}-{key}"
+
+
+def _write_chunks(folder: Path) -> list[Path]:
+    sources, units = _sources(), []
+    for index in range(CHUNKS):
+        unit = folder / f"jolt_{index}.cpp"
+        lines = ["#include <Jolt/Jolt.h>"]
+        lines += [f'#include "{_jolt_source() / path}"' for path in sources[index::CHUNKS]]
+        unit.write_text("\n".join(lines) + "\n")
+        units.append(unit)
+    return units
+
+
+def _compile(unit: Path, folder: Path) -> Path:
+    target = folder / f"{unit.stem}.o"
+    defines = [f"-D{define}" for define in DEFINES]
+    command = ["g++", *FLAGS, *defines, "-isystem", _jolt_source(), "-c", unit, "-o", target]
+    done = subprocess.run(command, text=True, capture_output=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"compiling {unit.name} failed:\n{done.stderr[:3000]}")
+    return target

@@ -1,0 +1,41 @@
+"""The tests of what stands behind ./run: tools.FILE.TEST."""
+
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from setup import cache
+from testing.results import Result, matching
+
+
+def run(wanted: str) -> list[Result]:
+    collected = _pytest("--collect-only", "-q").stdout.splitlines()
+    identities = [line for line in collected if "::" in line]
+    if not identities and collected and "no tests" not in collected[-1]:
+        return [Result("tools.collection", "\n".join(collected[-20:]))]
+    names = {_name(identity): identity for identity in identities}
+    chosen = matching(list(names), wanted)
+    if not chosen:
+        return []
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report.xml"
+        _pytest("-q", f"--junitxml={report}", *(names[name] for name in chosen))
+        return [_result(case) for case in ElementTree.parse(report).iter("testcase")]
+
+
+def _pytest(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", ".", *arguments]
+    return subprocess.run(command, cwd=cache.clone() / "tools/tests", text=True, capture_output=True)
+
+
+def _name(identity: str) -> str:
+    path, test = identity.split("::", 1)
+    return f"tools.{Path(path).stem}.{test}"
+
+
+def _result(case: ElementTree.Element) -> Result:
+    troubles = [*case.findall("failure"), *case.findall("error")]
+    why = "\n".join((trouble.text or trouble.get("message", ""))[-3000:] for trouble in troubles)
+    return Result(f"tools.{case.get('classname', '').rpartition('.')[2]}.{case.get('name')}", why)

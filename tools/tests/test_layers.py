@@ -1,0 +1,73 @@
+"""The build itself forbids what a layer may not include."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+from setup import cache
+
+ALLOWED = [
+    ("realtime", '"core/thing.hpp"'),
+    ("physics", '"realtime/thing.hpp"'),
+    ("physics", "<Jolt/Jolt.h>"),
+    ("devices", '"realtime/thing.hpp"'),
+    ("session", '"devices/thing.hpp"'),
+    ("session", '"network/thing.hpp"'),
+]
+FORBIDDEN = [
+    ("core", '"realtime/thing.hpp"'),
+    ("core", '"physics/thing.hpp"'),
+    ("core", "<Jolt/Jolt.h>"),
+    ("realtime", '"physics/thing.hpp"'),
+    ("physics", '"session/thing.hpp"'),
+    ("devices", '"network/thing.hpp"'),
+    ("network", '"devices/thing.hpp"'),
+    ("session", "<Jolt/Jolt.h>"),
+    ("session", "<godot_cpp/classes/node.hpp>"),
+    ("session", '"nodes/thing.hpp"'),
+]
+LAYERS = ["core", "realtime", "physics", "devices", "network", "session"]
+
+
+def _object(number: int, layer: str) -> str:
+    return f"build/template_debug/obj/extension/{layer}/case_{number}.o"
+
+
+@pytest.fixture(scope="module")
+def built(tmp_path_factory):
+    """A project of one-line layers under the real SConstruct, with one source for each case."""
+    folder = tmp_path_factory.mktemp("layers")
+    for name in ("tools", "site_scons"):
+        shutil.copytree(cache.clone() / name, folder / name)
+    shutil.copy(cache.clone() / "SConstruct", folder)
+    for layer in LAYERS:
+        (folder / "extension" / layer).mkdir(parents=True)
+        (folder / "extension" / layer / "thing.hpp").write_text("#pragma once\n")
+    for number, (layer, include) in enumerate(ALLOWED + FORBIDDEN):
+        (folder / "extension" / layer / f"case_{number}.cpp").write_text(f"#include {include}\n")
+    command = [cache.venv_bin("scons"), "--keep-going", "--cache-disable", "libraries"]
+    done = subprocess.run(command, cwd=folder, text=True, capture_output=True)
+    return folder, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("number", range(len(ALLOWED)))
+def test_allowed_include_compiles(built, number):
+    folder, output = built
+    assert (folder / _object(number, ALLOWED[number][0])).is_file(), output
+
+
+@pytest.mark.parametrize("number", range(len(FORBIDDEN)))
+def test_forbidden_include_does_not_compile(built, number):
+    folder, output = built
+    layer, include = FORBIDDEN[number]
+    source = f"extension/{layer}/case_{len(ALLOWED) + number}.cpp"
+    assert not (folder / _object(len(ALLOWED) + number, layer)).exists()
+    assert f"{source}:1:10: fatal error: {include[1:-1]}: No such file" in output
+
+
+def test_no_include_climbs_out_of_its_folder():
+    # Through "..", the compiler would follow a link of the include folder back into the clone.
+    sources = [path for path in (cache.clone() / "extension").rglob("*.[hc]pp")]
+    climbing = [str(path) for path in sources if re.search(r'^\s*#\s*include\s*["<][^">]*\.\./', path.read_text(), re.M)]
+    assert climbing == []
