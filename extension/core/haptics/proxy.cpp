@@ -83,10 +83,16 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
 
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Tolerances& tolerances = surroundings_.tolerances();
+    touching_.clear();
+    if (const double way = glm::length(hand - position_); surroundings_.is_clear(way)) {
+        position_ = hand;
+        surroundings_.travelled(way);
+        sliding_ = false;
+        return;
+    }
     bool slid = false;
     bool keep_all = false;
     ConstrainedStep step;
-    touching_.clear();
     for (tick.steps = 0; tick.steps < settings_.most_steps; ++tick.steps) {
         surroundings_.find_contacts(position_, contacts_, keep_all);
         step = constrained_step(hand - position_, contacts_.all(), tolerances.same, stretch_);

@@ -229,26 +229,26 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
     Record& record = records_[index];
     const double now = odometer_for(record);
     const auto look = [&](std::uint32_t pack) {
-        const Lanes squared = offset_from_triangles(tree.pack(pack), center).squared;
-        const double least = smallest(squared);
-        if (least <= squared_limit) {
-            for (int i = 0; i < lane_count; ++i) {
-                if (squared[i] <= squared_limit) {
-                    near.add(tree, pack, i, local);
-                }
+        const PackOffset seen = offset_from_triangles(tree.pack(pack), center);
+        for (int i = 0; i < lane_count; ++i) {
+            if (seen.squared[i] <= squared_limit) {
+                near.add(tree, pack, i, local);
             }
         }
-        return std::sqrt(least);
+        return seen;
     };
     if (hood) {
-        nearest = hood->covered_until - now;
+        Lanes least = splat(hood->covered_until - now);
         for (std::size_t i = 0; i < hood->count; ++i) {
             NearPack& remembered = hood->packs[i];
-            if (remembered.distance - now <= limit) {
-                remembered.distance = now + look(remembered.pack);
+            Lanes distances = least_distances(remembered.bound, center);
+            if (any(distances <= splat(limit))) {
+                remembered.bound = bound_from(look(remembered.pack), center);
+                distances = least_distances(remembered.bound, center);
             }
-            nearest = std::min(nearest, remembered.distance - now);
+            least = lanes_min(least, distances);
         }
+        nearest = smallest(least);
     } else {
         std::array<NearPack, Neighbourhood::capacity> packs;
         const CollectResult found = tree.collect(local, limit, limit, packs);
@@ -263,6 +263,15 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
             out.add(near.contact(i, placed, rest));
         }
     }
+}
+
+bool Surroundings::is_clear(double length) const {
+    if (!far_.empty() && far_.front().due <= odometer_ + length) {
+        return false;
+    }
+    return std::ranges::all_of(near_, [&](std::uint32_t index) {
+        return records_[index].clear_until > odometer_for(records_[index]) + length;
+    });
 }
 
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep_all) {
@@ -300,7 +309,7 @@ double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Ve
         const double now = odometer_for(records_[index]);
         const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
         const double covered = std::min(limit, std::max(reached, 0.0));
-        const double t = sweep_hood(*hood, tree, start, motion, length, covered, now);
+        const double t = sweep_hood(*hood, tree, start, motion, covered);
         if (t <= covered || reached >= limit) {
             return t <= covered ? t : 2.0 * limit + 1.0;
         }
@@ -309,32 +318,26 @@ double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Ve
 }
 
 double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
-                                const Vec3& motion, double length, double limit, double now) const {
+                                const Vec3& motion, double limit) const {
     const double stop = radius_ + tolerances_.stop;
-    const double untouched = now + stop + tolerances_.arrival;
-    // The nearest first: its hit shortens the way for all others.
-    std::size_t first = 0;
-    for (std::size_t i = 1; i < hood.count; ++i) {
-        first = hood.packs[i].distance < hood.packs[first].distance ? i : first;
-    }
+    const Lanes reached = splat(stop + tolerances_.arrival);
     double best = limit;
     bool found = false;
-    const auto sweep_pack = [&](const NearPack& remembered) {
-        if (remembered.distance - untouched > best * length) {
-            return;
+    // Bounds are linear: a pack that neither end of the way can touch is not touched between them.
+    const LanesVec3 from = splat(start);
+    LanesVec3 to = splat(start + motion * best);
+    for (std::size_t i = 0; i < hood.count; ++i) {
+        const NearPack& remembered = hood.packs[i];
+        const Lanes least =
+            lanes_min(least_distances(remembered.bound, from), least_distances(remembered.bound, to));
+        if (!any(least <= reached)) {
+            continue;
         }
         const double t = sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
-        }
-    };
-    if (hood.count > 0) {
-        sweep_pack(hood.packs[first]);
-    }
-    for (std::size_t i = 0; i < hood.count; ++i) {
-        if (i != first) {
-            sweep_pack(hood.packs[i]);
+            to = splat(start + motion * best);
         }
     }
     return found ? best : 2.0 * limit + 1.0;

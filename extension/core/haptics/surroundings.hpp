@@ -42,6 +42,9 @@ public:
     // The proxy has moved by `length`, or a way of that length is about to be asked for.
     void travelled(double length) { odometer_ += length; }
 
+    // True where nothing can be met within `length` of the centre, as far as is already known.
+    bool is_clear(double length) const;
+
     // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and corners
     // that another triangle covers (see NearTriangles).
     void find_contacts(const Vec3& center, ContactList& out, bool keep_all = false);
@@ -85,7 +88,7 @@ private:
     Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
     double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start, const Vec3& motion,
-                      double length, double limit, double now) const;
+                      double limit) const;
     void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
 
