@@ -343,17 +343,17 @@ double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& t
     return found ? best : 2.0 * limit + 1.0;
 }
 
-double Surroundings::sweep(const Vec3& center, const Vec3& motion) {
+double Surroundings::sweep(const Vec3& center, const Vec3& motion, int except) {
     const double length = glm::length(motion);
     bring_near(length, center);
     double best = 1.0;
     bool found = false;
     for (const std::uint32_t index : near_) {
         const Record& record = records_[index];
-        if (record.clear_until > odometer_for(record) + best * length) {
+        const ScenePart& placed = scene_->parts()[index];
+        if (static_cast<int>(placed.body) == except || record.clear_until > odometer_for(record) + best * length) {
             continue;
         }
-        const ScenePart& placed = scene_->parts()[index];
         const Vec3 start = to_local(placed.pose, center);
         const Vec3 way = direction_to_local(placed.pose, motion);
         const double t = placed.part->tree() ? sweep_tree(index, start, way, length, best)
@@ -369,27 +369,27 @@ double Surroundings::sweep(const Vec3& center, const Vec3& motion) {
 
 // Seen from a moving part, the proxy is what moves. Where its way in the part's frame meets a surface, the part ran
 // into the proxy there, and takes it along from that place on.
-Vec3 Surroundings::pushed_by_moving_parts(const Vec3& center, int carrier) {
-    Vec3 push(0.0);
-    for (const std::uint32_t index : near_) {
+bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier, Push& push) {
+    while (from < near_.size()) {
+        const std::uint32_t index = near_[from++];
         const ScenePart& placed = scene_->parts()[index];
         const TouchBody& body = scene_->body(static_cast<int>(placed.body));
         const Record& record = records_[index];
         if (!body.moved || static_cast<int>(placed.body) == carrier || record.clear_until > odometer_for(record)) {
             continue;
         }
-        const Vec3 before = to_local(placed.previous, center + push);
-        const Vec3 after = to_local(placed.pose, center + push);
-        const Vec3 way = after - before;
+        const Vec3 before = to_local(placed.previous, center);
+        const Vec3 way = to_local(placed.pose, center) - before;
         const double stop = radius_ + tolerances_.stop;
         const double t = placed.part->tree()
                              ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0)
                              : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
         if (t < 1.0) {
-            push = to_parent(placed.pose, before + way * t) - center;
+            push = {static_cast<int>(placed.body), to_parent(placed.pose, before + way * t) - center};
+            return true;
         }
     }
-    return push;
+    return false;
 }
 
 double Surroundings::clearance(const Vec3& center, double far) const {
