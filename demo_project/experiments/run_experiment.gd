@@ -67,14 +67,17 @@ func _run() -> void:
 		_fail("nothing can be recorded in '%s'" % _options.output)
 		return
 	await _play(world, stepped)
-	recorder.stop()
+	# Before the recorder stops: writing its files takes a while, in which the loop goes on.
 	var statistics := world.get_statistics()
+	var periods := {
+		"loop": world.get_period_distribution(), "baseline": world.get_baseline_period_distribution()
+	}
+	recorder.stop()
 	statistics["recorded_rows"] = recorder.get_rows()
 	statistics["lost_rows"] = recorder.get_lost_rows()
 	var problems := world.get_problems()
 	_write("_statistics.json", statistics)
-	_write("_periods.json", {"loop": world.get_period_distribution(),
-		"baseline": world.get_baseline_period_distribution()})
+	_write("_periods.json", periods)
 	root.remove_child(scene)
 	scene.free()
 	for problem in problems:
