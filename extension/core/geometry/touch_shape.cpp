@@ -50,6 +50,9 @@ struct Check {
         if (!sized) {
             return "the height field needs at least 2 x 2 samples and as many heights as samples: set its size and data";
         }
+        if (!is_length(f.scale.x) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
+            return "the height field's spacing is not a positive length: set its scale above 0 m";
+        }
         const bool finite = std::ranges::all_of(*f.heights, [](float h) { return std::isfinite(h); });
         return finite ? "" : "a height of the height field is not a finite number: repair its data";
     }

@@ -98,7 +98,8 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             return;
         }
         const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
-        const double distance = std::sqrt(smallest(offset_from_triangles(packs_[index], exact).squared));
+        const PackOffset seen = offset_from_triangles(packs_[index], exact);
+        const double distance = std::sqrt(smallest(seen.squared));
         result.nearest = std::min(result.nearest, distance);
         if (distance > reach) {
             return;
@@ -107,7 +108,7 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             result.complete = false;
             return;
         }
-        out[result.count++] = {index, distance};
+        out[result.count++] = {bound_from(seen, exact), index};
     };
 
     Pending stack[stack_size];

@@ -21,10 +21,10 @@ using ParallelRunner = std::function<void(std::size_t count, const std::function
 
 void run_serially(std::size_t count, const std::function<void(std::size_t)>& task);
 
-// A pack near a query point, and the distance of its nearest triangle from that point.
+// A pack near a query point, and what the query has learnt about its distance.
 struct NearPack {
+    PackBound bound;
     std::uint32_t pack;
-    double distance;  // (unit: meters)
 };
 
 struct CollectResult {
