@@ -13,7 +13,7 @@ EXTENSION_LIST = FOLDER / ".godot/extension_list.cfg"
 
 
 def import_step() -> Step:
-    return Step("Import the project", _is_imported, import_resources)
+    return Step("Import the project", _is_imported, import_resources, place=cache.clone() / "build")
 
 
 def import_resources() -> None:

@@ -1,9 +1,13 @@
 """Where Tactus keeps what it fetched and built outside the clone, and when such a thing counts as done."""
 
+import fcntl
 import hashlib
 import os
+import re
 import shutil
 import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 
@@ -34,6 +38,16 @@ def mark_done(folder: Path, key: str) -> None:
     partial = folder / ".done.partial"
     partial.write_text(key)
     partial.rename(folder / ".done")
+
+
+@contextmanager
+def lock(place: Path, name: str) -> Iterator[None]:
+    """Holds off other processes that would write the same; the system lets go when the holder dies."""
+    folder = place / "locks"
+    folder.mkdir(parents=True, exist_ok=True)
+    with open(folder / re.sub(r"\W+", "_", name), "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def emptied(folder: Path) -> Path:

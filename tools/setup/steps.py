@@ -1,9 +1,12 @@
 """Set-up as a list of steps, each with a name, a test whether it is done, and what does it."""
 
+import subprocess
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
 
 from . import cache, godot, jolt, python_tools
 
@@ -13,6 +16,8 @@ class Step:
     name: str
     is_done: Callable[[], bool]
     do: Callable[[], object]
+    place: Path = field(default_factory=cache.root)  # what it writes to, one process at a time
+    alone: bool = False  # needs no other step: begins with the first one, so that compiling and downloading overlap
 
 
 def dependencies() -> list[Step]:
@@ -20,7 +25,7 @@ def dependencies() -> list[Step]:
     if godot.installed() is None:
         steps.append(Step(f"Godot {godot.PINNED}", godot.is_private_ready, godot.fetch))
     steps.append(Step("Godot's API", _is_api_ready, lambda: godot.dump_api(_godot())))
-    steps.append(Step(f"Jolt {jolt.VERSION}", lambda: jolt.ready() is not None, jolt.fetch_and_build))
+    steps.append(Step(f"Jolt {jolt.VERSION}", lambda: jolt.ready() is not None, jolt.fetch_and_build, alone=True))
     return steps
 
 
@@ -30,17 +35,30 @@ def export_template() -> Step:
 
 def run(steps: list[Step]) -> None:
     """Does what is not done yet and shows it; ends the program at the first step that fails."""
-    for number, step in enumerate(steps, 1):
-        print(f"[{number}/{len(steps)}] {step.name} … ", end="", flush=True)
-        started = time.monotonic()
-        try:
-            done_before = step.is_done()
-            if not done_before:
-                step.do()
-        except (RuntimeError, OSError) as error:
-            print(f"failed\n{error}", file=sys.stderr)
-            sys.exit(1)
-        print("ready" if done_before else f"{time.monotonic() - started:.0f} s", flush=True)
+    with ThreadPoolExecutor() as pool:
+        begun = {step.name: pool.submit(_carry_out, step) for step in steps if step.alone}
+        for number, step in enumerate(steps, 1):
+            print(f"[{number}/{len(steps)}] {step.name} … ", end="", flush=True)
+            try:
+                print(_finished(step, begun), flush=True)
+            except (RuntimeError, OSError, subprocess.SubprocessError) as error:
+                print(f"failed\n{error}", file=sys.stderr, flush=True)
+                sys.exit(1)
+
+
+def _finished(step: Step, begun: dict[str, Future[str]]) -> str:
+    return begun[step.name].result() if step.name in begun else _carry_out(step)
+
+
+def _carry_out(step: Step) -> str:
+    started = time.monotonic()
+    if step.is_done():
+        return "ready"
+    with cache.lock(step.place, step.name):
+        if step.is_done():  # another process has done it meanwhile
+            return "ready"
+        step.do()
+    return f"{time.monotonic() - started:.0f} s"
 
 
 def _godot() -> str:
