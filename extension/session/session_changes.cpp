@@ -192,8 +192,7 @@ bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
 bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
     ProxySlot& changed = proxies_[c.handle];
     if (changed.proxy) {
-        if (changed.description.device != c.description.device ||
-            changed.description.settings.radius != c.description.settings.radius) {
+        if (changed.description.device != c.description.device) {
             changed.proxy->restart();
         }
         changed.description = c.description;
