@@ -80,6 +80,7 @@ private:
     void travel();
     void follow_physics();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
+    void show_state(SessionHandle handle);
     void read_devices(Nanoseconds now);
     void touch(ProxySlot& slot);
     void press_bodies(const HandForce& force);
