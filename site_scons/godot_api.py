@@ -27,7 +27,7 @@ def generated(api):
     """Runs the generator when the engine's API, the generator or the classes in use have changed."""
     output = Path("build/binding")
     inputs = [api / "extension_api.json", api / "gdextension_interface.h", *sorted(BINDING.rglob("*.py"))]
-    inputs += sorted(BINDING.glob("*.txt"))
+    inputs += sorted(path for path in BINDING.rglob("*") if path.suffix in (".txt", ".inc"))
     inputs += sorted(path for folder in ("nodes", "binding") for path in Path("extension", folder).rglob("*.[hc]pp"))
     digest = hashlib.sha256()
     for path in inputs:

@@ -10,6 +10,7 @@ extends SceneTree
 ## --clock=real         the haptic thread ticks; --clock=stepped: this script does, and the same run gives the same bytes
 ## --warmup=SECONDS     until statistics count, in real time; 0.5 where it is missing
 ## --baseline=1         a bare loop that only sleeps runs beside, for comparison
+## --processor=NUMBER   of the haptic thread, as in HapticWorld; the scene's where it is missing
 ## --screenshots=1,2.5  saves CASE_1.png, CASE_2.5.png at these times; needs a screen
 ##
 ## Exit code 0 when all was written.
@@ -19,11 +20,11 @@ const FRAMES_PER_SECOND := 60
 var _options := {
 	"scene": "res://static_testbed.tscn", "output": "user://", "case": "", "duration": "10", "clock": "real",
 	"warmup": "0.5", "baseline": "0", "screenshots": "",
+	"processor": "",
 }
 
 
 func _initialize() -> void:
-	Engine.max_fps = FRAMES_PER_SECOND
 	for argument in OS.get_cmdline_user_args():
 		var words := argument.trim_prefix("--").split("=", true, 1)
 		if words.size() != 2 or not _options.has(words[0]):
@@ -57,8 +58,11 @@ func _run() -> void:
 		_fail("the scene '%s' needs a HapticWorld and a HapticRecorder" % _options.scene)
 		return
 	var stepped: bool = _options.clock == "stepped"
+	Engine.max_fps = 0 if stepped else FRAMES_PER_SECOND
 	world.clock = HapticWorld.CLOCK_STEPPED if stepped else HapticWorld.CLOCK_REAL_TIME
 	world.measure_baseline = _options.baseline == "1"
+	if _options.processor != "":
+		world.processor = int(_options.processor)
 	recorder.csv_path = _file(".csv")
 	recorder.trace_path = "" if stepped else _file("_trace.json")
 	recorder.autostart = true
@@ -67,14 +71,17 @@ func _run() -> void:
 		_fail("nothing can be recorded in '%s'" % _options.output)
 		return
 	await _play(world, stepped)
-	recorder.stop()
+	# Before the recorder stops: writing its files takes a while, in which the loop goes on.
 	var statistics := world.get_statistics()
+	var periods := {
+		"loop": world.get_period_distribution(), "baseline": world.get_baseline_period_distribution()
+	}
+	recorder.stop()
 	statistics["recorded_rows"] = recorder.get_rows()
 	statistics["lost_rows"] = recorder.get_lost_rows()
 	var problems := world.get_problems()
 	_write("_statistics.json", statistics)
-	_write("_periods.json", {"loop": world.get_period_distribution(),
-		"baseline": world.get_baseline_period_distribution()})
+	_write("_periods.json", periods)
 	root.remove_child(scene)
 	scene.free()
 	for problem in problems:
@@ -86,6 +93,8 @@ func _play(world: HapticWorld, stepped: bool) -> void:
 	var screenshots := Array(_options.screenshots.split_floats(",", false))
 	var duration := float(_options.duration)
 	var warmup := float(_options.warmup)
+	# Nobody looks until a picture is taken, and a processor that draws is slow.
+	RenderingServer.render_loop_enabled = false
 	while world.get_time() < duration:
 		await process_frame
 		if stepped:
@@ -100,7 +109,9 @@ func _play(world: HapticWorld, stepped: bool) -> void:
 func _take_screenshot(time: float) -> void:
 	if DisplayServer.get_name() == "headless":
 		return
+	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
+	RenderingServer.render_loop_enabled = false
 	root.get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
 
 

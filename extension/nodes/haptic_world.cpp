@@ -142,8 +142,8 @@ void HapticWorld::set_realtime_priority(int priority) {
 }
 
 void HapticWorld::set_processor(int processor) {
-    if (processor < -1) {
-        refuse(*this, "processor", processor, "-1 (any), or a processor's number");
+    if (processor < last_processor) {
+        refuse(*this, "processor", processor, "-2 (the last one), -1 (any), or a processor's number");
         return;
     }
     processor_ = processor;
@@ -477,7 +477,7 @@ void HapticWorld::_bind_methods() {
     ADD_GROUP("Haptic Thread", "");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "realtime_priority", PROPERTY_HINT_RANGE, "0,99,1"),
                  "set_realtime_priority", "get_realtime_priority");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-1,63,1,or_greater"), "set_processor",
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-2,63,1,or_greater"), "set_processor",
                  "get_processor");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "lock_memory"), "set_lock_memory", "is_locking_memory");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "measure_baseline"), "set_measure_baseline", "is_measuring_baseline");

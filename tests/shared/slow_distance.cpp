@@ -133,4 +133,22 @@ long double slow_sweep(const Vec3& start, const Vec3& motion, long double distan
     return inside;
 }
 
+long double slow_sweep(const Vec3& start, const Vec3& motion, long double distance,
+                       const TriangleMesh& mesh) {
+    long double first = 2.0L;
+    const double squared = glm::dot(motion, motion);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Corners corners = corners_of(mesh, i);
+        const double size =
+            std::max(glm::distance(corners[0], corners[1]), glm::distance(corners[0], corners[2]));
+        const double along =
+            squared > 0.0 ? std::clamp(glm::dot(corners[0] - start, motion) / squared, 0.0, 1.0) : 0.0;
+        const double at_least = glm::distance(start + along * motion, corners[0]) - size;
+        if (at_least <= static_cast<double>(distance) * (1.0 + 1e-9)) {
+            first = std::min(first, slow_sweep(start, motion, distance, corners));
+        }
+    }
+    return first;
+}
+
 }  // namespace tactus::shared

@@ -41,4 +41,7 @@ long double slow_distance(const Vec3& point, const TriangleMesh& mesh);
 // already: 0 when the way leads closer, 2 when not.
 long double slow_sweep(const Vec3& start, const Vec3& motion, long double distance, const Corners& triangle);
 
+// The first of all triangles of a mesh.
+long double slow_sweep(const Vec3& start, const Vec3& motion, long double distance, const TriangleMesh& mesh);
+
 }  // namespace tactus::shared

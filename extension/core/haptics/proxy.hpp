@@ -55,6 +55,9 @@ public:
         position_ += offset;
         surroundings_.travelled(glm::length(offset));
     }
+    // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
+    bool pass_through(int body) { return surroundings_.pass_through(body); }
+
     // As if just started: present again as soon as the hand is in a free place.
     void restart() {
         present_ = false;

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/haptics/nearest_surface.hpp"
+
 namespace tactus {
 
 namespace {
@@ -62,7 +64,37 @@ void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
             record.slack += body.moved_by;
         }
     }
+    return_passed(center);
     retire_distant_parts();
+}
+
+bool Surroundings::pass_through(int body) {
+    if (passed_count_ == most_passed) {
+        return false;
+    }
+    passed_[passed_count_++] = body;
+    return true;
+}
+
+bool Surroundings::is_passed(std::uint32_t body) const {
+    for (std::size_t i = 0; i < passed_count_; ++i) {
+        if (passed_[i] == static_cast<int>(body)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void Surroundings::return_passed(const Vec3& center) {
+    const double room = radius_ + tolerances_.skin;
+    for (std::size_t i = 0; i < passed_count_;) {
+        const bool gone = !scene_->body(passed_[i]).shape;
+        if (gone || nearest_surface(*scene_, passed_[i], center, 2.0 * room).distance >= room) {
+            passed_[i] = passed_[--passed_count_];
+        } else {
+            ++i;
+        }
+    }
 }
 
 // Everything is far and due at once: the first question looks at each part again.
@@ -283,6 +315,9 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep
             continue;
         }
         const ScenePart& placed = scene_->parts()[index];
+        if (is_passed(placed.body)) {
+            continue;
+        }
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
             find_tree_contacts(index, local, out, keep_all);
@@ -351,7 +386,7 @@ double Surroundings::sweep(const Vec3& center, const Vec3& motion, int except) {
     for (const std::uint32_t index : near_) {
         const Record& record = records_[index];
         const ScenePart& placed = scene_->parts()[index];
-        if (static_cast<int>(placed.body) == except || record.clear_until > odometer_for(record) + best * length) {
+        if (static_cast<int>(placed.body) == except || is_passed(placed.body) || record.clear_until > odometer_for(record) + best * length) {
             continue;
         }
         const Vec3 start = to_local(placed.pose, center);
@@ -375,7 +410,7 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
         const ScenePart& placed = scene_->parts()[index];
         const TouchBody& body = scene_->body(static_cast<int>(placed.body));
         const Record& record = records_[index];
-        if (!body.moved || static_cast<int>(placed.body) == carrier || record.clear_until > odometer_for(record)) {
+        if (!body.moved || static_cast<int>(placed.body) == carrier || is_passed(placed.body) || record.clear_until > odometer_for(record)) {
             continue;
         }
         const Vec3 before = to_local(placed.previous, center);
@@ -394,17 +429,13 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
 
 double Surroundings::clearance(const Vec3& center, double far) const {
     double nearest = far;
+    std::uint32_t looked_at = 0xffff'ffffu;
     for (const ScenePart& placed : scene_->parts()) {
-        if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
-            continue;
+        const bool touchable = placed.part && (scene_->body(static_cast<int>(placed.body)).layer & mask_) != 0;
+        if (touchable && placed.body != looked_at) {
+            looked_at = placed.body;
+            nearest = nearest_surface(*scene_, static_cast<int>(placed.body), center, nearest).distance;
         }
-        const Vec3 local = to_local(placed.pose, center);
-        if (glm::length(local - placed.part->center) - placed.part->radius >= nearest) {
-            continue;
-        }
-        const double distance = placed.part->tree() ? placed.part->tree()->collect(local, 0.0, nearest, {}).nearest
-                                                    : distance_to_solid(placed.part->solid(), local).distance;
-        nearest = std::min(nearest, distance);
     }
     return nearest;
 }

@@ -62,6 +62,10 @@ public:
     };
     bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
 
+    // The body is no longer in the way, until the sphere is clear of its surface again. At most four at a time; false where
+    // there are four already.
+    bool pass_through(int body);
+
     // Everything remembered is void: the proxy has been put elsewhere.
     void invalidate() { revision_ = 0; }
 
@@ -88,6 +92,8 @@ private:
     };
 
     void forget(const Vec3& center);
+    bool is_passed(std::uint32_t body) const;
+    void return_passed(const Vec3& center);
     void bring_near(double length, const Vec3& center);
     void make_near(std::uint32_t part);
     void send_far(std::uint32_t part, double distance);
@@ -101,6 +107,8 @@ private:
     void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
 
+    static constexpr std::size_t most_passed = 4;
+
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
     std::uint32_t mask_ = 0;
@@ -112,6 +120,8 @@ private:
     std::vector<Record> records_;
     std::vector<Far> far_;  // a heap, soonest due on top
     std::vector<std::uint32_t> near_;
+    std::array<int, most_passed> passed_{};
+    std::size_t passed_count_ = 0;
     std::vector<Neighbourhood> hoods_;
     std::vector<std::int16_t> free_hoods_;
     std::unique_ptr<NearTriangles> near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time
