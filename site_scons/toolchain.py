@@ -14,7 +14,8 @@ BY_TARGET = {
 
 # Godot carries a Jolt of its own: neither may see the other's symbols.
 LINK_EXTENSION = [
-    "-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-Wl,--gc-sections", "-static-libgcc", "-static-libstdc++",
+    "-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-Wl,--gc-sections",
+    "-static-libgcc", "-static-libstdc++",
 ]  # fmt: skip
 
 
@@ -27,7 +28,12 @@ def compile_flags(target):
 SPEAKS_GODOT = ["-fno-gnu-unique", "-ffunction-sections", "-fdata-sections"]
 
 # Jolt is compiled without run-time type information, so what derives from its classes must be, too.
-FLAGS_OF_LAYER = {"physics": ["-fno-rtti"], "binding": SPEAKS_GODOT, "nodes": SPEAKS_GODOT}
+# binding/ is large, generated and never in the loop: optimising it would take most of the first build.
+FLAGS_OF_LAYER = {
+    "physics": ["-fno-rtti"],
+    "binding": [*SPEAKS_GODOT, "-O1", "-g0"],
+    "nodes": SPEAKS_GODOT,
+}
 
 # Runs on any processor, to say what is missing on an older one.
 FLAGS_OF_FILE = {"extension/nodes/entry.cpp": ["-march=x86-64"]}
