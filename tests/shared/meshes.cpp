@@ -18,7 +18,8 @@ public:
 
     std::uint32_t between(std::uint32_t a, std::uint32_t b) {
         const std::pair<std::uint32_t, std::uint32_t> key = std::minmax(a, b);
-        const auto [place, added] = known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
+        const auto [place, added] =
+            known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
         if (added) {
             mesh_.vertices.push_back(radius_ * glm::normalize(mesh_.vertices[a] + mesh_.vertices[b]));
         }
@@ -36,14 +37,14 @@ private:
 TriangleMesh icosphere(int levels, double radius) {
     const double t = (1.0 + std::sqrt(5.0)) / 2.0;
     TriangleMesh mesh;
-    for (const Vec3& v : {Vec3(-1, t, 0), Vec3(1, t, 0), Vec3(-1, -t, 0), Vec3(1, -t, 0), Vec3(0, -1, t), Vec3(0, 1, t),
-                          Vec3(0, -1, -t), Vec3(0, 1, -t), Vec3(t, 0, -1), Vec3(t, 0, 1), Vec3(-t, 0, -1),
-                          Vec3(-t, 0, 1)}) {
+    for (const Vec3& v :
+         {Vec3(-1, t, 0), Vec3(1, t, 0), Vec3(-1, -t, 0), Vec3(1, -t, 0), Vec3(0, -1, t), Vec3(0, 1, t),
+          Vec3(0, -1, -t), Vec3(0, 1, -t), Vec3(t, 0, -1), Vec3(t, 0, 1), Vec3(-t, 0, -1), Vec3(-t, 0, 1)}) {
         mesh.vertices.push_back(radius * glm::normalize(v));
     }
-    mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11},  {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+    mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     for (int level = 0; level < levels; ++level) {
         Midpoints midpoints(mesh, radius);
         std::vector<Triangle> finer;
@@ -76,7 +77,8 @@ TriangleMesh terrain(int cells, double size, double height) {
         for (int x = 0; x < side; ++x) {
             const double u = static_cast<double>(x) / cells;
             const double v = static_cast<double>(z) / cells;
-            const double hills = std::sin(9.0 * u + 1.0) * std::cos(7.0 * v) + 0.4 * std::sin(23.0 * u * v + 5.0 * v);
+            const double hills =
+                std::sin(9.0 * u + 1.0) * std::cos(7.0 * v) + 0.4 * std::sin(23.0 * u * v + 5.0 * v);
             const double ripples = 0.05 * std::sin(160.0 * u) * std::sin(140.0 * v + 3.0 * u);
             mesh.vertices.push_back({(u - 0.5) * size, height * (hills + ripples), (v - 0.5) * size});
         }
@@ -98,7 +100,11 @@ TriangleMesh groove(double angle, double length) {
     const Vec3 left(-std::sin(lean), std::cos(lean), 0.0);
     const Vec3 right(std::sin(lean), std::cos(lean), 0.0);
     const Vec3 along(0.0, 0.0, 0.5 * length);
-    mesh.vertices = {-along, along, length * left - along, length * left + along, length * right - along,
+    mesh.vertices = {-along,
+                     along,
+                     length * left - along,
+                     length * left + along,
+                     length * right - along,
                      length * right + along};
     mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5}};
     return mesh;

@@ -5,17 +5,19 @@
 
 namespace tactus::shared {
 
-// A sphere around the origin: an icosahedron whose triangles are split in four `levels` times and pushed out to the
-// radius. 20 * 4^levels triangles.
+// A sphere around the origin: an icosahedron whose triangles are split in four `levels` times and pushed out
+// to the radius. 20 * 4^levels triangles.
 TriangleMesh icosphere(int levels, double radius);
 
 // Twelve triangles around the origin.
 TriangleMesh box(const Vec3& half_extents);
 
-// cells x cells squares of two triangles over [-size/2, size/2]^2 in x-z; smooth hills with fine ripples on top.
+// cells x cells squares of two triangles over [-size/2, size/2]^2 in x-z; smooth hills with fine ripples on
+// top.
 TriangleMesh terrain(int cells, double size, double height);
 
-// Two walls that meet along the z axis at the origin, opening upwards with the given angle between them (radians).
+// Two walls that meet along the z axis at the origin, opening upwards with the given angle between them
+// (radians).
 TriangleMesh groove(double angle, double length);
 
 // count triangles with corners in a ball of the given radius.

@@ -35,8 +35,7 @@ void expect_closed(const TriangleMesh& hull) {
 void expect_around(const TriangleMesh& hull, const std::vector<Vec3>& points, double slack) {
     for (const auto& [a, b, c] : hull.triangles) {
         const Vec3 origin = hull.vertices[a];
-        const Vec3 normal =
-            glm::normalize(glm::cross(hull.vertices[b] - origin, hull.vertices[c] - origin));
+        const Vec3 normal = glm::normalize(glm::cross(hull.vertices[b] - origin, hull.vertices[c] - origin));
         for (const Vec3& point : points) {
             EXPECT_LE(glm::dot(normal, point - origin), slack);
         }
@@ -88,7 +87,8 @@ TEST(ConvexHull, HoldsAGridWithManyPointsInOnePlane) {
     for (int x = 0; x < 6; ++x) {
         for (int y = 0; y < 6; ++y) {
             for (int z = 0; z < 6; ++z) {
-                points.emplace_back(0.1f * static_cast<float>(x), 0.1f * static_cast<float>(y), 0.1f * static_cast<float>(z));
+                points.emplace_back(0.1f * static_cast<float>(x), 0.1f * static_cast<float>(y),
+                                    0.1f * static_cast<float>(z));
             }
         }
     }

@@ -42,7 +42,8 @@ TEST(ObjText, CountsNegativeIndicesBackFromTheNewestVertex) {
 
 TEST(ObjText, PassesOverCommentsCarriageReturnsAndWhatItDoesNotKnow) {
     const ObjResult result = read_obj_text(
-        "# a comment\r\nmtllib x.mtl\r\no thing\r\nv\t0  0 0 # origin\r\nv 1 0 0 1.0\r\nv 0 1 0\r\ns off\r\nf 1 2 3\r\nl 1 2\r\n");
+        "# a comment\r\nmtllib x.mtl\r\no thing\r\nv\t0  0 0 # origin\r\nv 1 0 0 1.0\r\nv 0 1 0\r\ns "
+        "off\r\nf 1 2 3\r\nl 1 2\r\n");
     ASSERT_EQ(result.error, "");
     EXPECT_EQ(result.mesh.vertices.size(), 3u);
     EXPECT_EQ(result.mesh.triangles.size(), 1u);
@@ -55,14 +56,18 @@ TEST(ObjText, NamesTheLineOfAWordThatIsNoNumber) {
 }
 
 TEST(ObjText, NamesTheLineOfAVertexThatDoesNotExist) {
-    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 2\n").error, "line 2: vertex 2 does not exist: there are 1 so far");
-    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 0\n").error, "line 2: vertex 0 does not exist: there are 1 so far");
-    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 -2\n").error, "line 2: vertex -2 does not exist: there are 1 so far");
+    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 2\n").error,
+              "line 2: vertex 2 does not exist: there are 1 so far");
+    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 0\n").error,
+              "line 2: vertex 0 does not exist: there are 1 so far");
+    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 -2\n").error,
+              "line 2: vertex -2 does not exist: there are 1 so far");
     EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 x\n").error, "line 2: 'x' does not name a vertex");
 }
 
 TEST(ObjText, RefusesAFaceOfTwoCorners) {
-    EXPECT_EQ(read_obj_text("v 0 0 0\nv 1 0 0\nf 1 2\n").error, "line 3: a face needs at least three corners");
+    EXPECT_EQ(read_obj_text("v 0 0 0\nv 1 0 0\nf 1 2\n").error,
+              "line 3: a face needs at least three corners");
 }
 
 TEST(ObjText, GivesAnEmptyMeshForEmptyText) {

@@ -1,0 +1,104 @@
+#include "core/geometry/touch_shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "shared/meshes.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string error_of(const Shape& shape, const Pose& pose = {}) {
+    const PlacedShape placed{shape, pose};
+    const TouchShapeResult result = make_touch_shape({&placed, 1});
+    EXPECT_EQ(result.shape == nullptr, !result.error.empty());
+    return result.error;
+}
+
+TEST(TouchShape, EverySoundShapeIsAccepted) {
+    const auto sphere = std::make_shared<const TriangleMesh>(shared::icosphere(1, 1.0));
+    const auto heights = std::make_shared<const std::vector<float>>(std::vector<float>{0, 1, 2, 3, 4, 5});
+    for (const Shape& shape : {Shape(SphereShape{}), Shape(BoxShape{}), Shape(CapsuleShape{}),
+                               Shape(CylinderShape{}), Shape(PlaneShape{}), Shape(ConvexHullShape{sphere}),
+                               Shape(MeshShape{sphere}), Shape(HeightFieldShape{3, 2, Vec3(1.0), heights})}) {
+        EXPECT_EQ(error_of(shape), "");
+    }
+}
+
+TEST(TouchShape, ABodyWithoutAShapeIsToldToGetOne) {
+    const TouchShapeResult result = make_touch_shape({});
+    EXPECT_EQ(result.shape, nullptr);
+    EXPECT_NE(result.error.find("add a CollisionShape3D"), std::string::npos) << result.error;
+}
+
+TEST(TouchShape, RefusesSizesThatAreNoLengths) {
+    for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
+        EXPECT_NE(error_of(SphereShape{bad}).find("above 0"), std::string::npos);
+        EXPECT_NE(error_of(BoxShape{Vec3(1.0, bad, 1.0)}).find("above 0"), std::string::npos);
+        EXPECT_NE(error_of(CapsuleShape{bad, 0.5}).find("above 0"), std::string::npos);
+        EXPECT_NE(error_of(CylinderShape{0.5, bad}).find("above 0"), std::string::npos);
+    }
+    EXPECT_NE(error_of(CapsuleShape{0.5, -0.1}), "");
+    EXPECT_EQ(error_of(CapsuleShape{0.5, 0.0}), "");
+}
+
+TEST(TouchShape, RefusesAPlaneWithoutADirection) {
+    EXPECT_NE(error_of(PlaneShape{Vec3(0.0), 0.0}), "");
+    EXPECT_NE(error_of(PlaneShape{Vec3(nan, 0.0, 0.0), 0.0}), "");
+    EXPECT_NE(error_of(PlaneShape{Vec3(0.0, 1.0, 0.0), nan}), "");
+}
+
+TEST(TouchShape, RefusesAMissingMesh) {
+    EXPECT_NE(error_of(MeshShape{}).find("no mesh"), std::string::npos);
+    EXPECT_NE(error_of(ConvexHullShape{}), "");
+}
+
+TEST(TouchShape, RefusesAMeshWithABadVertexByItsNumber) {
+    TriangleMesh mesh = shared::box(Vec3(1.0));
+    mesh.vertices[5].y = nan;
+    EXPECT_NE(error_of(MeshShape{std::make_shared<const TriangleMesh>(mesh)}).find("vertex 5"),
+              std::string::npos);
+}
+
+TEST(TouchShape, RefusesAHeightFieldOfTheWrongSizeOrWithNan) {
+    const auto heights = std::make_shared<const std::vector<float>>(std::vector<float>{0, 1, 2, 3});
+    EXPECT_EQ(error_of(HeightFieldShape{2, 2, Vec3(1.0), heights}), "");
+    EXPECT_NE(error_of(HeightFieldShape{3, 2, Vec3(1.0), heights}), "");
+    EXPECT_NE(error_of(HeightFieldShape{1, 4, Vec3(1.0), heights}), "");
+    EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(1.0), nullptr}), "");
+    const auto bad = std::make_shared<const std::vector<float>>(
+        std::vector<float>{0, std::numeric_limits<float>::quiet_NaN(), 2, 3});
+    EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(1.0), bad}).find("finite"), std::string::npos);
+}
+
+TEST(TouchShape, RefusesAPoseThatIsNone) {
+    EXPECT_NE(error_of(SphereShape{}, {Vec3(nan, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}), "");
+    EXPECT_NE(error_of(SphereShape{}, {Vec3(0.0), Quat(2.0, 0.0, 0.0, 0.0)}), "");
+}
+
+TEST(TouchShape, HeightFieldMeshLooksUpAndStandsOverTheOrigin) {
+    const auto heights = std::make_shared<const std::vector<float>>(std::vector<float>{0, 0, 1, 0, 0, 1});
+    const TriangleMesh mesh = height_field_mesh({3, 2, Vec3(2.0, 3.0, 4.0), heights});
+    ASSERT_EQ(mesh.vertices.size(), 6u);
+    ASSERT_EQ(mesh.triangles.size(), 4u);
+    EXPECT_EQ(mesh.vertices[0], Vec3(-2.0, 0.0, -2.0));
+    EXPECT_EQ(mesh.vertices[5], Vec3(2.0, 3.0, 2.0));
+    for (const auto& [a, b, c] : mesh.triangles) {
+        EXPECT_GT(glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]).y,
+                  0.0);
+    }
+}
+
+TEST(TouchShape, ReachIsTheFarthestPointOfAnyPart) {
+    const PlacedShape parts[] = {{SphereShape{0.5}, {Vec3(1.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}},
+                                 {SphereShape{0.25}, {Vec3(-2.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}}};
+    const TouchShapeResult result = make_touch_shape(parts);
+    ASSERT_TRUE(result.shape);
+    EXPECT_NEAR(result.shape->reach, 2.25, 1e-12);
+}
+
+}  // namespace
+}  // namespace tactus

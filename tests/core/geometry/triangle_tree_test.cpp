@@ -1,0 +1,243 @@
+#include "core/geometry/triangle_tree.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <thread>
+
+#include "shared/meshes.hpp"
+#include "shared/random_values.hpp"
+#include "shared/slow_distance.hpp"
+
+namespace tactus {
+namespace {
+
+using shared::RandomValues;
+
+struct Sample {
+    const char* name;
+    TriangleMesh mesh;
+};
+
+TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+    for (Vec3& v : mesh.vertices) {
+        v += by;
+    }
+    return mesh;
+}
+
+TriangleMesh slivers(int count, unsigned seed) {
+    RandomValues random(seed);
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        const Vec3 a = random.in_ball(1.0);
+        const Vec3 b = random.in_ball(1.0);
+        mesh.vertices.insert(
+            mesh.vertices.end(),
+            {a, b, a + (b - a) * random.unit() + random.in_ball(random.magnitude(1e-17, 1e-2))});
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    return mesh;
+}
+
+std::vector<Sample> samples() {
+    return {{"one triangle", {{Vec3(0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)}, {{0, 1, 2}}}},
+            {"box", shared::box(Vec3(0.5, 1.0, 0.2))},
+            {"sphere", shared::icosphere(3, 1.0)},
+            {"soup", shared::soup(700, 1.0, 5)},
+            {"slivers", slivers(500, 6)},
+            {"same triangle 100 times",
+             [] {
+                 TriangleMesh mesh{{Vec3(0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)}, {}};
+                 mesh.triangles.assign(100, {0, 1, 2});
+                 return mesh;
+             }()},
+            {"far from origin", moved(shared::icosphere(3, 1.0), Vec3(1e4, -2e4, 3e4))}};
+}
+
+struct Extent {
+    Vec3 center;
+    double radius;
+};
+
+Extent extent_of(const TriangleMesh& mesh) {
+    Vec3 low(1e300);
+    Vec3 high(-1e300);
+    for (const Vec3& v : mesh.vertices) {
+        low = glm::min(low, v);
+        high = glm::max(high, v);
+    }
+    return {0.5 * (low + high), 0.5 * glm::length(high - low)};
+}
+
+double rounding(const TriangleTree& tree) {
+    return 1e-14 * std::max(1.0, tree.magnitude());
+}
+
+TEST(TriangleTree, NearestDistanceIsThatOfBruteForce) {
+    RandomValues random(41);
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 p = extent.center + random.in_ball(2.0 * extent.radius);
+            const auto expected = static_cast<double>(shared::slow_distance(p, sample.mesh));
+            ASSERT_NEAR(tree.collect(p, 0.0, 1e30, {}).nearest, expected, rounding(tree)) << sample.name;
+        }
+    }
+}
+
+TEST(TriangleTree, CollectFindsEveryTriangleWithinReach) {
+    RandomValues random(42);
+    std::vector<NearPack> found(4096);
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 p = extent.center + random.in_ball(1.5 * extent.radius);
+            const double reach = extent.radius * random.magnitude(1e-3, 1.0);
+            const CollectResult result = tree.collect(p, reach, reach, found);
+            ASSERT_TRUE(result.complete);
+            std::set<std::uint32_t> ids;
+            for (std::size_t k = 0; k < result.count; ++k) {
+                const auto lanes = tree.triangle_ids(found[k].pack);
+                ids.insert(lanes.begin(), lanes.end());
+            }
+            for (std::size_t t = 0; t < sample.mesh.triangles.size(); ++t) {
+                if (shared::slow_distance(p, shared::corners_of(sample.mesh, t)) < reach - rounding(tree)) {
+                    ASSERT_TRUE(ids.contains(static_cast<std::uint32_t>(t)))
+                        << sample.name << ", triangle " << t;
+                }
+            }
+        }
+    }
+}
+
+TEST(TriangleTree, CollectSaysWhenThereWasMoreThanRoom) {
+    const TriangleTree tree = TriangleTree::build(shared::icosphere(3, 1.0));
+    std::vector<NearPack> room(3);
+    EXPECT_FALSE(tree.collect(Vec3(0.0), 1.1, 1.1, room).complete);
+}
+
+TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
+    RandomValues random(43);
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        const double slack = 1e-12 * std::max(1.0, tree.magnitude());
+        for (int i = 0; i < 25; ++i) {
+            const double radius = extent.radius * random.magnitude(1e-3, 0.1);
+            const Vec3 start = extent.center + random.in_ball(3.0 * extent.radius);
+            if (shared::slow_distance(start, sample.mesh) <= 1.01 * radius) {
+                continue;
+            }
+            const Vec3 motion =
+                (extent.center + random.in_ball(extent.radius) - start) * random.between(0.2, 2.0);
+            const auto expected = static_cast<double>(shared::slow_sweep(start, motion, radius, sample.mesh));
+            const double found = tree.sweep(start, motion, radius, slack, 1.0);
+            const double tolerance = 4.0 * slack / glm::length(motion) + 1e-12;
+            if (expected > 1.0 && found > 1.0) {
+                continue;
+            }
+            ASSERT_LE(found, expected + tolerance) << sample.name << " " << i;
+            const auto gap =
+                static_cast<double>(shared::slow_distance(start + motion * found, sample.mesh)) - radius;
+            ASSERT_GE(gap, -rounding(tree)) << sample.name << " " << i;
+            ASSERT_LE(gap, 4.0 * slack) << sample.name << " " << i;
+        }
+    }
+}
+
+TEST(TriangleTree, SweepAlongAnAxisMissesNothing) {
+    const TriangleTree tree = TriangleTree::build(shared::box(Vec3(1.0)));
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 start(0.3, 0.2, 0.1);
+            Vec3 motion(0.0);
+            start[axis] = 5.0 * side;
+            motion[axis] = -10.0 * side;
+            EXPECT_NEAR(tree.sweep(start, motion, 0.1, 1e-12, 1.0), 0.39, 1e-12);
+        }
+    }
+}
+
+TEST(TriangleTree, SweepWithinAFaceOfABoxIsSeenAsContactNotLost) {
+    const TriangleTree tree = TriangleTree::build(shared::box(Vec3(1.0)));
+    // The centre glides in the very plane that bounds the box in the tree, towards an edge.
+    EXPECT_NEAR(tree.sweep({-3.0, 1.0, 0.0}, {4.0, 0.0, 0.0}, 0.1, 1e-12, 1.0), 1.9 / 4.0, 1e-12);
+}
+
+TEST(TriangleTree, TheRunnerDoesNotChangeTheTree) {
+    const ParallelRunner threads = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+        std::atomic<std::size_t> next{0};
+        const auto work = [&] {
+            for (std::size_t i = next++; i < count; i = next++) {
+                task(i);
+            }
+        };
+        std::thread other(work);
+        work();
+        other.join();
+    };
+    const TriangleMesh mesh = shared::terrain(300, 10.0, 1.0);  // large enough to be split among threads
+    const TriangleTree serial = TriangleTree::build(mesh);
+    const TriangleTree parallel = TriangleTree::build(mesh, threads);
+    ASSERT_EQ(serial.bytes(), parallel.bytes());
+    RandomValues random(44);
+    std::vector<NearPack> first(4096), second(4096);
+    for (int i = 0; i < 500; ++i) {
+        const Vec3 p(random.between(-5.0, 5.0), random.between(-1.0, 1.0), random.between(-5.0, 5.0));
+        const CollectResult a = serial.collect(p, 0.3, 0.3, first);
+        const CollectResult b = parallel.collect(p, 0.3, 0.3, second);
+        ASSERT_EQ(a.count, b.count);
+        ASSERT_EQ(a.nearest, b.nearest);
+        for (std::size_t k = 0; k < a.count; ++k) {
+            ASSERT_EQ(first[k].pack, second[k].pack);
+            ASSERT_TRUE(std::ranges::equal(serial.triangle_ids(first[k].pack),
+                                           parallel.triangle_ids(second[k].pack)));
+        }
+    }
+}
+
+TEST(TriangleTree, RefitAnswersForTheMovedTriangles) {
+    RandomValues random(45);
+    TriangleMesh mesh = shared::icosphere(3, 1.0);
+    TriangleTree tree = TriangleTree::build(mesh);
+    for (Vec3& v : mesh.vertices) {
+        v = Vec3(2.0 * v.x, v.y + 0.3 * std::sin(5.0 * v.x), v.z) + Vec3(3.0, 0.0, 0.0);
+    }
+    tree.refit(mesh);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 p = Vec3(3.0, 0.0, 0.0) + random.in_ball(4.0);
+        ASSERT_NEAR(tree.collect(p, 0.0, 1e30, {}).nearest,
+                    static_cast<double>(shared::slow_distance(p, mesh)), 1e-13);
+    }
+}
+
+TEST(TriangleTree, BallHoldsEveryTriangleAlsoAfterRefit) {
+    TriangleMesh mesh = shared::soup(300, 1.0, 9);
+    TriangleTree tree = TriangleTree::build(mesh);
+    const auto expect_held = [&] {
+        for (const Vec3& v : mesh.vertices) {
+            ASSERT_LE(glm::length(v - tree.center()), tree.radius() * (1.0 + 1e-15));
+        }
+    };
+    expect_held();
+    for (Vec3& v : mesh.vertices) {
+        v = 3.0 * v + Vec3(1.0, 2.0, 3.0);
+    }
+    tree.refit(mesh);
+    expect_held();
+}
+
+TEST(TriangleTree, StaysBelowOneHundredAndFiftyBytesATriangle) {
+    const TriangleMesh mesh = shared::terrain(128, 10.0, 1.0);
+    const TriangleTree tree = TriangleTree::build(mesh);
+    EXPECT_EQ(tree.triangle_count(), mesh.triangles.size());
+    EXPECT_LE(static_cast<double>(tree.bytes()) / static_cast<double>(mesh.triangles.size()), 150.0);
+}
+
+}  // namespace
+}  // namespace tactus

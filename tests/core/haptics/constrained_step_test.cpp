@@ -1,0 +1,137 @@
+#include "core/haptics/constrained_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "shared/random_values.hpp"
+
+namespace tactus {
+namespace {
+
+using shared::RandomValues;
+
+Contact flat(const Vec3& normal, double gap = 0.0) {
+    Contact contact;
+    contact.normal = normal;
+    const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
+    contact.u = glm::normalize(glm::cross(normal, other));
+    contact.gap = gap;
+    return contact;
+}
+
+// A surface that has been believed in for long: steps may be as long as its curvature says.
+ConstrainedStep step_over(const Vec3& pull, std::span<const Contact> contacts) {
+    Stretch stretch{Vec3(0.0), 1e6};
+    return constrained_step(pull, contacts, 1e-12, stretch);
+}
+
+TEST(ConstrainedStep, GoesAllTheWayWithoutContacts) {
+    const ConstrainedStep step = step_over({1.0, 2.0, 3.0}, {});
+    EXPECT_EQ(step.motion, Vec3(1.0, 2.0, 3.0));
+    EXPECT_EQ(step.pressing_count, 0);
+}
+
+TEST(ConstrainedStep, AFlatContactTakesThePullAcrossIt) {
+    const Contact contacts[] = {flat({0.0, 1.0, 0.0})};
+    const ConstrainedStep step = step_over({1.0, -2.0, 0.5}, contacts);
+    EXPECT_LT(glm::length(step.motion - Vec3(1.0, 0.0, 0.5)), 1e-15);
+    ASSERT_EQ(step.pressing_count, 1);
+    EXPECT_NEAR(step.pressure[0], 2.0, 1e-15);
+}
+
+TEST(ConstrainedStep, AContactWithAGapLetsTheProxyCloseIt) {
+    const Contact contacts[] = {flat({0.0, 1.0, 0.0}, 0.25)};
+    EXPECT_NEAR(step_over({0.0, -2.0, 0.0}, contacts).motion.y, -0.25, 1e-15);
+}
+
+TEST(ConstrainedStep, AContactBelowRestPushesOut) {
+    const Contact contacts[] = {flat({0.0, 1.0, 0.0}, -1e-9)};
+    EXPECT_NEAR(step_over({0.0, -2.0, 0.0}, contacts).motion.y, 1e-9, 1e-15);
+}
+
+TEST(ConstrainedStep, PullAwayLeavesTheSurface) {
+    const Contact contacts[] = {flat({0.0, 1.0, 0.0})};
+    const ConstrainedStep step = step_over({0.0, 2.0, 0.0}, contacts);
+    EXPECT_EQ(step.motion, Vec3(0.0, 2.0, 0.0));
+    EXPECT_EQ(step.pressing_count, 0);
+}
+
+TEST(ConstrainedStep, ContactsTooNarrowToLeaveHoldStill) {
+    const Contact contacts[] = {flat({0.0, 1.0, 0.0}, -1e-6), flat({0.0, -1.0, 0.0}, -1e-6)};
+    const ConstrainedStep step = step_over({0.0, -2.0, 0.0}, contacts);
+    EXPECT_LT(glm::length(step.motion), 1e-6);
+    const ConstrainedStep along = step_over({1.0, -2.0, 0.0}, contacts);
+    EXPECT_NEAR(along.motion.x, 1.0, 1e-12);
+}
+
+// On a sphere of radius R the resting place is where the normal points to the hand; from a small angle away
+// one curved step must land there up to the square of the angle.
+TEST(ConstrainedStep, CurvatureMakesTheStepOntoASphereSecondOrder) {
+    constexpr double radius = 0.5;
+    for (const double angle : {1e-2, 1e-3, 1e-4}) {
+        const Vec3 hand(0.0, 0.8 * radius, 0.0);
+        const Vec3 normal(std::sin(angle), std::cos(angle), 0.0);
+        const Vec3 at = radius * normal;
+        Contact contact = flat(normal);
+        contact.bend_u = contact.bend_v = 1.0 / radius;
+        const ConstrainedStep step = step_over(hand - at, {&contact, 1});
+        const Vec3 reached = glm::normalize(at + step.motion);
+        EXPECT_LT(std::abs(reached.x), 2.0 * angle * angle) << angle;
+    }
+}
+
+TEST(ConstrainedStep, CurvatureMakesTheStepOntoAnEdgeSecondOrderAcrossAndExactAlong) {
+    constexpr double radius = 0.1;
+    const double angle = 1e-3;
+    const Vec3 hand(0.0, 0.05, 0.03);
+    const Vec3 normal(std::sin(angle), std::cos(angle), 0.0);
+    Contact contact = flat(normal);
+    contact.u = Vec3(std::cos(angle), -std::sin(angle), 0.0);
+    contact.bend_u = 1.0 / radius;
+    const ConstrainedStep step = step_over(hand - radius * normal, {&contact, 1});
+    const Vec3 reached = radius * normal + step.motion;
+    EXPECT_NEAR(reached.z, 0.03, 1e-12);
+    EXPECT_LT(std::abs(reached.x), radius * 2.0 * angle * angle);
+}
+
+// Whatever the contacts: no step may cross a contact plane, as the surfaces behind them are convex.
+TEST(ConstrainedStep, NeverCrossesAContactPlane) {
+    RandomValues random(71);
+    for (int i = 0; i < 20'000; ++i) {
+        std::vector<Contact> contacts;
+        for (int k = 0; k < 1 + random.below(6); ++k) {
+            contacts.push_back(flat(random.direction(), random.flip() ? 0.0 : random.magnitude(1e-9, 1e-2)));
+            if (random.flip()) {
+                contacts.back().bend_u = random.magnitude(0.1, 100.0);
+                contacts.back().bend_v = random.flip() ? contacts.back().bend_u : 0.0;
+            }
+        }
+        const Vec3 pull = random.in_ball(0.2);
+        const ConstrainedStep step = step_over(pull, contacts);
+        for (const Contact& contact : contacts) {
+            ASSERT_GE(glm::dot(contact.normal, step.motion), -contact.gap - 1e-10) << "case " << i;
+        }
+        for (int k = 0; k < step.pressing_count; ++k) {
+            ASSERT_GT(step.pressure[k], 0.0);
+        }
+    }
+}
+
+// Without bends the step is a descent: it never ends farther from the hand than it began.
+TEST(ConstrainedStep, NeverMovesAwayFromTheHandOverFlatContacts) {
+    RandomValues random(72);
+    for (int i = 0; i < 20'000; ++i) {
+        std::vector<Contact> contacts;
+        for (int k = 0; k < 1 + random.below(6); ++k) {
+            contacts.push_back(flat(random.direction(), random.flip() ? 0.0 : random.magnitude(1e-9, 1e-2)));
+        }
+        const Vec3 pull = random.in_ball(0.2);
+        const ConstrainedStep step = step_over(pull, contacts);
+        ASSERT_LE(glm::length(pull - step.motion), glm::length(pull) + 1e-10) << "case " << i;
+    }
+}
+
+}  // namespace
+}  // namespace tactus
