@@ -13,6 +13,7 @@ from generator.api import (
     snake_case,
 )
 from generator.global_scope import enum_lines
+from generator.marshal import call_lines
 
 FRAGMENTS = Path(__file__).parent / "fragments"
 
@@ -99,13 +100,11 @@ class BuiltinWriter:
         for constructor in self.entry["constructors"]:
             signature = Signature(self.api, constructor)
             self.note(signature)
-            arguments = "".join(f", {argument}" for argument in signature.names())
             self.declare(f"{name}({signature.parameters(False)});")
             self.define(
                 f"{name}::{name}({signature.parameters(False)}) {{",
-                "    static const GDExtensionPtrConstructor constructor =",
-                f"        internal::find_constructor({type_constant(name)}, {constructor['index']});",
-                f"    internal::call_constructor(constructor, opaque_{arguments});",
+                f"    static constinit internal::Constructor constructor({type_constant(name)}, {constructor['index']});",
+                *call_lines(signature, lambda given, _: f"constructor.call(opaque_, {given})"),
                 "}",
             )
         self.declare(f"{name}({name}&& other) noexcept : {name}() {{ swap_memory(other); }}")
@@ -122,9 +121,8 @@ class BuiltinWriter:
             self.declare(f"~{name}();")
             self.define(
                 f"{name}::~{name}() {{",
-                "    static const GDExtensionPtrDestructor destructor =",
-                f"        internal::find_destructor({type_constant(name)});",
-                "    destructor(opaque_);",
+                f"    static constinit internal::Destructor destructor({type_constant(name)});",
+                "    destructor.call(opaque_);",
                 "}",
             )
         self.declare("")
@@ -143,22 +141,20 @@ class BuiltinWriter:
         self.declare("")
 
     def lookup(self, method):
-        return (
-            "    static const GDExtensionPtrBuiltInMethod method =\n"
-            f'        internal::find_builtin_method({type_constant(self.name)}, "{method["name"]}", {method["hash"]});'
-        )
+        arguments = f'{type_constant(self.name)}, "{method["name"]}", {method["hash"]}'
+        return f"    static constinit internal::BuiltinMethod method({arguments});"
 
     def plain_method(self, method, signature):
         name = safe_name(method["name"])
         result = signature.result_type()
         suffix = " const" if method["is_const"] else ""
         prefix = "static " if method["is_static"] else ""
-        own = "nullptr" if method["is_static"] else "opaque_"
-        arguments = "".join(f", {argument}" for argument in signature.names())
+        own = "nullptr" if method["is_static"] else "_native_ptr()"
+        count = len(signature.arguments)
         self.define(
             f"{result} {self.name}::{name}({signature.parameters(False)}){suffix} {{",
             self.lookup(method),
-            f"    return internal::call_builtin_method<{result}>(method, {own}{arguments});",
+            *call_lines(signature, lambda given, back: f"method.call({own}, {given}, {back}, {count})"),
             "}",
         )
         shorter = signature.without_variant_default()
@@ -196,7 +192,7 @@ class BuiltinWriter:
         self.define(
             f"{result} {self.name}::{name}_values(const Variant* values, size_t count){suffix} {{",
             self.lookup(method),
-            f"    return internal::call_vararg_builtin<{result}>(method, opaque_, values, count);",
+            f"    return internal::call_vararg_builtin<{result}>(method, _native_ptr(), values, count);",
             "}",
         )
 
@@ -205,7 +201,8 @@ class BuiltinWriter:
             if not wants_operator(self.name, operator):
                 continue
             right = operator["right_type"]
-            result = "bool" if operator["return_type"] == "bool" else operator["return_type"]
+            result = operator["return_type"]
+            wire = "uint8_t result = 0;" if result == "bool" else f"{result} result;"
             symbol = operator["name"]
             if right != self.name:
                 self.forward.add(right)
@@ -213,9 +210,11 @@ class BuiltinWriter:
             right_constant = "GDEXTENSION_VARIANT_TYPE_NIL" if right == "Variant" else type_constant(right)
             self.define(
                 f"{result} {self.name}::operator{symbol}(const {right}& p_other) const {{",
-                "    static const GDExtensionPtrOperatorEvaluator evaluate = internal::find_operator(",
+                "    static constinit internal::BinaryOperator evaluate(",
                 f"        GDEXTENSION_VARIANT_OP_{OPERATORS[symbol]}, {type_constant(self.name)}, {right_constant});",
-                f"    return internal::call_operator<{result}>(evaluate, opaque_, p_other);",
+                f"    {wire}",
+                "    evaluate.call(opaque_, &p_other, &result);",
+                f"    return {'result != 0' if result == 'bool' else 'result'};",
                 "}",
             )
         self.declare("")

@@ -3,8 +3,9 @@
 from generator.api import Signature, Unsupported, header_of, safe_name, snake_case
 from generator.builtins import FRAGMENTS
 from generator.global_scope import enum_lines
+from generator.marshal import call_lines
 
-SOURCES = 8  # the wrappers are compiled in this many pieces
+SOURCES = 6  # the wrappers are compiled in this many pieces
 
 RENAMED = {("Node", "get_node"): "get_node_internal"}  # Node has get_node<T>() instead, as in godot-cpp
 
@@ -84,10 +85,8 @@ class ClassWriter:
                 self.plain_method(method, signature)
 
     def lookup(self, method):
-        return (
-            "    static const GDExtensionMethodBindPtr method =\n"
-            f'        internal::find_engine_method("{self.engine_name}", "{method["name"]}", {method["hash"]});'
-        )
+        arguments = f'"{self.engine_name}", "{method["name"]}", {method["hash"]}'
+        return f"    static constinit internal::EngineMethod method({arguments});"
 
     def method_name(self, method):
         return RENAMED.get((self.name, method["name"]), safe_name(method["name"]))
@@ -98,12 +97,11 @@ class ClassWriter:
         suffix = " const" if method["is_const"] else ""
         prefix = "static " if method["is_static"] else ""
         own = "nullptr" if method["is_static"] else "_owner"
-        arguments = "".join(f", {argument}" for argument in signature.names())
         self.declare(f"{prefix}{result} {name}({signature.parameters(True)}){suffix};")
         self.define(
             f"{result} {self.name}::{name}({signature.parameters(False)}){suffix} {{",
             self.lookup(method),
-            f"    return internal::call_engine_method<{result}>(method, {own}{arguments});",
+            *call_lines(signature, lambda given, back: f"method.ptrcall({own}, {given}, {back})"),
             "}",
         )
 
@@ -123,7 +121,7 @@ class ClassWriter:
         self.declare(f"    return {name}_values(values, sizeof...(A) + {count});")
         self.declare("}")
         self.declare(f"{result} {name}_values(const Variant* values, size_t count){suffix};")
-        call = "internal::call_vararg_engine_method(method, _owner, values, count)"
+        call = "method.call(_owner, values, count)"
         if result == "void":
             answer = f"    {call};"
         elif result == "Variant":
@@ -223,7 +221,7 @@ def write_sources(writers, output):
         pieces[min(SOURCES - 1, int(done / share))].append(writer)
         done += writer.methods
     for index, piece in enumerate(pieces):
-        includes = {"godot_cpp/private/vararg.hpp", "godot_cpp/core/object.hpp"}
+        includes = {"godot_cpp/private/lazy.hpp", "godot_cpp/core/object.hpp"}
         definitions = []
         for writer in piece:
             includes |= writer.source_includes

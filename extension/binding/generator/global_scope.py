@@ -1,6 +1,7 @@
 """Global enums, utility functions, sizes: what belongs to no class."""
 
 from generator.api import MATH_TYPES, OPAQUE_TYPES, Signature, Unsupported, header_of, safe_name
+from generator.marshal import call_lines
 
 
 def enum_lines(enum, indent=""):
@@ -64,7 +65,7 @@ def write_utility_functions(api, output):
             continue
         name = safe_name(entry["name"])
         result = signature.result_type()
-        lookup = f'internal::find_utility_function("{entry["name"]}", {entry["hash"]})'
+        lookup = f'    static constinit internal::UtilityFunction function("{entry["name"]}", {entry["hash"]});'
         if entry["is_vararg"]:
             # The first argument stands in the description only to say that there is one.
             declarations += [
@@ -78,18 +79,18 @@ def write_utility_functions(api, output):
             ]
             definitions += [
                 f"{result} UtilityFunctions::{name}_values(const Variant* values, size_t count) {{",
-                f"    static const GDExtensionPtrUtilityFunction function = {lookup};",
+                lookup,
                 f"    return internal::call_vararg_utility<{result}>(function, values, count);",
                 "}",
                 "",
             ]
             continue
-        arguments = "".join(f", {argument}" for argument in signature.names())
+        count = len(signature.arguments)
         declarations.append(f"    static {result} {name}({signature.parameters(True)});")
         definitions += [
             f"{result} UtilityFunctions::{name}({signature.parameters(False)}) {{",
-            f"    static const GDExtensionPtrUtilityFunction function = {lookup};",
-            f"    return internal::call_utility_function<{result}>(function{arguments});",
+            lookup,
+            *call_lines(signature, lambda given, back, count=count: f"function.call({given}, {back}, {count})"),
             "}",
             "",
         ]

@@ -79,6 +79,10 @@ Object* get_object_instance_binding(GodotObject* object) {
     return static_cast<Object*>(static_cast<Wrapped*>(binding));
 }
 
+GodotObject* owner_of(const Wrapped* object) {
+    return object != nullptr ? object->_owner : nullptr;
+}
+
 GodotObject* object_of_ref(const void* ref) {
     return interface.ref_get_object(ref);
 }

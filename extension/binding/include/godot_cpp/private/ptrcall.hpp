@@ -87,76 +87,18 @@ struct PtrArg<Ref<T>> {
     static void store(void* memory, const Ref<T>& ref) { store_in_ref(memory, encode(ref)); }
 };
 
-// Calls `invoke(arguments, result)` with the encoded arguments as the array of pointers that every ptrcall
-// takes.
-template <class Invoke, class... Encoded>
-void with_pointers(const Invoke& invoke, const Encoded&... encoded) {
-    const void* pointers[sizeof...(Encoded) + 1] = {static_cast<const void*>(&encoded)..., nullptr};
-    invoke(static_cast<const void* const*>(pointers));
-}
-
-template <class R, class Invoke, class... A>
-R call_encoded(const Invoke& invoke, const A&... arguments) {
-    if constexpr (std::is_void_v<R>) {
-        with_pointers([&](const void* const* pointers) { invoke(pointers, nullptr); },
-                      PtrArg<A>::encode(arguments)...);
-    } else {
-        typename PtrArg<R>::Slot slot{};
-        with_pointers([&](const void* const* pointers) { invoke(pointers, &slot); },
-                      PtrArg<A>::encode(arguments)...);
-        return PtrArg<R>::take(slot);
-    }
-}
-
-GDExtensionMethodBindPtr find_engine_method(const char* class_name, const char* method_name, int64_t hash);
-void ptrcall_engine_method(GDExtensionMethodBindPtr method, GodotObject* self, const void* const* arguments,
-                           void* result);
-GDExtensionPtrBuiltInMethod find_builtin_method(GDExtensionVariantType type, const char* method_name,
-                                                int64_t hash);
-GDExtensionPtrUtilityFunction find_utility_function(const char* name, int64_t hash);
-GDExtensionPtrOperatorEvaluator find_operator(GDExtensionVariantOperator op, GDExtensionVariantType left,
-                                              GDExtensionVariantType right);
-GDExtensionPtrConstructor find_constructor(GDExtensionVariantType type, int32_t index);
-GDExtensionPtrDestructor find_destructor(GDExtensionVariantType type);
 GodotObject* find_singleton(const char* name);
 
-template <class R, class... A>
-R call_engine_method(GDExtensionMethodBindPtr method, GodotObject* self, const A&... arguments) {
-    return call_encoded<R>([&](const void* const* pointers,
-                               void* result) { ptrcall_engine_method(method, self, pointers, result); },
-                           arguments...);
+GodotObject* owner_of(const Wrapped* object);
+
+template <class T>
+T* object_as(GodotObject* object) {
+    return PtrArg<T*>::take(object);
 }
 
-template <class R, class... A>
-R call_builtin_method(GDExtensionPtrBuiltInMethod method, const void* self, const A&... arguments) {
-    return call_encoded<R>(
-        [&](const void* const* pointers, void* result) {
-            method(const_cast<void*>(self), pointers, result, static_cast<int32_t>(sizeof...(A)));
-        },
-        arguments...);
-}
-
-template <class R, class... A>
-R call_utility_function(GDExtensionPtrUtilityFunction function, const A&... arguments) {
-    return call_encoded<R>(
-        [&](const void* const* pointers, void* result) {
-            function(result, pointers, static_cast<int32_t>(sizeof...(A)));
-        },
-        arguments...);
-}
-
-template <class... A>
-void call_constructor(GDExtensionPtrConstructor constructor, void* memory, const A&... arguments) {
-    with_pointers([&](const void* const* pointers) { constructor(memory, pointers); },
-                  PtrArg<A>::encode(arguments)...);
-}
-
-template <class R, class L, class T>
-R call_operator(GDExtensionPtrOperatorEvaluator evaluator, const L& left, const T& right) {
-    typename PtrArg<R>::Slot slot{};
-    const auto& encoded = PtrArg<T>::encode(right);
-    evaluator(&left, &encoded, &slot);
-    return PtrArg<R>::take(slot);
+template <class T>
+Ref<T> ref_as(GodotObject* object) {
+    return PtrArg<Ref<T>>::take(object);
 }
 
 }  // namespace internal

@@ -1,15 +1,13 @@
 #pragma once
 
-// Calls with any number of Variants.
+// Calls of built-in and utility functions with any number of Variants.
 
+#include <godot_cpp/private/lazy.hpp>
 #include <godot_cpp/private/ptrcall.hpp>
 #include <godot_cpp/variant/variant.hpp>
 #include <vector>
 
 namespace godot::internal {
-
-Variant call_vararg_engine_method(GDExtensionMethodBindPtr method, GodotObject* self, const Variant* values,
-                                  size_t count);
 
 template <class R, class Invoke>
 R call_vararg(const Invoke& invoke, const Variant* values, size_t count) {
@@ -27,19 +25,18 @@ R call_vararg(const Invoke& invoke, const Variant* values, size_t count) {
 }
 
 template <class R>
-R call_vararg_builtin(GDExtensionPtrBuiltInMethod method, const void* self, const Variant* values,
-                      size_t count) {
+R call_vararg_builtin(BuiltinMethod& method, void* self, const Variant* values, size_t count) {
     return call_vararg<R>(
         [&](const void* const* pointers, void* result) {
-            method(const_cast<void*>(self), pointers, result, static_cast<int32_t>(count));
+            method.call(self, pointers, result, static_cast<int32_t>(count));
         },
         values, count);
 }
 
 template <class R>
-R call_vararg_utility(GDExtensionPtrUtilityFunction function, const Variant* values, size_t count) {
+R call_vararg_utility(UtilityFunction& function, const Variant* values, size_t count) {
     return call_vararg<R>([&](const void* const* pointers,
-                              void* result) { function(result, pointers, static_cast<int32_t>(count)); },
+                              void* result) { function.call(pointers, result, static_cast<int32_t>(count)); },
                           values, count);
 }
 
