@@ -5,7 +5,8 @@ extends Node
 ## --output=FOLDER      where CASE.csv, CASE_trace.json, CASE_statistics.json and CASE_periods.json go
 ## --case=NAME          what the files are called; the scene's name where it is missing
 ## --duration=SECONDS   of the loop's own time; 10 where it is missing
-## --clock=real         the haptic thread ticks; --clock=stepped: this node does, and the same run gives the same bytes
+## --clock=real         the haptic thread ticks
+## --clock=stepped      this node makes the ticks, and the same run gives the same bytes
 ## --warmup=SECONDS     until statistics count, in real time; 0.5 where it is missing
 ## --baseline=1         a bare loop that only sleeps runs beside, for comparison
 ## --processor=NUMBER   the one on which the haptic thread stays; see HapticWorld.processor
@@ -14,8 +15,15 @@ extends Node
 const FRAMES_PER_SECOND := 60
 
 var _options := {
-	"scene": "res://static_testbed.tscn", "output": "user://", "case": "", "duration": "10", "clock": "real",
-	"warmup": "0.5", "baseline": "0", "screenshots": "", "processor": "",
+	"scene": "res://static_testbed.tscn",
+	"output": "user://",
+	"case": "",
+	"duration": "10",
+	"clock": "real",
+	"warmup": "0.5",
+	"baseline": "0",
+	"screenshots": "",
+	"processor": "",
 }
 
 
@@ -24,7 +32,9 @@ func run(arguments: PackedStringArray) -> int:
 	for argument in arguments:
 		var words := argument.trim_prefix("--").split("=", true, 1)
 		if words.size() != 2 or not _options.has(words[0]):
-			return _fail("'%s' is not understood: the options are --%s=…" % [argument, "=…, --".join(_options.keys())])
+			return _fail(
+				"'%s' is not understood: the options are --%s=…" % [argument, "=…, --".join(_options.keys())]
+			)
 		_options[words[0]] = words[1]
 	if _options.case == "":
 		_options.case = _options.scene.get_file().get_basename()
