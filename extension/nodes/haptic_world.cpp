@@ -239,16 +239,15 @@ void HapticWorld::restart() {
 }
 
 void HapticWorld::_notification(int what) {
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
     switch (what) {
         case NOTIFICATION_ENTER_TREE:
             get_tree()->connect("node_added", Callable(this, "_node_added"));
             get_tree()->connect("node_removed", Callable(this, "_node_removed"));
             break;
         case NOTIFICATION_POST_ENTER_TREE:
-            start();
+            if (!Engine::get_singleton()->is_editor_hint()) {
+                start();
+            }
             break;
         case NOTIFICATION_EXIT_TREE:
             get_tree()->disconnect("node_added", Callable(this, "_node_added"));
@@ -270,13 +269,20 @@ void HapticWorld::_notification(int what) {
     }
 }
 
+// In the editor what comes and goes changes what there is to warn of.
 void HapticWorld::node_added(Node* node) {
+    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
+        update_configuration_warnings();
+    }
     if (run_ != nullptr && is_solid_body(node)) {
         run_->bodies_changed();
     }
 }
 
 void HapticWorld::node_removed(Node* node) {
+    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
+        update_configuration_warnings();
+    }
     if (run_ == nullptr) {
         return;
     }
