@@ -1,6 +1,8 @@
 extends Control
-## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it away or pull it
-## closer; Tab changes between the mouse and the scripted path, Escape goes back.
+## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it away or
+## pull it closer; Tab changes between the mouse and the scripted path, Escape goes back.
+##
+## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead.
 
 const SCENES := {
 	"Static: a sphere on the thesis's path": "res://static_testbed.tscn",
@@ -8,9 +10,10 @@ const SCENES := {
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
 }
 
+var _scene: Node
+
 @onready var _choices: VBoxContainer = %Choices
 @onready var _hint: Label = %Hint
-var _scene: Node
 
 
 func _ready() -> void:
@@ -22,8 +25,15 @@ func _ready() -> void:
 	_show_menu(true)
 	(_choices.get_child(0) as Button).grab_focus()
 	var asked := OS.get_cmdline_user_args()
-	if not asked.is_empty() and asked[0] in SCENES.values():
-		open(asked[0])
+	if not asked.is_empty() and asked[0].begins_with("--"):
+		_run_experiment.call_deferred()
+
+
+func _run_experiment() -> void:
+	%Menu.visible = false
+	var experiment: Node = load("res://experiments/experiment.gd").new()
+	add_child(experiment)
+	get_tree().quit(await experiment.run(OS.get_cmdline_user_args()))
 
 
 func open(path: String) -> void:

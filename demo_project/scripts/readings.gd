@@ -11,6 +11,15 @@ func _process(_delta: float) -> void:
 	lines.append("%s   force %5.2f N" % [proxy.get_state_text(), force.length()])
 	var figures := world.get_statistics()
 	if figures.has("mean_period_us"):
-		lines.append("tick %.1f µs mean, %.1f µs p99, %.1f µs of work p99, %d missed" % [
-			figures.mean_period_us, figures.tick_period_p99_us, figures.tick_compute_p99_us, figures.missed_deadlines])
+		lines.append(
+			(
+				"tick %.1f µs mean, %.1f µs p99, %.1f µs of work p99, %d missed"
+				% [
+					figures.mean_period_us,
+					figures.tick_period_p99_us,
+					figures.tick_compute_p99_us,
+					figures.missed_deadlines
+				]
+			)
+		)
 	text = "\n".join(lines)

@@ -24,12 +24,15 @@ bool operator==(const SurfaceMaterial& a, const SurfaceMaterial& b) {
            a.absorbent == b.absorbent;
 }
 
-bool operator==(const CollisionLayers& a, const CollisionLayers& b) { return a.layer == b.layer && a.mask == b.mask; }
+bool operator==(const CollisionLayers& a, const CollisionLayers& b) {
+    return a.layer == b.layer && a.mask == b.mask;
+}
 
 PhysicsServer3D::BodyMode own_mode(const RigidBody3D& body) {
     if (body.is_freeze_enabled()) {
-        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC ? PhysicsServer3D::BODY_MODE_KINEMATIC
-                                                                            : PhysicsServer3D::BODY_MODE_STATIC;
+        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC
+                   ? PhysicsServer3D::BODY_MODE_KINEMATIC
+                   : PhysicsServer3D::BODY_MODE_STATIC;
     }
     return body.is_lock_rotation_enabled() ? PhysicsServer3D::BODY_MODE_RIGID_LINEAR
                                            : PhysicsServer3D::BODY_MODE_RIGID;
@@ -41,8 +44,8 @@ CollisionObject3D* BodyMirror::body() const {
     return Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(id_));
 }
 
-// Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its own, and what
-// is outside the world still finds the body where it is.
+// Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its
+// own, and what is outside the world still finds the body where it is.
 void BodyMirror::hold_still_in_godot(CollisionObject3D& body) const {
     PhysicsServer3D* server = PhysicsServer3D::get_singleton();
     if (is_rigid(body) && server->body_get_mode(body.get_rid()) != PhysicsServer3D::BODY_MODE_STATIC) {
@@ -126,7 +129,8 @@ void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
     if (values_.gravity_scale != before.gravity_scale) {
         session.set_body_gravity_scale(handle_, values_.gravity_scale);
     }
-    if (values_.linear_damping != before.linear_damping || values_.angular_damping != before.angular_damping) {
+    if (values_.linear_damping != before.linear_damping ||
+        values_.angular_damping != before.angular_damping) {
         session.set_body_damping(handle_, values_.linear_damping, values_.angular_damping);
     }
 }

@@ -1,5 +1,5 @@
-// One Godot body and its twin in the session: what changes on Godot's side is passed on, and what the session moves is
-// shown on Godot's side. Main thread only.
+// One Godot body and its twin in the session: what changes on Godot's side is passed on, and what the session
+// moves is shown on Godot's side. Main thread only.
 #pragma once
 
 #include <godot_cpp/classes/collision_object3d.hpp>
@@ -54,8 +54,8 @@ private:
     std::uint64_t mesh_changes_ = 0;
     BodyMakings makings_;
     BodyValues values_;
-    BodyAddition shapes_;          // only its shapes are of interest
-    godot::Transform3D place_;     // of Godot's body, when we last saw or set it
+    BodyAddition shapes_;       // only its shapes are of interest
+    godot::Transform3D place_;  // of Godot's body, when we last saw or set it
     godot::Vector3 linear_velocity_;
     godot::Vector3 angular_velocity_;
     std::uint64_t shown_change_ = 0;  // BodyState::changed_at that Godot's side shows

@@ -45,7 +45,8 @@ TouchMaterial touch_of(const Ref<PhysicsMaterial>& material, const TouchMaterial
         return otherwise;
     }
     TouchMaterial touch = otherwise;
-    touch.static_friction = touch.dynamic_friction = std::max(0.0, static_cast<double>(material->get_friction()));
+    touch.static_friction = touch.dynamic_friction =
+        std::max(0.0, static_cast<double>(material->get_friction()));
     return touch;
 }
 
@@ -76,18 +77,22 @@ std::string name_of_owner(const Object* owner) {
 }  // namespace
 
 bool is_solid_body(const Object* object) {
-    return Object::cast_to<RigidBody3D>(object) != nullptr || Object::cast_to<StaticBody3D>(object) != nullptr ||
+    return Object::cast_to<RigidBody3D>(object) != nullptr ||
+           Object::cast_to<StaticBody3D>(object) != nullptr ||
            Object::cast_to<CharacterBody3D>(object) != nullptr;
 }
 
-bool is_rigid(const CollisionObject3D& body) { return Object::cast_to<RigidBody3D>(&body) != nullptr; }
+bool is_rigid(const CollisionObject3D& body) {
+    return Object::cast_to<RigidBody3D>(&body) != nullptr;
+}
 
 Motion motion_of(const CollisionObject3D& body) {
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
         if (!rigid->is_freeze_enabled()) {
             return Motion::Dynamic;
         }
-        return rigid->get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC ? Motion::Kinematic : Motion::Static;
+        return rigid->get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC ? Motion::Kinematic
+                                                                              : Motion::Static;
     }
     const bool told = Object::cast_to<AnimatableBody3D>(&body) != nullptr ||
                       Object::cast_to<CharacterBody3D>(&body) != nullptr;
@@ -118,7 +123,8 @@ ShapeKey shape_key(CollisionObject3D& body) {
 
 std::vector<Ref<Shape3D>> shapes_of(CollisionObject3D& body) {
     std::vector<Ref<Shape3D>> shapes;
-    for_each_shape(body, [&shapes](const Ref<Shape3D>& shape, const Transform3D&, Object*) { shapes.push_back(shape); });
+    for_each_shape(
+        body, [&shapes](const Ref<Shape3D>& shape, const Transform3D&, Object*) { shapes.push_back(shape); });
     return shapes;
 }
 
@@ -163,8 +169,8 @@ BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaul
     values.touch = touch_of(material, defaults.touch);
     if (material.is_valid()) {
         values.surface = {std::max(0.0, static_cast<double>(material->get_friction())),
-                          std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0), material->is_rough(),
-                          material->is_absorbent()};
+                          std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0),
+                          material->is_rough(), material->is_absorbent()};
     }
     values.layers = {static_cast<std::uint32_t>(body.get_collision_layer()),
                      static_cast<std::uint32_t>(body.get_collision_mask())};

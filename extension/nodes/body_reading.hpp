@@ -20,7 +20,8 @@ struct BodyDefaults {
     double angular_damping = 0.1;  // likewise
 };
 
-// What touch and collision take their form from. Two equal ones need no new reading, unless a shape said that it changed.
+// What touch and collision take their form from. Two equal ones need no new reading, unless a shape said that
+// it changed.
 struct ShapeKey {
     struct Entry {
         std::uint64_t shape = 0;  // instance id
@@ -29,7 +30,9 @@ struct ShapeKey {
     };
     std::vector<Entry> shapes;
     godot::Basis scaling;
-    bool operator==(const ShapeKey& other) const { return shapes == other.shapes && scaling == other.scaling; }
+    bool operator==(const ShapeKey& other) const {
+        return shapes == other.shapes && scaling == other.scaling;
+    }
 };
 
 // Whether a world mirrors this object at all: areas are not solid.
@@ -67,7 +70,7 @@ BodyValues read_values(const godot::CollisionObject3D& body, const BodyDefaults&
 // What a body is made from: a change makes it anew.
 struct BodyMakings {
     double mass = 1.0;
-    godot::Vector3 inertia;         // zero: that of the shapes
+    godot::Vector3 inertia;  // zero: that of the shapes
     std::optional<Vec3> center_of_mass;
     bool continuous = false;
     bool can_sleep = true;

@@ -1,5 +1,5 @@
-// Between Godot's values and ours. Both are right-handed with y up and in SI units, so nothing is turned or scaled: only
-// the precision changes (Godot's vectors are single precision in its official builds).
+// Between Godot's values and ours. Both are right-handed with y up and in SI units, so nothing is turned or
+// scaled: only the precision changes (Godot's vectors are single precision in its official builds).
 #pragma once
 
 #include <godot_cpp/variant/basis.hpp>
@@ -13,14 +13,19 @@
 
 namespace tactus {
 
-inline Vec3 from_godot(const godot::Vector3& v) { return {v.x, v.y, v.z}; }
+inline Vec3 from_godot(const godot::Vector3& v) {
+    return {v.x, v.y, v.z};
+}
 
 inline godot::Vector3 to_godot(const Vec3& v) {
-    return {static_cast<godot::real_t>(v.x), static_cast<godot::real_t>(v.y), static_cast<godot::real_t>(v.z)};
+    return {static_cast<godot::real_t>(v.x), static_cast<godot::real_t>(v.y),
+            static_cast<godot::real_t>(v.z)};
 }
 
 // Normalised again in double precision: Godot's is a unit quaternion to single precision only.
-inline Quat from_godot(const godot::Quaternion& q) { return glm::normalize(Quat(q.w, q.x, q.y, q.z)); }
+inline Quat from_godot(const godot::Quaternion& q) {
+    return glm::normalize(Quat(q.w, q.x, q.y, q.z));
+}
 
 inline godot::Quaternion to_godot(const Quat& q) {
     return {static_cast<godot::real_t>(q.x), static_cast<godot::real_t>(q.y), static_cast<godot::real_t>(q.z),
@@ -41,8 +46,12 @@ inline godot::Basis scaling_of(const godot::Basis& basis) {
     return godot::Basis(basis.get_rotation_quaternion()).transposed() * basis;
 }
 
-inline godot::String to_godot(const std::string& text) { return godot::String::utf8(text.c_str()); }
+inline godot::String to_godot(const std::string& text) {
+    return godot::String::utf8(text.c_str());
+}
 
-inline std::string from_godot(const godot::String& text) { return text.utf8().get_data(); }
+inline std::string from_godot(const godot::String& text) {
+    return text.utf8().get_data();
+}
 
 }  // namespace tactus

@@ -1,5 +1,5 @@
-// The library's door. Everything behind it is compiled for processors with AVX2 and FMA; this file is not, so that on an
-// older one it can say so and leave Godot running.
+// The library's door. Everything behind it is compiled for processors with AVX2 and FMA; this file is not, so
+// that on an older one it can say so and leave Godot running.
 #include <gdextension_interface.h>
 
 #include "nodes/register_types.hpp"
@@ -16,7 +16,8 @@ void refuse_to_load(GDExtensionInterfaceGetProcAddress get_proc_address) {
         reinterpret_cast<GDExtensionInterfacePrintError>(get_proc_address("print_error"));
     if (print_error != nullptr) {
         print_error(
-            "Tactus needs a processor with AVX2 and FMA (Intel since 2013, AMD since 2015): the haptic nodes are not "
+            "Tactus needs a processor with AVX2 and FMA (Intel since 2013, AMD since 2015): the haptic nodes "
+            "are not "
             "available on this machine.",
             __func__, __FILE__, __LINE__, false);
     }
@@ -24,9 +25,9 @@ void refuse_to_load(GDExtensionInterfaceGetProcAddress get_proc_address) {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) GDExtensionBool tactus_library_init(
-    GDExtensionInterfaceGetProcAddress get_proc_address, GDExtensionClassLibraryPtr library,
-    GDExtensionInitialization* initialization) {
+extern "C" __attribute__((visibility("default"))) GDExtensionBool
+tactus_library_init(GDExtensionInterfaceGetProcAddress get_proc_address, GDExtensionClassLibraryPtr library,
+                    GDExtensionInitialization* initialization) {
     if (!processor_suffices()) {
         refuse_to_load(get_proc_address);
         return false;

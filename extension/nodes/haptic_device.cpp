@@ -68,13 +68,20 @@ void HapticDevice::set_force_limit(double newtons) {
     force_limit_ = newtons;
 }
 
-Vector3 HapticDevice::get_hand_position() const { return to_godot(state_.position); }
-Vector3 HapticDevice::get_hand_velocity() const { return to_godot(state_.velocity); }
-Vector3 HapticDevice::get_force() const { return to_godot(state_.force); }
+Vector3 HapticDevice::get_hand_position() const {
+    return to_godot(state_.position);
+}
+Vector3 HapticDevice::get_hand_velocity() const {
+    return to_godot(state_.velocity);
+}
+Vector3 HapticDevice::get_force() const {
+    return to_godot(state_.force);
+}
 
 String HapticDevice::problem() const {
     if (driver_ == DRIVER_PATH && path_.is_null()) {
-        return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another driver";
+        return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another "
+               "driver";
     }
     if (driver_ == DRIVER_PATH && !path_->get_problem().is_empty()) {
         return "its path cannot be followed: " + path_->get_problem();
@@ -104,9 +111,11 @@ PackedStringArray HapticDevice::_get_configuration_warnings() const {
     }
     if (is_inside_tree()) {
         const Vector3 scale = get_global_transform().basis.get_scale().abs();
-        if (std::abs(scale.x - scale.y) > even_scale * scale.x || std::abs(scale.x - scale.z) > even_scale * scale.x) {
-            warnings.push_back("This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
-                               "evenly.");
+        if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
+            std::abs(scale.x - scale.z) > even_scale * scale.x) {
+            warnings.push_back(
+                "This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
+                "evenly.");
         }
     }
     return warnings;
@@ -208,14 +217,15 @@ void HapticDevice::_bind_methods() {
                          DEFVAL(0.0));
     ClassDB::bind_method(D_METHOD("_path_changed"), &HapticDevice::changed);
 
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse"), "set_driver",
-                 "get_driver");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse"),
+                 "set_driver", "get_driver");
     ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "path", PROPERTY_HINT_RESOURCE_TYPE, "HapticPath"), "set_path",
                  "get_path_resource");
     ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "wheel_step", PROPERTY_HINT_RANGE, "0.001,0.1,0.001,suffix:m"),
                  "set_wheel_step", "get_wheel_step");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "force_limit", PROPERTY_HINT_RANGE, "0,20,0.1,or_greater,suffix:N"),
-                 "set_force_limit", "get_force_limit");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "force_limit", PROPERTY_HINT_RANGE, "0,20,0.1,or_greater,suffix:N"),
+        "set_force_limit", "get_force_limit");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "clutch"), "set_clutch", "is_clutch_held");
 
     BIND_ENUM_CONSTANT(DRIVER_PATH);

@@ -13,8 +13,8 @@
 
 namespace tactus {
 
-// The hand. Its transform maps the device's workspace into the scene: move, turn or scale the node, and positions and
-// forces follow.
+// The hand. Its transform maps the device's workspace into the scene: move, turn or scale the node, and
+// positions and forces follow.
 class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 

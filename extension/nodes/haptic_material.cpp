@@ -20,8 +20,12 @@ void HapticMaterial::set(double& property, double value, const char* name) {
     }
 }
 
-void HapticMaterial::set_stiffness(double stiffness) { set(touch_.stiffness, stiffness, "stiffness"); }
-void HapticMaterial::set_damping(double damping) { set(touch_.damping, damping, "damping"); }
+void HapticMaterial::set_stiffness(double stiffness) {
+    set(touch_.stiffness, stiffness, "stiffness");
+}
+void HapticMaterial::set_damping(double damping) {
+    set(touch_.damping, damping, "damping");
+}
 void HapticMaterial::set_static_friction(double friction) {
     set(touch_.static_friction, friction, "static_friction");
 }
@@ -46,10 +50,12 @@ void HapticMaterial::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_dynamic_friction"), &HapticMaterial::get_dynamic_friction);
 
     ADD_GROUP("Touch", "");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "stiffness", PROPERTY_HINT_RANGE, "0,5000,1,or_greater,suffix:N/m"),
-                 "set_stiffness", "get_stiffness");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "damping", PROPERTY_HINT_RANGE, "0,20,0.01,or_greater,suffix:N·s/m"),
-                 "set_damping", "get_damping");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "stiffness", PROPERTY_HINT_RANGE, "0,5000,1,or_greater,suffix:N/m"),
+        "set_stiffness", "get_stiffness");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "damping", PROPERTY_HINT_RANGE, "0,20,0.01,or_greater,suffix:N·s/m"),
+        "set_damping", "get_damping");
     ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "static_friction", PROPERTY_HINT_RANGE, "0,2,0.01,or_greater"),
                  "set_static_friction", "get_static_friction");
     ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "dynamic_friction", PROPERTY_HINT_RANGE, "0,2,0.01,or_greater"),

@@ -6,8 +6,8 @@
 
 namespace tactus {
 
-// What a surface feels like. Goes into the ordinary physics_material_override of a body, and keeps what a PhysicsMaterial
-// says about contacts between bodies.
+// What a surface feels like. Goes into the ordinary physics_material_override of a body, and keeps what a
+// PhysicsMaterial says about contacts between bodies.
 class HapticMaterial : public godot::PhysicsMaterial {
     GDCLASS(HapticMaterial, godot::PhysicsMaterial)
 

@@ -21,7 +21,9 @@ std::uint64_t change_count = 0;
 
 }  // namespace
 
-std::uint64_t HapticMesh::changes() { return change_count; }
+std::uint64_t HapticMesh::changes() {
+    return change_count;
+}
 
 void HapticMesh::forget_triangles() {
     is_read_ = false;
@@ -30,7 +32,9 @@ void HapticMesh::forget_triangles() {
     update_configuration_warnings();
 }
 
-void HapticMesh::resource_changed() { forget_triangles(); }
+void HapticMesh::resource_changed() {
+    forget_triangles();
+}
 
 void HapticMesh::set_mesh(const Ref<Mesh>& mesh) {
     const Callable on_change(this, "_resource_changed");
@@ -100,7 +104,9 @@ String HapticMesh::get_library_source() const {
     return entry ? entry->source : String();
 }
 
-PackedStringArray HapticMesh::get_library_names() { return mesh_library_names(); }
+PackedStringArray HapticMesh::get_library_names() {
+    return mesh_library_names();
+}
 
 Ref<Mesh> HapticMesh::create_library_mesh(const String& name) {
     const LibraryMesh loaded = load_library_mesh(name);
@@ -114,8 +120,9 @@ Ref<Mesh> HapticMesh::create_library_mesh(const String& name) {
 PackedStringArray HapticMesh::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (Object::cast_to<CollisionObject3D>(get_parent()) == nullptr) {
-        warnings.push_back("This HapticMesh touches nothing: make it a child of a StaticBody3D, AnimatableBody3D or "
-                           "RigidBody3D.");
+        warnings.push_back(
+            "This HapticMesh touches nothing: make it a child of a StaticBody3D, AnimatableBody3D or "
+            "RigidBody3D.");
     }
     const ShapeReading reading = read(Basis());
     if (!reading.error.empty()) {
@@ -152,7 +159,8 @@ void HapticMesh::_bind_methods() {
     ClassDB::bind_static_method("HapticMesh", D_METHOD("create_library_mesh", "name"),
                                 &HapticMesh::create_library_mesh);
 
-    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "mesh", PROPERTY_HINT_RESOURCE_TYPE, "Mesh"), "set_mesh", "get_mesh");
+    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "mesh", PROPERTY_HINT_RESOURCE_TYPE, "Mesh"), "set_mesh",
+                 "get_mesh");
     ADD_PROPERTY(PropertyInfo(Variant::STRING, "library_mesh", PROPERTY_HINT_ENUM_SUGGESTION, ""),
                  "set_library_mesh", "get_library_mesh");
 }

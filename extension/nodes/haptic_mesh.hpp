@@ -9,8 +9,8 @@
 
 namespace tactus {
 
-// As a child of a body: touch this mesh instead of the body's collision shapes. The body keeps colliding with other
-// bodies by its own shapes; where it has none, the mesh serves for that, too.
+// As a child of a body: touch this mesh instead of the body's collision shapes. The body keeps colliding with
+// other bodies by its own shapes; where it has none, the mesh serves for that, too.
 class HapticMesh : public godot::Node3D {
     GDCLASS(HapticMesh, godot::Node3D)
 
@@ -27,7 +27,8 @@ public:
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
-    // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves out.
+    // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
+    // out.
     ShapeReading read(const godot::Basis& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.

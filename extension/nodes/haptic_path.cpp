@@ -14,7 +14,9 @@ namespace {
 
 constexpr int line_steps = 600;  // points of a drawn path: 3 mm apart on the path of the thesis
 
-bool starts_with(const StringName& name, const char* prefix) { return String(name).begins_with(prefix); }
+bool starts_with(const StringName& name, const char* prefix) {
+    return String(name).begins_with(prefix);
+}
 
 }  // namespace
 
@@ -31,7 +33,9 @@ void HapticPath::set_center(const Vector3& center) {
     change(circle_.centre, from_godot(center));
 }
 
-Vector3 HapticPath::get_center() const { return to_godot(circle_.centre); }
+Vector3 HapticPath::get_center() const {
+    return to_godot(circle_.centre);
+}
 
 void HapticPath::set_radius(double radius) {
     if (!is_at_least_zero(radius)) {
@@ -65,18 +69,26 @@ void HapticPath::set_waves(int waves) {
     change(circle_.waves, waves);
 }
 
-void HapticPath::set_points(const PackedVector3Array& points) { change(points_, points); }
-void HapticPath::set_times(const PackedFloat64Array& times) { change(times_, times); }
-void HapticPath::set_interpolation(Interpolation interpolation) { change(interpolation_, interpolation); }
-void HapticPath::set_loop(bool loop) { change(loop_, loop); }
+void HapticPath::set_points(const PackedVector3Array& points) {
+    change(points_, points);
+}
+void HapticPath::set_times(const PackedFloat64Array& times) {
+    change(times_, times);
+}
+void HapticPath::set_interpolation(Interpolation interpolation) {
+    change(interpolation_, interpolation);
+}
+void HapticPath::set_loop(bool loop) {
+    change(loop_, loop);
+}
 
 HandPath HapticPath::hand_path() const {
     if (form_ == FORM_CIRCLE_WAVE) {
         return circle_;
     }
     KeyframePath path;
-    path.interpolation = interpolation_ == INTERPOLATION_SMOOTH ? PathInterpolation::catmull_rom
-                                                                : PathInterpolation::linear;
+    path.interpolation =
+        interpolation_ == INTERPOLATION_SMOOTH ? PathInterpolation::catmull_rom : PathInterpolation::linear;
     path.loop = loop_;
     for (int64_t i = 0; i < points_.size(); ++i) {
         const double time = i < times_.size() ? times_[i] : static_cast<double>(i);
@@ -87,7 +99,8 @@ HandPath HapticPath::hand_path() const {
 
 String HapticPath::get_problem() const {
     if (form_ == FORM_POINTS && !times_.is_empty() && times_.size() != points_.size()) {
-        return "there are " + String::num_int64(points_.size()) + " points and " + String::num_int64(times_.size()) +
+        return "there are " + String::num_int64(points_.size()) + " points and " +
+               String::num_int64(times_.size()) +
                " times: give each point a time, or leave the times empty for one second a point";
     }
     return to_godot(problem_with(hand_path()));
@@ -115,7 +128,8 @@ Ref<ArrayMesh> HapticPath::create_line_mesh(double thickness) const {
     if (problem_with(path).empty()) {
         const Nanoseconds duration = path_duration(path);
         for (int i = 0; i < line_steps; ++i) {
-            points.push_back(sample_path(path, duration * i / (closed ? line_steps : line_steps - 1)).position);
+            points.push_back(
+                sample_path(path, duration * i / (closed ? line_steps : line_steps - 1)).position);
         }
     }
     return tube_mesh(points, thickness, closed);
@@ -154,26 +168,29 @@ void HapticPath::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_duration"), &HapticPath::get_duration);
     ClassDB::bind_method(D_METHOD("sample", "time"), &HapticPath::sample);
     ClassDB::bind_method(D_METHOD("sample_velocity", "time"), &HapticPath::sample_velocity);
-    ClassDB::bind_method(D_METHOD("create_line_mesh", "thickness"), &HapticPath::create_line_mesh, DEFVAL(0.002));
+    ClassDB::bind_method(D_METHOD("create_line_mesh", "thickness"), &HapticPath::create_line_mesh,
+                         DEFVAL(0.002));
 
     ADD_PROPERTY(PropertyInfo(Variant::INT, "form", PROPERTY_HINT_ENUM, "Circle and wave,Points"), "set_form",
                  "get_form");
     ADD_GROUP("Circle and Wave", "circle_");
-    ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "circle_center", PROPERTY_HINT_NONE, "suffix:m"), "set_center",
-                 "get_center");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "circle_radius", PROPERTY_HINT_RANGE, "0,1,0.001,or_greater,suffix:m"),
-                 "set_radius", "get_radius");
+    ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "circle_center", PROPERTY_HINT_NONE, "suffix:m"),
+                 "set_center", "get_center");
     ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "circle_amplitude", PROPERTY_HINT_RANGE, "0,0.5,0.001,or_greater,suffix:m"),
-        "set_amplitude", "get_amplitude");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "circle_turn_time", PROPERTY_HINT_RANGE, "0.1,60,0.1,or_greater,suffix:s"),
-        "set_turn_time", "get_turn_time");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "circle_waves", PROPERTY_HINT_RANGE, "0,20,1,or_greater"), "set_waves",
-                 "get_waves");
+        PropertyInfo(Variant::FLOAT, "circle_radius", PROPERTY_HINT_RANGE, "0,1,0.001,or_greater,suffix:m"),
+        "set_radius", "get_radius");
+    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "circle_amplitude", PROPERTY_HINT_RANGE,
+                              "0,0.5,0.001,or_greater,suffix:m"),
+                 "set_amplitude", "get_amplitude");
+    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "circle_turn_time", PROPERTY_HINT_RANGE,
+                              "0.1,60,0.1,or_greater,suffix:s"),
+                 "set_turn_time", "get_turn_time");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "circle_waves", PROPERTY_HINT_RANGE, "0,20,1,or_greater"),
+                 "set_waves", "get_waves");
     ADD_GROUP("Points", "points_");
-    ADD_PROPERTY(PropertyInfo(Variant::PACKED_VECTOR3_ARRAY, "points_positions", PROPERTY_HINT_NONE, "suffix:m"),
-                 "set_points", "get_points");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::PACKED_VECTOR3_ARRAY, "points_positions", PROPERTY_HINT_NONE, "suffix:m"),
+        "set_points", "get_points");
     ADD_PROPERTY(PropertyInfo(Variant::PACKED_FLOAT64_ARRAY, "points_times", PROPERTY_HINT_NONE, "suffix:s"),
                  "set_times", "get_times");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "points_interpolation", PROPERTY_HINT_ENUM, "Linear,Smooth"),

@@ -25,7 +25,9 @@ constexpr std::size_t ring_capacity = 8192;
 
 }  // namespace
 
-HapticRecorder::~HapticRecorder() { stop(); }
+HapticRecorder::~HapticRecorder() {
+    stop();
+}
 
 void HapticRecorder::set_proxy(const NodePath& path) {
     proxy_ = path;
@@ -56,7 +58,8 @@ void HapticRecorder::set_trace_seconds(double seconds) {
 }
 
 const ProxyPointer* HapticRecorder::proxy_node() const {
-    return is_inside_tree() && !proxy_.is_empty() ? Object::cast_to<ProxyPointer>(get_node_or_null(proxy_)) : nullptr;
+    return is_inside_tree() && !proxy_.is_empty() ? Object::cast_to<ProxyPointer>(get_node_or_null(proxy_))
+                                                  : nullptr;
 }
 
 const Node* HapticRecorder::object_node() const {
@@ -70,7 +73,8 @@ String HapticRecorder::problem() const {
                                        "' is not a ProxyPointer of the scene: set 'proxy' anew";
     }
     if (!object_.is_empty() && !is_solid_body(object_node())) {
-        return "its object '" + String(object_) + "' is not a body of the scene: set 'object' anew, or leave it empty";
+        return "its object '" + String(object_) +
+               "' is not a body of the scene: set 'object' anew, or leave it empty";
     }
     return String();
 }
@@ -207,12 +211,14 @@ void HapticRecorder::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_rows"), &HapticRecorder::get_rows);
     ClassDB::bind_method(D_METHOD("get_lost_rows"), &HapticRecorder::get_lost_rows);
 
-    ADD_PROPERTY(PropertyInfo(Variant::NODE_PATH, "proxy", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "ProxyPointer"),
-                 "set_proxy", "get_proxy");
-    ADD_PROPERTY(PropertyInfo(Variant::NODE_PATH, "object", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "PhysicsBody3D"),
-                 "set_object", "get_object");
-    ADD_PROPERTY(PropertyInfo(Variant::STRING, "csv_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.csv"), "set_csv_path",
-                 "get_csv_path");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::NODE_PATH, "proxy", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "ProxyPointer"),
+        "set_proxy", "get_proxy");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::NODE_PATH, "object", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "PhysicsBody3D"),
+        "set_object", "get_object");
+    ADD_PROPERTY(PropertyInfo(Variant::STRING, "csv_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.csv"),
+                 "set_csv_path", "get_csv_path");
     ADD_PROPERTY(PropertyInfo(Variant::STRING, "trace_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.json"),
                  "set_trace_path", "get_trace_path");
     ADD_PROPERTY(

@@ -15,7 +15,8 @@ namespace tactus {
 
 class ProxyPointer;
 
-// Writes down every tick of one proxy. The loop puts rows into a ring; the main thread writes them to the file.
+// Writes down every tick of one proxy. The loop puts rows into a ring; the main thread writes them to the
+// file.
 class HapticRecorder : public godot::Node {
     GDCLASS(HapticRecorder, godot::Node)
 

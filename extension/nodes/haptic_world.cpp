@@ -23,8 +23,8 @@ namespace {
 
 constexpr double report_interval = 1.0;  // (unit: seconds)
 
-// Frames take turns of very different length; a body that moves on Godot's side is given at least this long for its way
-// (unit: seconds).
+// Frames take turns of very different length; a body that moves on Godot's side is given at least this long
+// for its way (unit: seconds).
 constexpr double shortest_way = 1e-3;
 
 struct StatusWord {
@@ -80,9 +80,10 @@ void find_problems(const Node& node, PackedStringArray& problems) {
     for (int i = 0; i < node.get_child_count(); ++i) {
         Node* child = node.get_child(i);
         if (is_solid_body(child)) {
-            for (const std::string& problem : read_shapes(*Object::cast_to<CollisionObject3D>(child)).problems) {
-                problems.push_back("'" + String(child->get_name()) + "' cannot be touched as it should be: " +
-                                   to_godot(problem) + ".");
+            for (const std::string& problem :
+                 read_shapes(*Object::cast_to<CollisionObject3D>(child)).problems) {
+                problems.push_back("'" + String(child->get_name()) +
+                                   "' cannot be touched as it should be: " + to_godot(problem) + ".");
             }
         }
         find_problems(*child, problems);
@@ -94,7 +95,8 @@ void find_problems(const Node& node, PackedStringArray& problems) {
 HapticWorld::HapticWorld() : gravity_(project_gravity()) {}
 HapticWorld::~HapticWorld() = default;
 
-// --- properties ------------------------------------------------------------------------------------------------------
+// --- properties
+// ------------------------------------------------------------------------------------------------------
 
 void HapticWorld::set_tick_rate(int hertz) {
     if (hertz < 10 || hertz > 20000) {
@@ -164,7 +166,8 @@ TouchMaterial HapticWorld::default_touch() const {
     return default_material_.is_valid() ? default_material_->touch() : TouchMaterial{};
 }
 
-// --- life ------------------------------------------------------------------------------------------------------------
+// --- life
+// ------------------------------------------------------------------------------------------------------------
 
 HapticWorld* HapticWorld::of(const Node* node) {
     for (Node* above = node->get_parent(); above != nullptr; above = above->get_parent()) {
@@ -188,9 +191,10 @@ const HapticWorld* HapticWorld::world_above() const {
 
 void HapticWorld::start() {
     if (const HapticWorld* outer = world_above()) {
-        UtilityFunctions::push_warning(name_of(*this), ": it stands inside another HapticWorld, ", name_of(*outer),
-                                       ", and stays inactive; what is in it belongs to the outer one. Remove one of "
-                                       "the two, or put them side by side.");
+        UtilityFunctions::push_warning(
+            name_of(*this), ": it stands inside another HapticWorld, ", name_of(*outer),
+            ", and stays inactive; what is in it belongs to the outer one. Remove one of "
+            "the two, or put them side by side.");
         return;
     }
     RunSettings settings;
@@ -210,7 +214,8 @@ void HapticWorld::start() {
     run_->synchronise(shortest_way);
     if (settings.real_time && can_process()) {
         if (const std::string error = run_->start_loop(); !error.empty()) {
-            UtilityFunctions::push_error(name_of(*this), ": the haptic loop could not start: ", to_godot(error), ".");
+            UtilityFunctions::push_error(name_of(*this),
+                                         ": the haptic loop could not start: ", to_godot(error), ".");
         }
     }
     set_process(settings.real_time);
@@ -234,16 +239,15 @@ void HapticWorld::restart() {
 }
 
 void HapticWorld::_notification(int what) {
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
     switch (what) {
         case NOTIFICATION_ENTER_TREE:
             get_tree()->connect("node_added", Callable(this, "_node_added"));
             get_tree()->connect("node_removed", Callable(this, "_node_removed"));
             break;
         case NOTIFICATION_POST_ENTER_TREE:
-            start();
+            if (!Engine::get_singleton()->is_editor_hint()) {
+                start();
+            }
             break;
         case NOTIFICATION_EXIT_TREE:
             get_tree()->disconnect("node_added", Callable(this, "_node_added"));
@@ -265,13 +269,20 @@ void HapticWorld::_notification(int what) {
     }
 }
 
+// In the editor what comes and goes changes what there is to warn of.
 void HapticWorld::node_added(Node* node) {
+    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
+        update_configuration_warnings();
+    }
     if (run_ != nullptr && is_solid_body(node)) {
         run_->bodies_changed();
     }
 }
 
 void HapticWorld::node_removed(Node* node) {
+    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
+        update_configuration_warnings();
+    }
     if (run_ == nullptr) {
         return;
     }
@@ -298,7 +309,8 @@ void HapticWorld::finish_recording(HapticRecorder* recorder) {
     }
 }
 
-// --- time ------------------------------------------------------------------------------------------------------------
+// --- time
+// ------------------------------------------------------------------------------------------------------------
 
 void HapticWorld::_process(double seconds) {
     if (run_ == nullptr || clock_ != CLOCK_REAL_TIME) {
@@ -310,10 +322,13 @@ void HapticWorld::_process(double seconds) {
 }
 
 int64_t HapticWorld::advance(double seconds) {
-    ERR_FAIL_COND_V_MSG(run_ == nullptr, 0, "This HapticWorld does not run: put it into the scene tree first.");
-    ERR_FAIL_COND_V_MSG(clock_ != CLOCK_STEPPED, 0,
-                        "This HapticWorld runs in real time: set its clock to CLOCK_STEPPED to advance it by hand.");
-    ERR_FAIL_COND_V_MSG(!is_at_least_zero(seconds), 0, "The time to advance must be a finite number, 0 or more.");
+    ERR_FAIL_COND_V_MSG(run_ == nullptr, 0,
+                        "This HapticWorld does not run: put it into the scene tree first.");
+    ERR_FAIL_COND_V_MSG(
+        clock_ != CLOCK_STEPPED, 0,
+        "This HapticWorld runs in real time: set its clock to CLOCK_STEPPED to advance it by hand.");
+    ERR_FAIL_COND_V_MSG(!is_at_least_zero(seconds), 0,
+                        "The time to advance must be a finite number, 0 or more.");
     // A hundredth of a tick covers what adding up many small times loses to rounding.
     constexpr double rounding = 0.01;
     owed_seconds_ += seconds;
@@ -337,11 +352,16 @@ void HapticWorld::report_status(double seconds) {
     }
 }
 
-// --- looking at it ---------------------------------------------------------------------------------------------------
+// --- looking at it
+// ---------------------------------------------------------------------------------------------------
 
-int64_t HapticWorld::get_ticks() const { return run_ != nullptr ? static_cast<int64_t>(run_->ticks()) : 0; }
+int64_t HapticWorld::get_ticks() const {
+    return run_ != nullptr ? static_cast<int64_t>(run_->ticks()) : 0;
+}
 
-double HapticWorld::get_time() const { return static_cast<double>(get_ticks()) / tick_rate_; }
+double HapticWorld::get_time() const {
+    return static_cast<double>(get_ticks()) / tick_rate_;
+}
 
 Dictionary HapticWorld::get_statistics() const {
     Dictionary result;
@@ -463,28 +483,32 @@ void HapticWorld::_bind_methods() {
     ClassDB::bind_method(D_METHOD("_node_removed", "node"), &HapticWorld::node_removed);
     ClassDB::bind_method(D_METHOD("_shape_changed"), &HapticWorld::shape_changed);
 
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "tick_rate", PROPERTY_HINT_RANGE, "100,4000,1,or_less,or_greater,suffix:Hz"),
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "tick_rate", PROPERTY_HINT_RANGE,
+                              "100,4000,1,or_less,or_greater,suffix:Hz"),
                  "set_tick_rate", "get_tick_rate");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "clock", PROPERTY_HINT_ENUM, "Real time,Stepped"), "set_clock",
                  "get_clock");
     ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "gravity", PROPERTY_HINT_NONE, "suffix:m/s²"), "set_gravity",
                  "get_gravity");
-    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "default_material", PROPERTY_HINT_RESOURCE_TYPE, "HapticMaterial"),
-                 "set_default_material", "get_default_material");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::OBJECT, "default_material", PROPERTY_HINT_RESOURCE_TYPE, "HapticMaterial"),
+        "set_default_material", "get_default_material");
     ADD_GROUP("Limits", "");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "most_bodies", PROPERTY_HINT_RANGE, "1,65536,1"), "set_most_bodies",
-                 "get_most_bodies");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "most_bodies", PROPERTY_HINT_RANGE, "1,65536,1"),
+                 "set_most_bodies", "get_most_bodies");
     ADD_GROUP("Haptic Thread", "");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "realtime_priority", PROPERTY_HINT_RANGE, "0,99,1"),
                  "set_realtime_priority", "get_realtime_priority");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-2,63,1,or_greater"), "set_processor",
-                 "get_processor");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-2,63,1,or_greater"),
+                 "set_processor", "get_processor");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "lock_memory"), "set_lock_memory", "is_locking_memory");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "measure_baseline"), "set_measure_baseline", "is_measuring_baseline");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "measure_baseline"), "set_measure_baseline",
+                 "is_measuring_baseline");
 
     ADD_SIGNAL(MethodInfo("started"));
     ADD_SIGNAL(MethodInfo("stopped"));
-    ADD_SIGNAL(MethodInfo("status_reported", PropertyInfo(Variant::INT, "flags"), PropertyInfo(Variant::STRING, "text")));
+    ADD_SIGNAL(MethodInfo("status_reported", PropertyInfo(Variant::INT, "flags"),
+                          PropertyInfo(Variant::STRING, "text")));
 
     BIND_ENUM_CONSTANT(CLOCK_REAL_TIME);
     BIND_ENUM_CONSTANT(CLOCK_STEPPED);

@@ -14,8 +14,8 @@ namespace tactus {
 class HapticRecorder;
 class WorldRun;
 
-// Its subtree is what can be touched. While the scene plays, it runs the haptic loop with a physics world of its own, and
-// moves the RigidBody3D nodes of its subtree.
+// Its subtree is what can be touched. While the scene plays, it runs the haptic loop with a physics world of
+// its own, and moves the RigidBody3D nodes of its subtree.
 class HapticWorld : public godot::Node3D {
     GDCLASS(HapticWorld, godot::Node3D)
 

@@ -53,7 +53,8 @@ Ref<ArrayMesh> drawn_mesh(const TriangleMesh& mesh) {
     PackedVector3Array vertices;
     PackedVector3Array normals;
     for (const auto& [a, b, c] : mesh.triangles) {
-        const Vec3 cross = glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+        const Vec3 cross =
+            glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
         const double area = glm::length(cross);
         const Vector3 normal = to_godot(area > 0.0 ? cross / area : cross);
         for (const std::uint32_t corner : {a, c, b}) {  // Godot draws what runs clockwise

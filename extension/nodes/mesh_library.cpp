@@ -20,7 +20,9 @@ using godot::String;
 
 constexpr const char* extension_file = "tactus.gdextension";
 
-String all_names() { return String(", ").join(mesh_library_names()); }
+String all_names() {
+    return String(", ").join(mesh_library_names());
+}
 
 // A name, not a way out of the folder.
 bool is_plain_name(const String& name) {
@@ -30,7 +32,8 @@ bool is_plain_name(const String& name) {
 }  // namespace
 
 String mesh_library_folder() {
-    const godot::PackedStringArray loaded = godot::GDExtensionManager::get_singleton()->get_loaded_extensions();
+    const godot::PackedStringArray loaded =
+        godot::GDExtensionManager::get_singleton()->get_loaded_extensions();
     for (std::int64_t i = 0; i < loaded.size(); ++i) {
         const String path = loaded[i];
         if (path.get_file() == extension_file) {
@@ -56,8 +59,8 @@ godot::PackedStringArray mesh_library_names() {
 LibraryMesh load_library_mesh(const String& name) {
     const String path = mesh_library_folder().path_join(name + ".obj");
     if (!is_plain_name(name) || !FileAccess::file_exists(path)) {
-        return {nullptr, from_godot("the mesh library has no mesh '" + name + "': choose one of " + all_names() +
-                                    ", or put " + name + ".obj into " + mesh_library_folder())};
+        return {nullptr, from_godot("the mesh library has no mesh '" + name + "': choose one of " +
+                                    all_names() + ", or put " + name + ".obj into " + mesh_library_folder())};
     }
     const std::string text = from_godot(FileAccess::get_file_as_string(path));
     ObjResult read = read_obj_text(text);

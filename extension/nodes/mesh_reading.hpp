@@ -10,13 +10,14 @@
 
 namespace tactus {
 
-// Three corners a triangle, as Godot's get_faces() gives them. Godot's front faces are clockwise, ours counter-clockwise.
-// Corners at the same place become one vertex, so that neighbours know each other.
+// Three corners a triangle, as Godot's get_faces() gives them. Godot's front faces are clockwise, ours
+// counter-clockwise. Corners at the same place become one vertex, so that neighbours know each other.
 TriangleMesh mesh_from_faces(const godot::PackedVector3Array& faces);
 
 TriangleMesh mesh_from_resource(const godot::Ref<godot::Mesh>& mesh);
 
-// Scaled, mirrored or sheared; the triangles of a mirrored mesh are turned over so that outside stays outside.
+// Scaled, mirrored or sheared; the triangles of a mirrored mesh are turned over so that outside stays
+// outside.
 TriangleMesh scaled(TriangleMesh mesh, const godot::Basis& scaling);
 
 }  // namespace tactus

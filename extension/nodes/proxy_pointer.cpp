@@ -87,11 +87,21 @@ void ProxyPointer::set_show_hand(bool show) {
     make_pictures();
 }
 
-Vector3 ProxyPointer::get_force() const { return to_godot(state_.force); }
-Vector3 ProxyPointer::get_hand_position() const { return to_godot(state_.hand); }
-Vector3 ProxyPointer::get_proxy_position() const { return to_godot(state_.position); }
-bool ProxyPointer::is_touching() const { return (state_.status & proxy_touching) != 0; }
-bool ProxyPointer::is_present() const { return state_.handle != no_handle && (state_.status & proxy_absent) == 0; }
+Vector3 ProxyPointer::get_force() const {
+    return to_godot(state_.force);
+}
+Vector3 ProxyPointer::get_hand_position() const {
+    return to_godot(state_.hand);
+}
+Vector3 ProxyPointer::get_proxy_position() const {
+    return to_godot(state_.position);
+}
+bool ProxyPointer::is_touching() const {
+    return (state_.status & proxy_touching) != 0;
+}
+bool ProxyPointer::is_present() const {
+    return state_.handle != no_handle && (state_.status & proxy_absent) == 0;
+}
 
 TypedArray<Dictionary> ProxyPointer::get_contacts() const {
     TypedArray<Dictionary> contacts;
@@ -106,7 +116,8 @@ TypedArray<Dictionary> ProxyPointer::get_contacts() const {
 }
 
 HapticDevice* ProxyPointer::device_node() const {
-    return is_inside_tree() && !device_.is_empty() ? Object::cast_to<HapticDevice>(get_node_or_null(device_)) : nullptr;
+    return is_inside_tree() && !device_.is_empty() ? Object::cast_to<HapticDevice>(get_node_or_null(device_))
+                                                   : nullptr;
 }
 
 String ProxyPointer::get_state_text() const {
@@ -151,11 +162,12 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
 
 void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
     const std::vector<std::uint64_t> before = std::exchange(touched_, touched);
-    const auto emit_for_missing = [this](const std::vector<std::uint64_t>& in, const std::vector<std::uint64_t>& from,
-                                         const char* signal) {
+    const auto emit_for_missing = [this](const std::vector<std::uint64_t>& in,
+                                         const std::vector<std::uint64_t>& from, const char* signal) {
         for (const std::uint64_t body : in) {
-            Object* object = std::find(from.begin(), from.end(), body) == from.end() ? ObjectDB::get_instance(body)
-                                                                                     : nullptr;
+            Object* object = std::find(from.begin(), from.end(), body) == from.end()
+                                 ? ObjectDB::get_instance(body)
+                                 : nullptr;
             if (object != nullptr) {
                 emit_signal(signal, object);
             }
@@ -293,14 +305,16 @@ void ProxyPointer::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_contacts"), &ProxyPointer::get_contacts);
     ClassDB::bind_method(D_METHOD("get_state_text"), &ProxyPointer::get_state_text);
 
-    ADD_PROPERTY(PropertyInfo(Variant::NODE_PATH, "device", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "HapticDevice"),
-                 "set_device", "get_device");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "radius", PROPERTY_HINT_RANGE, "0.001,0.1,0.0005,or_greater,suffix:m"),
-                 "set_radius", "get_radius");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "collision_mask", PROPERTY_HINT_LAYERS_3D_PHYSICS), "set_collision_mask",
-                 "get_collision_mask");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "force_law", PROPERTY_HINT_ENUM, "Spring,Smoothed"), "set_force_law",
-                 "get_force_law");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::NODE_PATH, "device", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "HapticDevice"),
+        "set_device", "get_device");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "radius", PROPERTY_HINT_RANGE, "0.001,0.1,0.0005,or_greater,suffix:m"),
+        "set_radius", "get_radius");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "collision_mask", PROPERTY_HINT_LAYERS_3D_PHYSICS),
+                 "set_collision_mask", "get_collision_mask");
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "force_law", PROPERTY_HINT_ENUM, "Spring,Smoothed"),
+                 "set_force_law", "get_force_law");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "enabled"), "set_enabled", "is_enabled");
     ADD_GROUP("Show", "show_");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "show_proxy"), "set_show_proxy", "get_show_proxy");

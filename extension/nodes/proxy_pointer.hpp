@@ -65,7 +65,8 @@ private:
     void emit_changes(const std::vector<std::uint64_t>& touched);
     void make_pictures();
     void place_pictures();
-    godot::MeshInstance3D* add_picture(const godot::Ref<godot::Mesh>& mesh, const godot::Ref<godot::Material>& look);
+    godot::MeshInstance3D* add_picture(const godot::Ref<godot::Mesh>& mesh,
+                                       const godot::Ref<godot::Material>& look);
 
     godot::NodePath device_;
     double radius_ = 0.01;

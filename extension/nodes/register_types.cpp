@@ -33,7 +33,8 @@ void nothing_to_undo(godot::ModuleInitializationLevel) {}
 }  // namespace
 
 GDExtensionBool initialize_library(GDExtensionInterfaceGetProcAddress get_proc_address,
-                                   GDExtensionClassLibraryPtr library, GDExtensionInitialization* initialization) {
+                                   GDExtensionClassLibraryPtr library,
+                                   GDExtensionInitialization* initialization) {
     const godot::GDExtensionBinding::InitObject init(get_proc_address, library, initialization);
     init.register_initializer(register_classes);
     init.register_terminator(nothing_to_undo);

@@ -5,6 +5,7 @@
 namespace tactus {
 
 GDExtensionBool initialize_library(GDExtensionInterfaceGetProcAddress get_proc_address,
-                                   GDExtensionClassLibraryPtr library, GDExtensionInitialization* initialization);
+                                   GDExtensionClassLibraryPtr library,
+                                   GDExtensionInitialization* initialization);
 
 }  // namespace tactus

@@ -1,4 +1,5 @@
-// Which nodes of a kind are in the running scene tree: how a world finds what belongs to it. Main thread only.
+// Which nodes of a kind are in the running scene tree: how a world finds what belongs to it. Main thread
+// only.
 #pragma once
 
 #include <algorithm>

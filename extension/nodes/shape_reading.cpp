@@ -44,11 +44,17 @@ AxisFactors axis_factors(const godot::Basis& scaling) {
     return {lengths, square(x, y) && square(y, z) && square(z, x)};
 }
 
-bool same_factor(double a, double b) { return std::abs(a - b) <= even * std::abs(a); }
+bool same_factor(double a, double b) {
+    return std::abs(a - b) <= even * std::abs(a);
+}
 
-ShapeReading one(Shape shape, const Pose& pose) { return {{PlacedShape{std::move(shape), pose}}, {}}; }
+ShapeReading one(Shape shape, const Pose& pose) {
+    return {{PlacedShape{std::move(shape), pose}}, {}};
+}
 
-ShapeReading failure(std::string error) { return {{}, std::move(error)}; }
+ShapeReading failure(std::string error) {
+    return {{}, std::move(error)};
+}
 
 ShapeReading uneven(const char* kind) {
     return failure(std::string("its ") + kind +
@@ -93,12 +99,14 @@ ShapeReading placed(const godot::HeightMapShape3D& map, const AxisFactors& scale
     }
     const godot::PackedFloat32Array data = map.get_map_data();
     auto heights = std::make_shared<std::vector<float>>(data.ptr(), data.ptr() + data.size());
-    return one(HeightFieldShape{static_cast<std::uint32_t>(map.get_map_width()),
-                                static_cast<std::uint32_t>(map.get_map_depth()), scale.factors, std::move(heights)},
-               pose);
+    return one(
+        HeightFieldShape{static_cast<std::uint32_t>(map.get_map_width()),
+                         static_cast<std::uint32_t>(map.get_map_depth()), scale.factors, std::move(heights)},
+        pose);
 }
 
-ShapeReading placed(const godot::WorldBoundaryShape3D& boundary, const godot::Basis& scaling, const Pose& pose) {
+ShapeReading placed(const godot::WorldBoundaryShape3D& boundary, const godot::Basis& scaling,
+                    const Pose& pose) {
     const godot::Plane plane = boundary.get_plane();
     const Vec3 normal = from_godot(scaling.inverse().transposed().xform(plane.normal));
     const Vec3 point = from_godot(scaling.xform(plane.normal * plane.d));
@@ -109,7 +117,8 @@ ShapeReading placed(const godot::WorldBoundaryShape3D& boundary, const godot::Ba
     return one(PlaneShape{unit, glm::dot(unit, point)}, pose);
 }
 
-ShapeReading placed(const godot::ConvexPolygonShape3D& convex, const godot::Basis& scaling, const Pose& pose) {
+ShapeReading placed(const godot::ConvexPolygonShape3D& convex, const godot::Basis& scaling,
+                    const Pose& pose) {
     const godot::PackedVector3Array given = convex.get_points();
     std::vector<Vec3> points;
     for (std::int64_t i = 0; i < given.size(); ++i) {
@@ -117,12 +126,14 @@ ShapeReading placed(const godot::ConvexPolygonShape3D& convex, const godot::Basi
     }
     TriangleMesh hull = convex_hull(points);
     if (hull.triangles.empty()) {
-        return failure("its convex shape has no volume: give it at least four points that are not in one plane");
+        return failure(
+            "its convex shape has no volume: give it at least four points that are not in one plane");
     }
     return one(ConvexHullShape{std::make_shared<TriangleMesh>(std::move(hull))}, pose);
 }
 
-ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling, const Pose& pose) {
+ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling,
+                    const Pose& pose) {
     TriangleMesh mesh = scaled(mesh_from_faces(concave.get_faces()), scaling);
     if (std::string error = check_mesh(mesh); !error.empty()) {
         return failure(std::move(error));
@@ -130,22 +141,34 @@ ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Ba
     return one(MeshShape{std::make_shared<TriangleMesh>(std::move(mesh))}, pose);
 }
 
-bool is_finite(const godot::Transform3D& transform) { return transform.is_finite(); }
+bool is_finite(const godot::Transform3D& transform) {
+    return transform.is_finite();
+}
 
 bool same(const std::shared_ptr<const TriangleMesh>& a, const std::shared_ptr<const TriangleMesh>& b) {
     return a == b || (a->vertices == b->vertices && a->triangles == b->triangles);
 }
-bool same(const SphereShape& a, const SphereShape& b) { return a.radius == b.radius; }
-bool same(const BoxShape& a, const BoxShape& b) { return a.half_extents == b.half_extents; }
+bool same(const SphereShape& a, const SphereShape& b) {
+    return a.radius == b.radius;
+}
+bool same(const BoxShape& a, const BoxShape& b) {
+    return a.half_extents == b.half_extents;
+}
 bool same(const CapsuleShape& a, const CapsuleShape& b) {
     return a.radius == b.radius && a.half_segment == b.half_segment;
 }
 bool same(const CylinderShape& a, const CylinderShape& b) {
     return a.radius == b.radius && a.half_height == b.half_height;
 }
-bool same(const PlaneShape& a, const PlaneShape& b) { return a.normal == b.normal && a.offset == b.offset; }
-bool same(const ConvexHullShape& a, const ConvexHullShape& b) { return same(a.hull, b.hull); }
-bool same(const MeshShape& a, const MeshShape& b) { return same(a.mesh, b.mesh); }
+bool same(const PlaneShape& a, const PlaneShape& b) {
+    return a.normal == b.normal && a.offset == b.offset;
+}
+bool same(const ConvexHullShape& a, const ConvexHullShape& b) {
+    return same(a.hull, b.hull);
+}
+bool same(const MeshShape& a, const MeshShape& b) {
+    return same(a.mesh, b.mesh);
+}
 bool same(const HeightFieldShape& a, const HeightFieldShape& b) {
     return a.columns == b.columns && a.rows == b.rows && a.scale == b.scale && *a.heights == *b.heights;
 }
@@ -199,9 +222,10 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const godot::Transform
     if (auto* boundary = Object::cast_to<godot::WorldBoundaryShape3D>(object)) {
         return placed(*boundary, scaling, pose);
     }
-    return failure("a " + from_godot(shape->get_class()) +
-                   " cannot be touched: use a box, sphere, capsule, cylinder, convex, concave, height map or world "
-                   "boundary shape, or a HapticMesh");
+    return failure(
+        "a " + from_godot(shape->get_class()) +
+        " cannot be touched: use a box, sphere, capsule, cylinder, convex, concave, height map or world "
+        "boundary shape, or a HapticMesh");
 }
 
 bool same_shapes(const std::vector<PlacedShape>& a, const std::vector<PlacedShape>& b) {

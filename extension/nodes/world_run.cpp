@@ -39,8 +39,8 @@ bool same(const Workspace& a, const Workspace& b) {
 }
 
 bool same(const ProxyDescription& a, const ProxyDescription& b) {
-    return a.device == b.device && a.settings.radius == b.settings.radius && a.settings.mask == b.settings.mask &&
-           a.force_law == b.force_law && a.enabled == b.enabled;
+    return a.device == b.device && a.settings.radius == b.settings.radius &&
+           a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.enabled == b.enabled;
 }
 
 }  // namespace
@@ -71,7 +71,8 @@ WorldRun::~WorldRun() {
     }
 }
 
-// --- time ------------------------------------------------------------------------------------------------------------
+// --- time
+// ------------------------------------------------------------------------------------------------------------
 
 std::string WorldRun::start_loop() {
     loop_is_new_ = true;
@@ -128,7 +129,8 @@ TickStatus WorldRun::take_status() {
     return settings_.real_time ? loop_.take_status() : std::exchange(stepped_status_, 0u);
 }
 
-// --- from Godot to the session ---------------------------------------------------------------------------------------
+// --- from Godot to the session
+// ---------------------------------------------------------------------------------------
 
 void WorldRun::synchronise(double seconds) {
     synchronise_bodies(seconds);
@@ -243,8 +245,8 @@ void WorldRun::synchronise_devices() {
 }
 
 SessionHandle WorldRun::device_handle(const HapticDevice* node) const {
-    const auto link =
-        std::find_if(devices_.begin(), devices_.end(), [node](const DeviceLink& d) { return d.node == node; });
+    const auto link = std::find_if(devices_.begin(), devices_.end(),
+                                   [node](const DeviceLink& d) { return d.node == node; });
     return node != nullptr && link != devices_.end() ? link->handle : no_handle;
 }
 
@@ -275,7 +277,8 @@ void WorldRun::synchronise_proxies() {
     }
 }
 
-// --- recording -------------------------------------------------------------------------------------------------------
+// --- recording
+// -------------------------------------------------------------------------------------------------------
 
 void WorldRun::want_trace() {
     if (trace_ != nullptr) {
@@ -341,7 +344,8 @@ void WorldRun::drain() {
     }
 }
 
-// --- what leaves -----------------------------------------------------------------------------------------------------
+// --- what leaves
+// -----------------------------------------------------------------------------------------------------
 
 void WorldRun::forget(HapticDevice* device) {
     for (DeviceLink& link : devices_) {
@@ -377,7 +381,8 @@ void WorldRun::finish(HapticRecorder* recorder) {
     }
 }
 
-// --- from the session to Godot ---------------------------------------------------------------------------------------
+// --- from the session to Godot
+// ---------------------------------------------------------------------------------------
 
 BodyMirror* WorldRun::mirror_of(std::uint64_t id) {
     const auto found = mirror_by_id_.find(id);
@@ -454,7 +459,8 @@ std::vector<std::string> WorldRun::problems() const {
     for (const auto& mirror : mirrors_) {
         const CollisionObject3D* body = mirror->body();
         for (const std::string& problem : mirror->problems()) {
-            all.push_back((body != nullptr ? from_godot(name_of(*body)) : std::string("a body")) + ": " + problem);
+            all.push_back((body != nullptr ? from_godot(name_of(*body)) : std::string("a body")) + ": " +
+                          problem);
         }
     }
     return all;

@@ -1,7 +1,8 @@
 // What a HapticWorld owns while it runs: the session, its loop, and what of the scene tree stands in it.
 //
-// Threads: everything but tick() belongs to the main thread. tick() is called by the haptic thread in real time and by
-// advance() in stepped time; it touches the session's loop side, the trace and the clock's own members, nothing else.
+// Threads: everything but tick() belongs to the main thread. tick() is called by the haptic thread in real
+// time and by advance() in stepped time; it touches the session's loop side, the trace and the clock's own
+// members, nothing else.
 #pragma once
 
 #include <atomic>
@@ -108,10 +109,11 @@ private:
 
     // The session's clock starts at zero and stands still while the loop does.
     std::atomic<std::uint64_t> ticks_{0};
-    Nanoseconds next_time_ = 0;       // of the session, for the next tick
+    Nanoseconds next_time_ = 0;  // of the session, for the next tick
     bool loop_is_new_ = true;
-    std::atomic<Nanoseconds> clock_offset_{0};  // a tick's time on the monotonic clock less its time in the session
-    Nanoseconds epoch_of_monotonic_clock_;      // its zero, since the epoch
+    std::atomic<Nanoseconds> clock_offset_{
+        0};  // a tick's time on the monotonic clock less its time in the session
+    Nanoseconds epoch_of_monotonic_clock_;  // its zero, since the epoch
     TickStatus stepped_status_ = 0;
 
     std::vector<std::unique_ptr<BodyMirror>> mirrors_;

@@ -18,8 +18,9 @@ void append(std::string& text, double number) {
     char digits[64];
     constexpr double longest_fixed = 1e40;
     const bool fixed = number > -longest_fixed && number < longest_fixed;
-    const auto result = fixed ? std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, decimals)
-                              : std::to_chars(digits, digits + sizeof digits, number);
+    const auto result =
+        fixed ? std::to_chars(digits, digits + sizeof digits, number, std::chars_format::fixed, decimals)
+              : std::to_chars(digits, digits + sizeof digits, number);
     text.append(digits, result.ptr);
 }
 
@@ -33,7 +34,8 @@ void append(std::string& text, const Vec3& vector) {
 }  // namespace
 
 std::string record_csv_header() {
-    return "time_us,force_x,force_y,force_z,object_x,object_y,object_z,hand_x,hand_y,hand_z,proxy_x,proxy_y,proxy_z,"
+    return "time_us,force_x,force_y,force_z,object_x,object_y,object_z,hand_x,hand_y,hand_z,proxy_x,proxy_y,"
+           "proxy_z,"
            "object_qx,object_qy,object_qz,object_qw,proxy_status,contacts\n";
 }
 

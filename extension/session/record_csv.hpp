@@ -1,4 +1,5 @@
-// A recording as text: one row a tick, the thesis's columns first (section 5.1), the same bytes in every locale.
+// A recording as text: one row a tick, the thesis's columns first (section 5.1), the same bytes in every
+// locale.
 #pragma once
 
 #include <string>

@@ -175,7 +175,9 @@ func test_an_animatable_body_carries_and_pushes() -> void:
 	var lift := with_shape(AnimatableBody3D.new(), box(Vector3(0.5, 0.1, 0.5)), Vector3(0, -0.05, 0))
 	(lift as AnimatableBody3D).sync_to_physics = false
 	world.add_child(lift)
-	var load_on_it := with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0)) as RigidBody3D
+	var load_on_it := (
+		with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0)) as RigidBody3D
+	)
 	world.add_child(load_on_it)
 	world.gravity = Vector3(0, -9.81, 0)
 	for i in 50:

@@ -15,8 +15,12 @@ func _record(scene_path: String, seconds: float, file: String) -> Dictionary:
 	for _i in roundi(seconds * 60.0):
 		world.advance(1.0 / 60.0)
 	recorder.stop()
-	var result := {"rows": recorder.get_rows(), "lost": recorder.get_lost_rows(), "problems": world.get_problems(),
-		"text": FileAccess.get_file_as_string(recorder.csv_path)}
+	var result := {
+		"rows": recorder.get_rows(),
+		"lost": recorder.get_lost_rows(),
+		"problems": world.get_problems(),
+		"text": FileAccess.get_file_as_string(recorder.csv_path)
+	}
 	scene.free()
 	return result
 
@@ -98,8 +102,13 @@ func test_the_recorder_writes_trace_events_of_the_stages() -> void:
 	recorder.stop()
 	var columns := _columns(FileAccess.get_file_as_string(recorder.csv_path))
 	var after := Time.get_unix_time_from_system() * 1e6
-	check(columns.time_us[0] >= before - 2000.0 and columns.time_us[-1] <= after + 2000.0,
-			"the rows are not of now: %s … %s, not in %s … %s" % [columns.time_us[0], columns.time_us[-1], before, after])
+	check(
+		columns.time_us[0] >= before - 2000.0 and columns.time_us[-1] <= after + 2000.0,
+		(
+			"the rows are not of now: %s … %s, not in %s … %s"
+			% [columns.time_us[0], columns.time_us[-1], before, after]
+		)
+	)
 	check_near(columns.time_us[100] - columns.time_us[0], 100_000.0, 1.5, "a hundred ticks (µs)")
 	var events: Array = JSON.parse_string(FileAccess.get_file_as_string(recorder.trace_path))
 	var names := {}
@@ -115,9 +124,21 @@ func test_statistics_have_the_figures_of_the_report() -> void:
 	add_child(world)
 	check(await until(func() -> bool: return world.get_ticks() > 100, 5.0), "it does not tick")
 	var figures := world.get_statistics()
-	for name in ["tick_period_p50_us", "tick_period_p90_us", "tick_period_p99_us", "tick_period_p999_us",
-			"tick_period_max_us", "tick_compute_p50_us", "tick_compute_p99_us", "tick_compute_max_us",
-			"missed_deadlines", "mean_period_us", "baseline_period_p99_us", "awake_bodies", "realtime"]:
+	for name in [
+		"tick_period_p50_us",
+		"tick_period_p90_us",
+		"tick_period_p99_us",
+		"tick_period_p999_us",
+		"tick_period_max_us",
+		"tick_compute_p50_us",
+		"tick_compute_p99_us",
+		"tick_compute_max_us",
+		"missed_deadlines",
+		"mean_period_us",
+		"baseline_period_p99_us",
+		"awake_bodies",
+		"realtime"
+	]:
 		check(figures.has(name), "there is no " + name)
 	var periods := world.get_period_distribution()
 	check_equal(periods.period_us.size(), periods.share.size(), "steps of the distribution")

@@ -1,5 +1,6 @@
-// Quickhull (Barber, Dobkin, Huhdanpaa 1996): start from a tetrahedron; take the point farthest in front of a face, find
-// the faces it sees, and put a cone of new faces from their rim to the point. Every face keeps the points in front of it.
+// Quickhull (Barber, Dobkin, Huhdanpaa 1996): start from a tetrahedron; take the point farthest in front of a
+// face, find the faces it sees, and put a cone of new faces from their rim to the point. Every face keeps the
+// points in front of it.
 #include "core/geometry/convex_hull.hpp"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ using Edge = std::pair<Index, Index>;
 
 struct Face {
     std::array<Index, 3> corners;
-    Vec3 normal{0.0};    // unit, outward
+    Vec3 normal{0.0};     // unit, outward
     double offset = 0.0;  // normal . x of the face's plane (unit: meters)
     std::vector<Index> in_front;
     bool alive = true;
@@ -42,7 +43,7 @@ private:
     std::span<const Vec3> points_;
     std::vector<Face> faces_;
     std::map<Edge, std::size_t> face_of_edge_;  // by the directed edge of its own boundary
-    double thickness_ = 0.0;  // what counts as lying in a plane (unit: meters)
+    double thickness_ = 0.0;                    // what counts as lying in a plane (unit: meters)
 };
 
 Index Hull::farthest(const auto& distance) const {
@@ -66,7 +67,8 @@ std::size_t Hull::add_face(Index a, Index b, Index c) {
     return index;
 }
 
-// Each point goes to the first of the new faces that it stands in front of; what is in front of none is inside.
+// Each point goes to the first of the new faces that it stands in front of; what is in front of none is
+// inside.
 void Hull::hand_out(const std::vector<Index>& points, std::size_t first_face) {
     for (const Index point : points) {
         for (std::size_t i = first_face; i < faces_.size(); ++i) {
@@ -120,7 +122,8 @@ void Hull::add_point(std::size_t seen_from, Index point) {
         const auto corners = faces_[seen[i]].corners;
         orphans.insert(orphans.end(), faces_[seen[i]].in_front.begin(), faces_[seen[i]].in_front.end());
         for (int k = 0; k < 3; ++k) {
-            const Edge edge{corners[static_cast<std::size_t>(k)], corners[static_cast<std::size_t>((k + 1) % 3)]};
+            const Edge edge{corners[static_cast<std::size_t>(k)],
+                            corners[static_cast<std::size_t>((k + 1) % 3)]};
             const std::size_t beyond = face_of_edge_.at({edge.second, edge.first});
             Face& neighbour = faces_[beyond];
             if (!neighbour.alive) {
@@ -135,7 +138,8 @@ void Hull::add_point(std::size_t seen_from, Index point) {
         }
     }
     // An edge towards a face that was found to be seen only later is not on the rim.
-    std::erase_if(rim, [&](const Edge& edge) { return !faces_[face_of_edge_.at({edge.second, edge.first})].alive; });
+    std::erase_if(
+        rim, [&](const Edge& edge) { return !faces_[face_of_edge_.at({edge.second, edge.first})].alive; });
     const std::size_t first_new = faces_.size();
     for (const Edge& edge : rim) {
         add_face(edge.first, edge.second, point);
@@ -149,8 +153,9 @@ void Hull::grow() {
             continue;
         }
         const Face& face = faces_[i];
-        const Index point = *std::max_element(face.in_front.begin(), face.in_front.end(),
-                                              [&](Index a, Index b) { return height(face, a) < height(face, b); });
+        const Index point =
+            *std::max_element(face.in_front.begin(), face.in_front.end(),
+                              [&](Index a, Index b) { return height(face, a) < height(face, b); });
         add_point(i, point);
     }
 }
@@ -164,7 +169,8 @@ TriangleMesh Hull::mesh() const {
         }
         std::array<Index, 3> triangle{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto [place, is_new] = kept.try_emplace(face.corners[k], static_cast<Index>(mesh.vertices.size()));
+            const auto [place, is_new] =
+                kept.try_emplace(face.corners[k], static_cast<Index>(mesh.vertices.size()));
             if (is_new) {
                 mesh.vertices.push_back(points_[face.corners[k]]);
             }

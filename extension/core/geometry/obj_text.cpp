@@ -33,7 +33,9 @@ std::optional<Number> to_number(std::string_view word) {
     return whole ? std::optional<Number>(number) : std::nullopt;
 }
 
-std::string quoted(std::string_view word) { return "'" + std::string(word) + "'"; }
+std::string quoted(std::string_view word) {
+    return "'" + std::string(word) + "'";
+}
 
 std::string read_vertex(std::string_view line, TriangleMesh& mesh) {
     Vec3 vertex{0.0};
