@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from measuring.records import Record
 from plots import style
 
@@ -25,9 +23,8 @@ def draw_object(record: Record, title: str, path: Path) -> None:
     drawn, ((axes,), (force,)) = style.figure(2, 1, 9.0, 5.0, sharex=True, height_ratios=[3, 1])
     for number, (axis, colour) in enumerate(style.AXES.items()):
         axes.plot(record.time, moved[:, number], color=colour, label=axis)
-    reach = max(1.0, float(np.abs(moved).max()))
-    axes.set(title=title, ylabel="from where it stood (mm)", ylim=(-1.1 * reach, 1.1 * reach))
-    axes.legend(ncols=3, loc="upper right")
+    axes.set(title=title, ylabel="from where it stood (mm)")
+    axes.legend(ncols=3, loc="center right")
     force.plot(record.time, record.force_size, color=style.MEASURED, linewidth=1.0)
     force.set(ylabel="force (N)", xlabel="time (s)", xlim=(0, record.time[-1]), ylim=(0, None))
     style.save(drawn, path)
