@@ -70,7 +70,7 @@ void ProxyPointer::set_device(const NodePath& path) {
 
 void ProxyPointer::set_radius(double meters) {
     if (!is_above_zero(meters)) {
-        refuse(get_name(), "radius", meters, "a finite number above 0");
+        refuse(*this, "radius", meters, "a finite number above 0");
         return;
     }
     radius_ = meters;
@@ -268,6 +268,7 @@ void ProxyPointer::_notification(int what) {
 }
 
 void ProxyPointer::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("get_warnings"), &ProxyPointer::_get_configuration_warnings);
     ClassDB::bind_method(D_METHOD("set_device", "path"), &ProxyPointer::set_device);
     ClassDB::bind_method(D_METHOD("get_device"), &ProxyPointer::get_device);
     ClassDB::bind_method(D_METHOD("set_radius", "meters"), &ProxyPointer::set_radius);

@@ -36,11 +36,17 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
     handle_of_id_[id.index()] = c.handle;
     if (c.motion != Motion::Static) {
-        state_of_[c.handle] = static_cast<std::uint32_t>(states_.size());
-        states_.push_back({c.handle, c.pose, physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
-        states_changed_at_ = tick_ + 1;
+        show_state(c.handle);
     }
     return false;
+}
+
+// From the next snapshot on, the body is among those that can move.
+void SessionLoop::show_state(SessionHandle handle) {
+    const BodyId id = bodies_[handle].id;
+    state_of_[handle] = static_cast<std::uint32_t>(states_.size());
+    states_.push_back({handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
+    states_changed_at_ = tick_ + 1;
 }
 
 void SessionLoop::note_magnet(SessionHandle handle) {
@@ -143,6 +149,9 @@ bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
     if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
         end_travel(c.handle);
         changed->motion = c.motion;
+        if (c.motion != Motion::Static && state_of_[c.handle] == no_handle) {
+            show_state(c.handle);
+        }
     }
     return false;
 }
@@ -192,8 +201,7 @@ bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
 bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
     ProxySlot& changed = proxies_[c.handle];
     if (changed.proxy) {
-        if (changed.description.device != c.description.device ||
-            changed.description.settings.radius != c.description.settings.radius) {
+        if (changed.description.device != c.description.device) {
             changed.proxy->restart();
         }
         changed.description = c.description;

@@ -83,6 +83,7 @@ private:
     void travel();
     void follow_physics();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
+    void show_state(SessionHandle handle);
     void read_devices(Nanoseconds now);
     void touch(ProxySlot& slot, Nanoseconds now);
     Vec3 attract(const ProxySlot& slot);

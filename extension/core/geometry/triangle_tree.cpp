@@ -121,7 +121,7 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             continue;
         }
         const BoxNode& node = nodes_[item.node];
-        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.data(),
+        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(),
                     stack, depth, leaf);
     }
     return result;
@@ -161,13 +161,13 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
         }
         const BoxNode& node = nodes_[item.node];
         push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(),
-                    packs_.data(), stack, depth, leaf);
+                    packs_.get(), stack, depth, leaf);
     }
     return found ? best : 2.0 * limit + 1.0;
 }
 
 std::size_t TriangleTree::bytes() const {
-    return nodes_.size() * sizeof(BoxNode) + packs_.size() * sizeof(TrianglePack) +
+    return nodes_.size() * sizeof(BoxNode) + ids_.size() / lane_count * sizeof(TrianglePack) +
            ids_.size() * sizeof(std::uint32_t);
 }
 

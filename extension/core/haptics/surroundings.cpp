@@ -236,6 +236,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     }
     Contact contact;
     contact.normal = direction_to_parent(placed.pose, at.normal);
+    contact.force_direction = contact.normal;
     contact.u = direction_to_parent(placed.pose, at.u);
     contact.point = to_parent(placed.pose, local - at.normal * at.distance);
     contact.gap = at.distance - rest;
