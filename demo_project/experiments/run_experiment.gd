@@ -1,13 +1,17 @@
-extends SceneTree
+extends Node
 ## Runs one scene for a time and writes down what happened.
 ##
-##     godot --headless --path demo_project --script res://experiments/run_experiment.gd -- KEY=VALUE …
+##     godot --headless --path demo_project -- --KEY=VALUE …
+##     tactus.x86_64 --headless -- --KEY=VALUE …
+##
+## The main scene starts it when it is given such arguments.
 ##
 ## --scene=PATH         a scene with a HapticWorld and, below it, a HapticRecorder
 ## --output=FOLDER      where CASE.csv, CASE_trace.json, CASE_statistics.json and CASE_periods.json go
 ## --case=NAME          what the files are called; the scene's name where it is missing
 ## --duration=SECONDS   of the loop's own time; 10 where it is missing
-## --clock=real         the haptic thread ticks; --clock=stepped: this script does, and the same run gives the same bytes
+## --clock=real         the haptic thread ticks
+## --clock=stepped      this script ticks, and the same run gives the same bytes
 ## --warmup=SECONDS     until statistics count, in real time; 0.5 where it is missing
 ## --baseline=1         a bare loop that only sleeps runs beside, for comparison
 ## --processor=NUMBER   of the haptic thread, as in HapticWorld; the scene's where it is missing
@@ -18,28 +22,36 @@ extends SceneTree
 const FRAMES_PER_SECOND := 60
 
 var _options := {
-	"scene": "res://static_testbed.tscn", "output": "user://", "case": "", "duration": "10", "clock": "real",
-	"warmup": "0.5", "baseline": "0", "screenshots": "",
+	"scene": "res://static_testbed.tscn",
+	"output": "user://",
+	"case": "",
+	"duration": "10",
+	"clock": "real",
+	"warmup": "0.5",
+	"baseline": "0",
+	"screenshots": "",
 	"processor": "",
 }
 
 
-func _initialize() -> void:
+func _ready() -> void:
 	for argument in OS.get_cmdline_user_args():
 		var words := argument.trim_prefix("--").split("=", true, 1)
 		if words.size() != 2 or not _options.has(words[0]):
-			_fail("'%s' is not understood: the options are --%s=…" % [argument, "=…, --".join(_options.keys())])
+			_fail(
+				"'%s' is not understood: the options are --%s=…" % [argument, "=…, --".join(_options.keys())]
+			)
 			return
 		_options[words[0]] = words[1]
 	if _options.case == "":
 		_options.case = _options.scene.get_file().get_basename()
-	await process_frame  # the root enters the tree after this method
+	await get_tree().process_frame  # until then the root takes no more children
 	_run()
 
 
 func _fail(message: String) -> void:
 	printerr("run_experiment: ", message, ".")
-	quit(1)
+	get_tree().quit(1)
 
 
 func _file(ending: String) -> String:
@@ -66,7 +78,7 @@ func _run() -> void:
 	recorder.csv_path = _file(".csv")
 	recorder.trace_path = "" if stepped else _file("_trace.json")
 	recorder.autostart = true
-	root.add_child(scene)
+	get_tree().root.add_child(scene)
 	if not recorder.is_recording():
 		_fail("nothing can be recorded in '%s'" % _options.output)
 		return
@@ -82,11 +94,11 @@ func _run() -> void:
 	var problems := world.get_problems()
 	_write("_statistics.json", statistics)
 	_write("_periods.json", periods)
-	root.remove_child(scene)
+	get_tree().root.remove_child(scene)
 	scene.free()
 	for problem in problems:
 		printerr(problem)
-	quit(0)
+	get_tree().quit(0)
 
 
 func _play(world: HapticWorld, stepped: bool) -> void:
@@ -96,7 +108,7 @@ func _play(world: HapticWorld, stepped: bool) -> void:
 	# Nobody looks until a picture is taken, and a processor that draws is slow.
 	RenderingServer.render_loop_enabled = false
 	while world.get_time() < duration:
-		await process_frame
+		await get_tree().process_frame
 		if stepped:
 			world.advance(1.0 / FRAMES_PER_SECOND)
 		elif warmup > 0.0 and world.get_time() >= warmup:
@@ -112,7 +124,7 @@ func _take_screenshot(time: float) -> void:
 	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
 	RenderingServer.render_loop_enabled = false
-	root.get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
+	get_viewport().get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
 
 
 func _write(ending: String, content: Dictionary) -> void:

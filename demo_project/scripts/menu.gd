@@ -1,19 +1,27 @@
 extends Control
-## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it away or pull it
-## closer; Tab changes between the mouse and the scripted path, Escape goes back.
+## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it
+## away or pull it closer; Tab changes between the mouse and the scripted path, Escape goes back.
+##
+## With arguments --KEY=VALUE it runs an experiment instead, with a scene's path as argument that scene.
 
+const EXPERIMENT := preload("res://experiments/run_experiment.gd")
 const SCENES := {
 	"Static: a sphere on the thesis's path": "res://static_testbed.tscn",
 	"Dynamic: a box that can be pushed": "res://dynamic_testbed.tscn",
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
 }
 
+var _scene: Node
 @onready var _choices: VBoxContainer = %Choices
 @onready var _hint: Label = %Hint
-var _scene: Node
 
 
 func _ready() -> void:
+	var asked := OS.get_cmdline_user_args()
+	if not asked.is_empty() and asked[0].begins_with("--"):
+		hide()
+		add_child(EXPERIMENT.new())
+		return
 	for title: String in SCENES:
 		var button := Button.new()
 		button.text = title
@@ -21,7 +29,6 @@ func _ready() -> void:
 		_choices.add_child(button)
 	_show_menu(true)
 	(_choices.get_child(0) as Button).grab_focus()
-	var asked := OS.get_cmdline_user_args()
 	if not asked.is_empty() and asked[0] in SCENES.values():
 		open(asked[0])
 
