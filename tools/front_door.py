@@ -18,7 +18,7 @@ def needed(command: str) -> list[Step]:
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
     if command == "bench":
         return plan
-    if command in ("setup", "export"):
+    if command in ("setup", "export", "test"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported]
 
@@ -44,8 +44,8 @@ def experiment(arguments: list[str]) -> int:
     return cache.run_tool("experiment.py", *arguments)
 
 
-def edit(_: list[str]) -> int:
-    return project.run("--editor")
+def edit(arguments: list[str]) -> int:
+    return project.run("--editor", *arguments)
 
 
 def app(arguments: list[str]) -> int:
