@@ -61,5 +61,8 @@ COMMANDS = {function.__name__: function for function in (setup, demo, test, benc
 if __name__ == "__main__":
     try:
         sys.exit(main(sys.argv[1], sys.argv[2:]))
+    except RuntimeError as error:
+        print(error, file=sys.stderr)
+        sys.exit(1)
     except KeyboardInterrupt:
         sys.exit(130)
