@@ -32,10 +32,6 @@ class Run:
     def rows(self) -> Path:
         return self.file(".csv")
 
-    @property
-    def trace(self) -> Path:
-        return self.file("_trace.json")
-
     def periods(self) -> dict[str, dict[str, list[float]]]:
         """{"loop" | "baseline": {"period_us", "share"}}: how large a share of the periods is not longer."""
         return json.loads(self.file("_periods.json").read_text())
