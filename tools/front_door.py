@@ -18,7 +18,7 @@ def needed(command: str) -> list[Step]:
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
     if command == "bench":
         return plan
-    if command in ("setup", "export"):
+    if command in ("setup", "export", "test"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported]
 
@@ -44,8 +44,8 @@ def experiment(arguments: list[str]) -> int:
     return cache.run_tool("experiment.py", *arguments)
 
 
-def edit(_: list[str]) -> int:
-    return project.run("--editor")
+def edit(arguments: list[str]) -> int:
+    return project.run("--editor", *arguments)
 
 
 def app(arguments: list[str]) -> int:
@@ -61,5 +61,8 @@ COMMANDS = {function.__name__: function for function in (setup, demo, test, benc
 if __name__ == "__main__":
     try:
         sys.exit(main(sys.argv[1], sys.argv[2:]))
+    except RuntimeError as error:
+        print(error, file=sys.stderr)
+        sys.exit(1)
     except KeyboardInterrupt:
         sys.exit(130)

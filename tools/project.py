@@ -58,12 +58,15 @@ def run(*arguments: str) -> int:
 
 
 def export() -> int:
-    target = cache.clone() / "build/export/tactus.x86_64"
-    cache.emptied(target.parent)
+    target = cache.emptied(cache.clone() / "build/export") / "tactus.x86_64"
+    export_to(target)
+    print(f"{target.relative_to(cache.clone())} runs on its own")
+    return 0
+
+
+def export_to(target: Path) -> None:
+    """The program, with the extension's library beside it."""
     command = [str(godot.command()), "--headless", "--path", FOLDER, "--export-release", "Linux", target]
     done = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0 or not target.is_file():
-        print(done.stdout, file=sys.stderr)
-        return 1
-    print(f"{target.relative_to(cache.clone())} runs on its own")
-    return 0
+        raise RuntimeError(f"Godot could not export the project:\n{done.stdout[-3000:]}")

@@ -74,7 +74,7 @@ def _scenario1(summary: targets.Summary, folder: Path) -> str:
 
 def _case(folder: Path, case: str) -> list[str]:
     return [
-        *_pictures(folder, f"{case}_scene.png", "Where the touch is firmest. Yellow: the path of the hand."),
+        *_pictures(folder, f"{case}_scene.png", "Where the touch is firmest. Blue: the fingertip, on the surface; red: the hand, inside; yellow: the path of the hand."),
         *_pictures(folder, f"{case}_force.png", "The force on the hand during one turn of the path."),
         *_pictures(folder, f"{case}_object.png", "How the hand moves the box."),
     ]

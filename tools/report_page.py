@@ -26,8 +26,6 @@ th.number, td.number { text-align: right; }
 figure { margin: 1.4rem 0; }
 figure img { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; }
 figcaption { color: var(--quiet); font-size: .85rem; margin-top: .5rem; }
-.pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1.2rem; }
-.pair figure { margin: 0; }
 @media print { main { padding: 0; } figure, table { break-inside: avoid; } }
 """
 
@@ -55,10 +53,6 @@ def picture(path: Path, caption: str) -> str:
         f'<figure><img alt="{escape(caption)}" src="data:image/png;base64,{data}">'
         f"<figcaption>{escape(caption)}</figcaption></figure>"
     )
-
-
-def side_by_side(*pictures: str) -> str:
-    return '<div class="pair">' + "".join(pictures) + "</div>"
 
 
 def table(head: Sequence[str], rows: Sequence[Sequence[str | bool]], numbers_from: int = 1) -> str:

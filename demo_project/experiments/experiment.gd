@@ -1,5 +1,8 @@
 extends Node
-## Runs one scene for a time and writes down what happened.
+## Runs one scene for a time and writes down what happened. The main scene starts it when it is called with options:
+##
+##     godot --headless --path demo_project -- --KEY=VALUE …
+##     tactus.x86_64 --headless -- --KEY=VALUE …
 ##
 ## --scene=PATH         a scene with a HapticWorld and, below it, a HapticRecorder
 ## --output=FOLDER      where CASE.csv, CASE_trace.json, CASE_statistics.json and CASE_periods.json go

@@ -6,8 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-PROXY_TOUCHES = "contacts"
-
 
 @dataclass(frozen=True)
 class Record:

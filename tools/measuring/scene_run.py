@@ -9,7 +9,6 @@ from measuring import host
 from project import FOLDER
 from setup import display, godot
 
-RUNNER = "res://experiments/run_experiment.gd"
 START_AND_END = 120.0  # what Godot may need beside the duration (unit: seconds)
 
 
@@ -32,10 +31,6 @@ class Run:
     @property
     def rows(self) -> Path:
         return self.file(".csv")
-
-    @property
-    def trace(self) -> Path:
-        return self.file("_trace.json")
 
     def periods(self) -> dict[str, dict[str, list[float]]]:
         """{"loop" | "baseline": {"period_us", "share"}}: how large a share of the periods is not longer."""
@@ -65,7 +60,7 @@ def screenshot(case: Case, folder: Path, at: float) -> Path:
 def _godot(arguments: list[str], case: Case, folder: Path, options: dict, environment: dict | None = None) -> None:
     chosen = {"scene": case.scene, "case": case.name, "output": folder, **options}
     command = [
-        str(godot.command()), *arguments, "--path", str(FOLDER), "--script", RUNNER, "--",
+        str(godot.command()), *arguments, "--path", str(FOLDER), "--",
         *(f"--{key}={value}" for key, value in chosen.items()),
     ]  # fmt: skip
     done = subprocess.run(

@@ -2,10 +2,17 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from measuring.records import Record
 from plots import style
+
+
+def _name_axes(axes) -> None:
+    """Beside the title, out of the way of the curves."""
+    axes.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.0)
+
+
+def _whole(record: Record) -> tuple[float, float]:
+    return 0.0, record.time[-1] + record.time[1]
 
 
 def draw_forces(record: Record, title: str, path: Path) -> None:
@@ -13,10 +20,10 @@ def draw_forces(record: Record, title: str, path: Path) -> None:
     for number, (axis, colour) in enumerate(style.AXES.items()):
         parts.plot(record.time, record.force[:, number], color=colour, label=axis, linewidth=1.2)
     parts.set(title=title, ylabel="components (N)")
-    parts.legend(ncols=3, loc="upper right")
+    _name_axes(parts)
     size.fill_between(record.time, record.force_size, color=style.MEASURED, alpha=0.15, linewidth=0)
     size.plot(record.time, record.force_size, color=style.MEASURED)
-    size.set(ylabel="size (N)", xlabel="time (s)", xlim=(0, record.time[-1]), ylim=(0, None))
+    size.set(ylabel="size (N)", xlabel="time (s)", xlim=_whole(record), ylim=(0, None))
     style.save(drawn, path)
 
 
@@ -25,9 +32,8 @@ def draw_object(record: Record, title: str, path: Path) -> None:
     drawn, ((axes,), (force,)) = style.figure(2, 1, 9.0, 5.0, sharex=True, height_ratios=[3, 1])
     for number, (axis, colour) in enumerate(style.AXES.items()):
         axes.plot(record.time, moved[:, number], color=colour, label=axis)
-    reach = max(1.0, float(np.abs(moved).max()))
-    axes.set(title=title, ylabel="from where it stood (mm)", ylim=(-1.1 * reach, 1.1 * reach))
-    axes.legend(ncols=3, loc="upper right")
+    axes.set(title=title, ylabel="from where it stood (mm)")
+    _name_axes(axes)
     force.plot(record.time, record.force_size, color=style.MEASURED, linewidth=1.0)
-    force.set(ylabel="force (N)", xlabel="time (s)", xlim=(0, record.time[-1]), ylim=(0, None))
+    force.set(ylabel="force (N)", xlabel="time (s)", xlim=_whole(record), ylim=(0, None))
     style.save(drawn, path)

@@ -46,25 +46,24 @@ def draw(cases: dict[str, dict[str, Distribution]], path: Path) -> None:
 
 
 def _draw_cumulative(axes, title: str, loops: dict[str, Distribution]) -> None:
-    for loop, distribution in loops.items():
-        label, colour, line = LOOPS[loop]
+    for loop, (label, colour, line) in LOOPS.items():
+        distribution = loops[loop]
         period = np.concatenate([[NEAR[0]], distribution.period, [NEAR[1]]])
         share = np.concatenate([[0.0], distribution.share, [1.0]])
         axes.step(period, share * 100.0, where="post", label=label, color=colour, linestyle=line)
     limit, share = THESIS
     axes.plot([limit, limit, NEAR[1]], [0.0, share * 100.0, share * 100.0], color=style.QUIET, linewidth=1.0)
     axes.annotate(
-        "thesis: 90 % below 1.05 ms", (limit, share * 100.0), xytext=(3, -12), textcoords="offset points",
-        fontsize=8, color=style.QUIET,
+        "thesis: 90 %\nbelow 1.05 ms", (limit, share * 100.0), xytext=(5, -5), textcoords="offset points",
+        fontsize=8, color=style.QUIET, va="top",
     )  # fmt: skip
     axes.set(title=title, xlim=NEAR, ylim=(0, 102), xlabel="period (µs)", ylabel="periods not longer (%)")
-    axes.legend(loc="center left")
+    axes.legend(loc="center left", fontsize=9)
 
 
 def _draw_tail(axes, loops: dict[str, Distribution]) -> None:
-    for loop, distribution in loops.items():
-        label, colour, line = LOOPS[loop]
-        deviation, share = tail(distribution)
+    for loop, (label, colour, line) in LOOPS.items():
+        deviation, share = tail(loops[loop])
         axes.step(np.maximum(deviation, 0.1), share, where="post", label=label, color=colour, linestyle=line)
     axes.set(
         title="How far from 1 ms, and how often", xscale="log", yscale="log", xlim=(1, None), ylim=(None, 1.3),

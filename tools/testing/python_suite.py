@@ -27,7 +27,7 @@ def run(wanted: str) -> list[Result]:
 
 def _pytest(*arguments: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", ".", *arguments]
-    return subprocess.run(command, cwd=cache.clone() / "tools/tests", text=True, capture_output=True)
+    return subprocess.run(command, cwd=cache.clone() / "tests/tools", text=True, capture_output=True)
 
 
 def _name(identity: str) -> str:

@@ -1,0 +1,81 @@
+"""The one-file report."""
+
+import json
+import struct
+import zlib
+from html.parser import HTMLParser
+
+import report
+import report_page
+
+SUMMARY = {
+    "machine.processor": "A & B <fast>", "machine.processors": 2,
+    "static.ticks": 11000, "static.mean_period_us": 1000.0, "static.tick_period_p90_us": 1060.0,
+    "static.tick_period_p99_us": 1020.0, "static.baseline_period_p99_us": 1010.0, "static.tick_compute_p99_us": 13.0,
+    "static.contact_time_share": 0.3342, "static.realtime": "Scheduling: ordinary.",
+}  # fmt: skip
+
+
+def tiny_picture() -> bytes:
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", 1, 1, 8, 0, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"\0\0")) + chunk(b"IEND", b"")
+
+
+class Page(HTMLParser):
+    VOID = {"meta", "img"}
+
+    def __init__(self, text: str):
+        super().__init__()
+        self.open: list[str] = []
+        self.sources: list[str] = []
+        self.words: list[str] = []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in self.VOID:
+            self.open.append(tag)
+        self.sources += [value for name, value in attributes if name in ("src", "href")]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def page(tmp_path, pictures: tuple[str, ...] = ()) -> Page:
+    (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
+    for name in pictures:
+        (tmp_path / name).write_bytes(tiny_picture())
+    return Page(report.page(tmp_path))
+
+
+def test_it_needs_nothing_but_itself(tmp_path):
+    found = page(tmp_path, ("periods.png", "static_force.png"))
+    assert len(found.sources) == 2
+    assert all(source.startswith("data:image/png;base64,") for source in found.sources)
+
+
+def test_missing_pictures_are_left_out(tmp_path):
+    assert page(tmp_path).sources == []
+
+
+def test_each_target_says_whether_it_is_met(tmp_path):
+    words = page(tmp_path).words
+    assert words.count("met") == 3
+    assert words.count("missed") == 1
+
+
+def test_figures_carry_their_units(tmp_path):
+    words = page(tmp_path).words
+    assert "1060.0 µs" in words
+    assert "33.42%" in words
+
+
+def test_text_is_escaped():
+    assert report_page.paragraph("a < b & c") == "<p>a &lt; b &amp; c</p>"
+    assert "A &amp; B" in report_page.table(("",), [("A & B",)])

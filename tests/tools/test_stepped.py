@@ -1,0 +1,42 @@
+"""In stepped time the same scene gives the same bytes: of one program, and of the exported one that stands alone."""
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+import project
+from measuring.scene_run import Case, play
+
+SECONDS = 3.0  # the first touch of the sphere, and the box pushed
+STATIC = Case("static", "res://static_testbed.tscn")
+DYNAMIC = Case("dynamic", "res://dynamic_testbed.tscn")
+MESHES = Case("meshes", "res://mesh_table.tscn")  # which it finds by their names in the library
+
+
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory) -> Path:
+    program = tmp_path_factory.mktemp("export") / "tactus.x86_64"
+    project.export_to(program)
+    return program
+
+
+def rows(case: Case, folder: Path) -> bytes:
+    return play(case, folder, SECONDS, "stepped").rows.read_bytes()
+
+
+def test_two_runs_write_the_same_rows(tmp_path):
+    first, second = (rows(DYNAMIC, tmp_path / name) for name in ("first", "second"))
+    assert first.count(b"\n") > 1000 * SECONDS
+    assert first == second
+
+
+@pytest.mark.parametrize("case", [STATIC, DYNAMIC, MESHES], ids=lambda case: case.name)
+def test_the_exported_program_feels_what_the_project_does(exported, tmp_path, case):
+    options = {"scene": case.scene, "case": case.name, "output": tmp_path, "clock": "stepped", "duration": SECONDS}
+    command = [exported, "--headless", "--", *(f"--{key}={value}" for key, value in options.items())]
+    done = subprocess.run(
+        command, cwd=exported.parent, timeout=120, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+    )
+    assert done.returncode == 0, done.stdout
+    assert (tmp_path / f"{case.name}.csv").read_bytes() == rows(case, tmp_path / "project")
