@@ -84,6 +84,7 @@ PreparedBody PhysicsWorld::remove(BodyId id) {
     impl_->wake_around(*body);
     impl_->bodies().RemoveBody(jolt_id);
     impl_->trees.forget(jolt_id);
+    impl_->forget_pushes(*body);
     impl_->bodies().UnassignBodyID(jolt_id);
     PreparedBody removed(
         std::unique_ptr<BodyRecord>(std::exchange(impl_->records[jolt_id.GetIndex()], nullptr)));
@@ -181,6 +182,7 @@ bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
         return true;
     const LoopMemoryScope scope(impl_->memory);
     ++impl_->structure;
+    impl_->forget_pushes(*body);
     impl_->wake_around(*body);
     impl_->bodies().SetMotionType(body->GetID(), motion_type(motion), JPH::EActivation::Activate);
     return true;
@@ -265,6 +267,19 @@ void PhysicsWorld::apply_force(BodyId id, const Vec3& force, const Vec3& world_p
     impl_->bodies().AddForce(body->GetID(), units::vector(force), units::position(world_point));
 }
 
+void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
+    if (!(spring.stiffness > 0.0) || impl_->push_count == impl_->pushes.size()) {
+        apply_force(id, spring.force, spring.point);
+        return;
+    }
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->IsDynamic() || spring.force == Vec3(0.0))
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->wake(*body);
+    impl_->pushes[impl_->push_count++].set(*body, spring);
+}
+
 void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
     JPH::Body* body = impl_->find(id);
     if (body == nullptr || !body->IsDynamic() || torque == Vec3(0.0))
@@ -295,8 +310,10 @@ std::uint32_t PhysicsWorld::step(double seconds) {
         return step_nothing_awake;
     const std::uint64_t overflows = impl_->memory.overflows();
     const LoopMemoryScope scope(impl_->memory);
+    impl_->add_pushes();
     const JPH::EPhysicsUpdateError error = impl_->system.Update(
         static_cast<float>(seconds), impl_->settings.sub_steps, &impl_->step_memory, &impl_->jobs);
+    impl_->remove_pushes();
     const auto has = [error](JPH::EPhysicsUpdateError bit) {
         return (error & bit) != JPH::EPhysicsUpdateError::None;
     };

@@ -42,6 +42,19 @@ struct PhysicsSettings {
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
 };
 
+// A hand's spring pressing on a body. Within the step the force changes by `stiffness` times the way that the
+// hand goes on less the way that the body gives, and by `damping` times the speed that the body loses; it
+// never pulls. A fingertip that sticks holds the body in all directions, one that slides only along the
+// force.
+struct SpringForce {
+    Vec3 force{0.0};          // on the body now, in the world (unit: newtons)
+    Vec3 point{0.0};          // where, in the world (unit: meters)
+    double stiffness = 0.0;   // (unit: newtons per meter), > 0
+    double damping = 0.0;     // (unit: newton seconds per meter), >= 0
+    Vec3 hand_velocity{0.0};  // during the step, in the world (unit: meters per second)
+    bool sticks = false;
+};
+
 // Bits that step() returns.
 enum StepStatus : std::uint32_t {
     step_ok = 0,
@@ -101,13 +114,17 @@ public:
 
     // For the next step only; wakes a dynamic body, does nothing to any other.
     void apply_force(BodyId id, const Vec3& force, const Vec3& world_point);  // (units: newtons, meters)
-    void apply_torque(BodyId id, const Vec3& torque);                         // (unit: newton meters)
+    // The same for a hand's spring: stable for bodies however light, where apply_force() rings
+    // (spring_push.hpp). The first 64 a step; beyond, and for a stiffness of zero, it is apply_force().
+    void apply_spring_force(BodyId id, const SpringForce& spring);
+    void apply_torque(BodyId id, const Vec3& torque);  // (unit: newton meters)
 
     // --- time
 
     bool anything_awake() const;
     std::size_t awake_count() const;
-    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on every run.
+    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on
+    // every run.
     std::size_t awake_bodies(std::span<BodyId> out) const;
 
     // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.

@@ -37,6 +37,9 @@ PhysicsSettings within_range(PhysicsSettings settings) {
     return settings;
 }
 
+// More hands and contacts than a scene has.
+constexpr std::size_t most_pushes = 64;
+
 // Only what can move can be asleep.
 class MovingOnly final : public JPH::BroadPhaseLayerFilter {
 public:
@@ -56,7 +59,8 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       records(settings.max_bodies),
       trees(system, records),
       journal(system, settings.remembered_wakings),
-      activity(trees, journal) {
+      activity(trees, journal),
+      pushes(most_pushes) {
     jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
     constexpr JPH::uint one_mutex = 1;
     system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
@@ -92,6 +96,22 @@ void PhysicsWorld::Impl::wake_around(const JPH::Body& body) {
 
 void PhysicsWorld::Impl::listen_if_needed() {
     system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr);
+}
+
+void PhysicsWorld::Impl::add_pushes() {
+    for (std::size_t i = 0; i < push_count; ++i)
+        system.AddConstraint(&pushes[i]);
+}
+
+void PhysicsWorld::Impl::remove_pushes() {
+    while (push_count > 0)
+        system.RemoveConstraint(&pushes[--push_count]);
+}
+
+void PhysicsWorld::Impl::forget_pushes(const JPH::Body& body) {
+    for (std::size_t i = 0; i < push_count; ++i)
+        if (pushes[i].acts_on(body))
+            pushes[i--].take(pushes[--push_count]);
 }
 
 }  // namespace tactus

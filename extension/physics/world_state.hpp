@@ -12,6 +12,7 @@
 #include "physics/jolt.hpp"
 #include "physics/loop_memory.hpp"
 #include "physics/physics_world.hpp"
+#include "physics/spring_push.hpp"
 
 #include <Jolt/Core/JobSystemSingleThreaded.h>
 #include <Jolt/Core/TempAllocator.h>
@@ -39,6 +40,12 @@ struct PhysicsWorld::Impl {
 
     void listen_if_needed();
 
+    // Jolt keeps constraints in order: these come last and leave again in reverse, so that joints stay where
+    // they are.
+    void add_pushes();
+    void remove_pushes();
+    void forget_pushes(const JPH::Body& body);  // it leaves the world or stops being dynamic
+
     PhysicsSettings settings;
     LoopMemory memory;
     LayerInterface layer_interface;
@@ -52,6 +59,8 @@ struct PhysicsWorld::Impl {
     TreeKeeper trees;
     WakeJournal journal;
     ActivityListener activity;
+    std::vector<SpringPush> pushes;  // the first push_count are of the next step
+    std::size_t push_count = 0;
     std::size_t body_count = 0;
 
     // Changes with everything a snapshot does not hold but rests on: which bodies there are, their shapes and
