@@ -82,9 +82,11 @@ PreparedBody PhysicsWorld::remove(BodyId id) {
     const LoopMemoryScope scope(impl_->memory);
     const JPH::BodyID jolt_id = body->GetID();
     impl_->wake_around(*body);
+    impl_->joints.remove_all_of(*body);
     impl_->bodies().RemoveBody(jolt_id);
     impl_->trees.forget(jolt_id);
     impl_->forget_pushes(*body);
+    body->SetCollisionGroup({});
     impl_->bodies().UnassignBodyID(jolt_id);
     PreparedBody removed(
         std::unique_ptr<BodyRecord>(std::exchange(impl_->records[jolt_id.GetIndex()], nullptr)));
@@ -111,6 +113,7 @@ bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
     // Held here, and by `other` afterwards, so that nothing is freed in the loop.
     const JPH::RefConst<JPH::Shape> old_shape = body->GetShape();
     const JPH::RefConst<JPH::Shape> new_shape = spare.body->GetShape();
+    impl_->joints.shape_changed(*body, new_shape->GetCenterOfMass() - old_shape->GetCenterOfMass());
     impl_->bodies().SetShape(body->GetID(), new_shape, false, JPH::EActivation::Activate);
     spare.body->SetShapeInternal(old_shape, false);
     std::swap(record.mass, spare.mass);
@@ -119,6 +122,33 @@ bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
         motion->SetMassProperties(motion->GetAllowedDOFs(), record.mass_properties);
     impl_->wake_around(*body);
     return true;
+}
+
+JointId PhysicsWorld::add_joint(const JointDescription& joint, BodyId first, BodyId second) {
+    JPH::Body* a = first.valid() ? impl_->find(first) : &JPH::Body::sFixedToWorld;
+    JPH::Body* b = second.valid() ? impl_->find(second) : &JPH::Body::sFixedToWorld;
+    if (a == nullptr || b == nullptr || a == b ||
+        !(a->CanBeKinematicOrDynamic() || b->CanBeKinematicOrDynamic()))
+        return {};
+    const LoopMemoryScope scope(impl_->memory);
+    const JointId id = impl_->joints.add(joint, *a, *b);
+    ++impl_->structure;
+    for (JPH::Body* body : {a, b})
+        if (body != &JPH::Body::sFixedToWorld) {
+            impl_->wake(*body);
+            impl_->bodies().InvalidateContactCache(body->GetID());
+        }
+    return id;
+}
+
+bool PhysicsWorld::remove_joint(JointId id) {
+    const LoopMemoryScope scope(impl_->memory);
+    ++impl_->structure;
+    return impl_->joints.remove(id);
+}
+
+std::size_t PhysicsWorld::joint_count() const {
+    return impl_->joints.count();
 }
 
 void PhysicsWorld::settle_broad_phase() {

@@ -15,6 +15,7 @@
 
 #include "core/math/pose.hpp"
 #include "physics/body_description.hpp"
+#include "physics/joint.hpp"
 #include "physics/prepared_body.hpp"
 
 namespace tactus {
@@ -38,6 +39,7 @@ struct PhysicsSettings {
     Vec3 gravity{0.0, -9.81, 0.0};         // (unit: meters per square second)
     int sub_steps = 1;                     // collision steps in one step(), 1..16
     int velocity_iterations = 10;          // of the contact solver in a sub-step, >= 2
+    std::uint32_t max_joints = 256;        // 1..32768
     int position_iterations = 2;           // >= 1
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
 };
@@ -85,6 +87,12 @@ public:
     // Exchanges shape, mass, inertia and centre of mass with those of `other`; all else, and the pose, stays.
     // Whether a body can move must be the same for both, or nothing happens and the result is false.
     bool reshape(BodyId id, PreparedBody& other);
+
+    // Joins two bodies, or one and the world (an invalid id). Invalid when a body is missing, neither can
+    // move, or there is no room. Removing a body removes its joints.
+    JointId add_joint(const JointDescription& joint, BodyId first, BodyId second);
+    bool remove_joint(JointId id);
+    std::size_t joint_count() const;
 
     // After many bodies were added one by one, before the loop runs: makes finding neighbours fast at once
     // rather than over the next steps. Takes milliseconds for thousands of bodies.

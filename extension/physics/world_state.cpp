@@ -33,6 +33,7 @@ PhysicsSettings within_range(PhysicsSettings settings) {
     settings.max_bodies = std::clamp(settings.max_bodies, 1u, 65536u);
     settings.max_touching_pairs = std::clamp(settings.max_touching_pairs, 16u, 65536u);
     settings.max_contacts = std::clamp(settings.max_contacts, 16u, 65536u);
+    settings.max_joints = std::clamp(settings.max_joints, 1u, 32768u);
     settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
     return settings;
 }
@@ -60,6 +61,7 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       trees(system, records),
       journal(system, settings.remembered_wakings),
       activity(trees, journal),
+      joints(system, settings.max_joints),
       pushes(most_pushes) {
     jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
     constexpr JPH::uint one_mutex = 1;
@@ -74,8 +76,11 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
 
 PhysicsWorld::Impl::~Impl() {
     system.SetBodyActivationListener(nullptr);
-    for (const BodyRecord* record : records)
+    for (const BodyRecord* record : records) {
+        if (record != nullptr)
+            record->in_world->SetCollisionGroup({});  // it names `joints`, which go before the bodies
         delete record;
+    }
 }
 
 JPH::Body* PhysicsWorld::Impl::find(BodyId id) const {

@@ -9,6 +9,7 @@
 #include "physics/body_record.hpp"
 #include "physics/collision_layers.hpp"
 #include "physics/contact_rules.hpp"
+#include "physics/joint_table.hpp"
 #include "physics/jolt.hpp"
 #include "physics/loop_memory.hpp"
 #include "physics/physics_world.hpp"
@@ -59,6 +60,7 @@ struct PhysicsWorld::Impl {
     TreeKeeper trees;
     WakeJournal journal;
     ActivityListener activity;
+    JointTable joints;
     std::vector<SpringPush> pushes;  // the first push_count are of the next step
     std::size_t push_count = 0;
     std::size_t body_count = 0;
