@@ -38,7 +38,7 @@ struct PhysicsSettings {
     std::uint32_t max_contacts = 4096;     // pairs of surfaces in contact, likewise
     Vec3 gravity{0.0, -9.81, 0.0};         // (unit: meters per square second)
     int sub_steps = 1;                     // collision steps in one step(), 1..16
-    int velocity_iterations = 10;          // of the contact solver in a sub-step, >= 2
+    int velocity_iterations = 6;           // of the contact solver in a sub-step, >= 2
     std::uint32_t max_joints = 256;        // 1..32768
     int position_iterations = 2;           // >= 1
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time

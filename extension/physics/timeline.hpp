@@ -67,7 +67,7 @@ public:
     std::uint32_t step(double seconds);  // as PhysicsWorld::step()
     std::uint64_t tick() const {
         return tick_;
-    }                                   // steps made so far: the state now is that before step `tick`
+    }  // steps made so far: the state now is that before step `tick`
     std::uint64_t oldest_tick() const;  // the first that can be corrected
 
     // What was true before the step of `tick`. Starts a replay; a correction under way is replaced. False

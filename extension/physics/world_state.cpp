@@ -27,7 +27,7 @@ JPH::uint step_memory_size(const PhysicsSettings& settings) {
 }
 
 // Far more jobs than the single-threaded system holds at any time.
-constexpr JPH::uint jobs_per_sub_step = 64;
+constexpr std::size_t jobs_per_sub_step = 64;
 
 PhysicsSettings within_range(PhysicsSettings settings) {
     settings.max_bodies = std::clamp(settings.max_bodies, 1u, 65536u);
@@ -57,13 +57,13 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       layers(settings.max_bodies),
       one_sided(layers),
       step_memory(step_memory_size(settings)),
+      jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps)),
       records(settings.max_bodies),
       trees(system, records),
       journal(system, settings.remembered_wakings),
       activity(trees, journal),
       joints(system, settings.max_joints),
       pushes(most_pushes) {
-    jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
     constexpr JPH::uint one_mutex = 1;
     system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
                 layer_interface, broad_phase_filter, layers);

@@ -11,11 +11,11 @@
 #include "physics/contact_rules.hpp"
 #include "physics/joint_table.hpp"
 #include "physics/jolt.hpp"
+#include "physics/loop_jobs.hpp"
 #include "physics/loop_memory.hpp"
 #include "physics/physics_world.hpp"
 #include "physics/spring_push.hpp"
 
-#include <Jolt/Core/JobSystemSingleThreaded.h>
 #include <Jolt/Core/TempAllocator.h>
 #include <Jolt/Physics/PhysicsSystem.h>
 
@@ -54,7 +54,7 @@ struct PhysicsWorld::Impl {
     CollisionTable layers;
     OneSidedContacts one_sided;
     JPH::TempAllocatorImplWithMallocFallback step_memory;
-    JPH::JobSystemSingleThreaded jobs;
+    LoopJobs jobs;
     JPH::PhysicsSystem system;
     std::vector<BodyRecord*> records;  // by the body's index; owned
     TreeKeeper trees;
