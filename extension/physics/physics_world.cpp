@@ -82,8 +82,11 @@ PreparedBody PhysicsWorld::remove(BodyId id) {
     const LoopMemoryScope scope(impl_->memory);
     const JPH::BodyID jolt_id = body->GetID();
     impl_->wake_around(*body);
+    impl_->joints.remove_all_of(*body);
     impl_->bodies().RemoveBody(jolt_id);
     impl_->trees.forget(jolt_id);
+    impl_->forget_pushes(*body);
+    body->SetCollisionGroup({});
     impl_->bodies().UnassignBodyID(jolt_id);
     PreparedBody removed(
         std::unique_ptr<BodyRecord>(std::exchange(impl_->records[jolt_id.GetIndex()], nullptr)));
@@ -110,6 +113,7 @@ bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
     // Held here, and by `other` afterwards, so that nothing is freed in the loop.
     const JPH::RefConst<JPH::Shape> old_shape = body->GetShape();
     const JPH::RefConst<JPH::Shape> new_shape = spare.body->GetShape();
+    impl_->joints.shape_changed(*body, new_shape->GetCenterOfMass() - old_shape->GetCenterOfMass());
     impl_->bodies().SetShape(body->GetID(), new_shape, false, JPH::EActivation::Activate);
     spare.body->SetShapeInternal(old_shape, false);
     std::swap(record.mass, spare.mass);
@@ -118,6 +122,33 @@ bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
         motion->SetMassProperties(motion->GetAllowedDOFs(), record.mass_properties);
     impl_->wake_around(*body);
     return true;
+}
+
+JointId PhysicsWorld::add_joint(const JointDescription& joint, BodyId first, BodyId second) {
+    JPH::Body* a = first.valid() ? impl_->find(first) : &JPH::Body::sFixedToWorld;
+    JPH::Body* b = second.valid() ? impl_->find(second) : &JPH::Body::sFixedToWorld;
+    if (a == nullptr || b == nullptr || a == b ||
+        !(a->CanBeKinematicOrDynamic() || b->CanBeKinematicOrDynamic()))
+        return {};
+    const LoopMemoryScope scope(impl_->memory);
+    const JointId id = impl_->joints.add(joint, *a, *b);
+    ++impl_->structure;
+    for (JPH::Body* body : {a, b})
+        if (body != &JPH::Body::sFixedToWorld) {
+            impl_->wake(*body);
+            impl_->bodies().InvalidateContactCache(body->GetID());
+        }
+    return id;
+}
+
+bool PhysicsWorld::remove_joint(JointId id) {
+    const LoopMemoryScope scope(impl_->memory);
+    ++impl_->structure;
+    return impl_->joints.remove(id);
+}
+
+std::size_t PhysicsWorld::joint_count() const {
+    return impl_->joints.count();
 }
 
 void PhysicsWorld::settle_broad_phase() {
@@ -181,6 +212,7 @@ bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
         return true;
     const LoopMemoryScope scope(impl_->memory);
     ++impl_->structure;
+    impl_->forget_pushes(*body);
     impl_->wake_around(*body);
     impl_->bodies().SetMotionType(body->GetID(), motion_type(motion), JPH::EActivation::Activate);
     return true;
@@ -265,6 +297,19 @@ void PhysicsWorld::apply_force(BodyId id, const Vec3& force, const Vec3& world_p
     impl_->bodies().AddForce(body->GetID(), units::vector(force), units::position(world_point));
 }
 
+void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
+    if (!(spring.stiffness > 0.0) || impl_->push_count == impl_->pushes.size()) {
+        apply_force(id, spring.force, spring.point);
+        return;
+    }
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !body->IsDynamic() || spring.force == Vec3(0.0))
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->wake(*body);
+    impl_->pushes[impl_->push_count++].set(*body, spring);
+}
+
 void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
     JPH::Body* body = impl_->find(id);
     if (body == nullptr || !body->IsDynamic() || torque == Vec3(0.0))
@@ -295,8 +340,10 @@ std::uint32_t PhysicsWorld::step(double seconds) {
         return step_nothing_awake;
     const std::uint64_t overflows = impl_->memory.overflows();
     const LoopMemoryScope scope(impl_->memory);
+    impl_->add_pushes();
     const JPH::EPhysicsUpdateError error = impl_->system.Update(
         static_cast<float>(seconds), impl_->settings.sub_steps, &impl_->step_memory, &impl_->jobs);
+    impl_->remove_pushes();
     const auto has = [error](JPH::EPhysicsUpdateError bit) {
         return (error & bit) != JPH::EPhysicsUpdateError::None;
     };

@@ -15,6 +15,7 @@
 
 #include "core/math/pose.hpp"
 #include "physics/body_description.hpp"
+#include "physics/joint.hpp"
 #include "physics/prepared_body.hpp"
 
 namespace tactus {
@@ -37,9 +38,23 @@ struct PhysicsSettings {
     std::uint32_t max_contacts = 4096;     // pairs of surfaces in contact, likewise
     Vec3 gravity{0.0, -9.81, 0.0};         // (unit: meters per square second)
     int sub_steps = 1;                     // collision steps in one step(), 1..16
-    int velocity_iterations = 10;          // of the contact solver in a sub-step, >= 2
+    int velocity_iterations = 6;           // of the contact solver in a sub-step, >= 2
+    std::uint32_t max_joints = 256;        // 1..32768
     int position_iterations = 2;           // >= 1
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
+};
+
+// A hand's spring pressing on a body. Within the step the force changes by `stiffness` times the way that the
+// hand goes on less the way that the body gives, and by `damping` times the speed that the body loses; it
+// never pulls. A fingertip that sticks holds the body in all directions, one that slides only along the
+// force.
+struct SpringForce {
+    Vec3 force{0.0};          // on the body now, in the world (unit: newtons)
+    Vec3 point{0.0};          // where, in the world (unit: meters)
+    double stiffness = 0.0;   // (unit: newtons per meter), > 0
+    double damping = 0.0;     // (unit: newton seconds per meter), >= 0
+    Vec3 hand_velocity{0.0};  // during the step, in the world (unit: meters per second)
+    bool sticks = false;
 };
 
 // Bits that step() returns.
@@ -73,6 +88,12 @@ public:
     // Whether a body can move must be the same for both, or nothing happens and the result is false.
     bool reshape(BodyId id, PreparedBody& other);
 
+    // Joins two bodies, or one and the world (an invalid id). Invalid when a body is missing, neither can
+    // move, or there is no room. Removing a body removes its joints.
+    JointId add_joint(const JointDescription& joint, BodyId first, BodyId second);
+    bool remove_joint(JointId id);
+    std::size_t joint_count() const;
+
     // After many bodies were added one by one, before the loop runs: makes finding neighbours fast at once
     // rather than over the next steps. Takes milliseconds for thousands of bodies.
     void settle_broad_phase();
@@ -101,13 +122,17 @@ public:
 
     // For the next step only; wakes a dynamic body, does nothing to any other.
     void apply_force(BodyId id, const Vec3& force, const Vec3& world_point);  // (units: newtons, meters)
-    void apply_torque(BodyId id, const Vec3& torque);                         // (unit: newton meters)
+    // The same for a hand's spring: stable for bodies however light, where apply_force() rings
+    // (spring_push.hpp). The first 64 a step; beyond, and for a stiffness of zero, it is apply_force().
+    void apply_spring_force(BodyId id, const SpringForce& spring);
+    void apply_torque(BodyId id, const Vec3& torque);  // (unit: newton meters)
 
     // --- time
 
     bool anything_awake() const;
     std::size_t awake_count() const;
-    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on every run.
+    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on
+    // every run.
     std::size_t awake_bodies(std::span<BodyId> out) const;
 
     // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.

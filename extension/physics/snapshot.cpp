@@ -76,6 +76,7 @@ bool PhysicsWorld::restore(std::span<const std::byte> snapshot) {
     const LoopMemoryScope scope(impl_->memory);
     JPH::PhysicsSystem& system = impl_->system;
     const JPH::BodyLockInterface& bodies = system.GetBodyLockInterfaceNoLock();
+    impl_->push_count = 0;
     while (const JPH::uint awake = system.GetNumActiveBodies(JPH::EBodyType::RigidBody))
         impl_->bodies().DeactivateBody(system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody)[awake - 1]);
     if (journal_reaches)

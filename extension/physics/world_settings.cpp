@@ -25,8 +25,8 @@ constexpr double largest_push = 0.02;  // (unit: meters)
 constexpr double same_contact = 5e-4;  // (unit: meters)
 
 // Two bodies that moved less than this against each other keep the contacts found before.
-constexpr double cache_distance = 2e-5;             // (unit: meters)
-constexpr float cache_cos_half_angle = 0.9999995f;  // of 0.002 rad
+constexpr double cache_distance = 1e-4;            // (unit: meters)
+constexpr float cache_cos_half_angle = 0.999998f;  // of 0.004 rad
 
 // Slower than this nothing bounces.
 constexpr double bounce_threshold = 0.05;  // (unit: meters per second)

@@ -27,15 +27,19 @@ JPH::uint step_memory_size(const PhysicsSettings& settings) {
 }
 
 // Far more jobs than the single-threaded system holds at any time.
-constexpr JPH::uint jobs_per_sub_step = 64;
+constexpr std::size_t jobs_per_sub_step = 64;
 
 PhysicsSettings within_range(PhysicsSettings settings) {
     settings.max_bodies = std::clamp(settings.max_bodies, 1u, 65536u);
     settings.max_touching_pairs = std::clamp(settings.max_touching_pairs, 16u, 65536u);
     settings.max_contacts = std::clamp(settings.max_contacts, 16u, 65536u);
+    settings.max_joints = std::clamp(settings.max_joints, 1u, 32768u);
     settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
     return settings;
 }
+
+// More hands and contacts than a scene has.
+constexpr std::size_t most_pushes = 64;
 
 // Only what can move can be asleep.
 class MovingOnly final : public JPH::BroadPhaseLayerFilter {
@@ -53,11 +57,13 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       layers(settings.max_bodies),
       one_sided(layers),
       step_memory(step_memory_size(settings)),
+      jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps)),
       records(settings.max_bodies),
       trees(system, records),
       journal(system, settings.remembered_wakings),
-      activity(trees, journal) {
-    jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
+      activity(trees, journal),
+      joints(system, settings.max_joints),
+      pushes(most_pushes) {
     constexpr JPH::uint one_mutex = 1;
     system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
                 layer_interface, broad_phase_filter, layers);
@@ -70,8 +76,11 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
 
 PhysicsWorld::Impl::~Impl() {
     system.SetBodyActivationListener(nullptr);
-    for (const BodyRecord* record : records)
+    for (const BodyRecord* record : records) {
+        if (record != nullptr)
+            record->in_world->SetCollisionGroup({});  // it names `joints`, which go before the bodies
         delete record;
+    }
 }
 
 JPH::Body* PhysicsWorld::Impl::find(BodyId id) const {
@@ -92,6 +101,22 @@ void PhysicsWorld::Impl::wake_around(const JPH::Body& body) {
 
 void PhysicsWorld::Impl::listen_if_needed() {
     system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr);
+}
+
+void PhysicsWorld::Impl::add_pushes() {
+    for (std::size_t i = 0; i < push_count; ++i)
+        system.AddConstraint(&pushes[i]);
+}
+
+void PhysicsWorld::Impl::remove_pushes() {
+    while (push_count > 0)
+        system.RemoveConstraint(&pushes[--push_count]);
+}
+
+void PhysicsWorld::Impl::forget_pushes(const JPH::Body& body) {
+    for (std::size_t i = 0; i < push_count; ++i)
+        if (pushes[i].acts_on(body))
+            pushes[i--].take(pushes[--push_count]);
 }
 
 }  // namespace tactus

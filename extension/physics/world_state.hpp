@@ -9,11 +9,13 @@
 #include "physics/body_record.hpp"
 #include "physics/collision_layers.hpp"
 #include "physics/contact_rules.hpp"
+#include "physics/joint_table.hpp"
 #include "physics/jolt.hpp"
+#include "physics/loop_jobs.hpp"
 #include "physics/loop_memory.hpp"
 #include "physics/physics_world.hpp"
+#include "physics/spring_push.hpp"
 
-#include <Jolt/Core/JobSystemSingleThreaded.h>
 #include <Jolt/Core/TempAllocator.h>
 #include <Jolt/Physics/PhysicsSystem.h>
 
@@ -39,6 +41,12 @@ struct PhysicsWorld::Impl {
 
     void listen_if_needed();
 
+    // Jolt keeps constraints in order: these come last and leave again in reverse, so that joints stay where
+    // they are.
+    void add_pushes();
+    void remove_pushes();
+    void forget_pushes(const JPH::Body& body);  // it leaves the world or stops being dynamic
+
     PhysicsSettings settings;
     LoopMemory memory;
     LayerInterface layer_interface;
@@ -46,12 +54,15 @@ struct PhysicsWorld::Impl {
     CollisionTable layers;
     OneSidedContacts one_sided;
     JPH::TempAllocatorImplWithMallocFallback step_memory;
-    JPH::JobSystemSingleThreaded jobs;
+    LoopJobs jobs;
     JPH::PhysicsSystem system;
     std::vector<BodyRecord*> records;  // by the body's index; owned
     TreeKeeper trees;
     WakeJournal journal;
     ActivityListener activity;
+    JointTable joints;
+    std::vector<SpringPush> pushes;  // the first push_count are of the next step
+    std::size_t push_count = 0;
     std::size_t body_count = 0;
 
     // Changes with everything a snapshot does not hold but rests on: which bodies there are, their shapes and

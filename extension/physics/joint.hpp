@@ -1,0 +1,55 @@
+// What may still move between two joined bodies, as plain values.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/math/pose.hpp"
+
+namespace tactus {
+
+// From where the bodies are when they are joined. lower == upper: held there; lower > upper: free.
+struct JointRange {
+    double lower = 0.0;
+    double upper = 0.0;
+
+    static constexpr JointRange locked() { return {0.0, 0.0}; }
+    static constexpr JointRange free() { return {1.0, -1.0}; }
+};
+
+enum class JointKind {
+    Pin,      // free to turn about the frame's origin
+    Hinge,    // turns about the frame's z axis within angular[2]
+    Slider,   // slides along the frame's x axis within linear[0]
+    SixAxes,  // linear and angular, each axis on its own
+};
+
+struct JointDescription {
+    JointKind kind = JointKind::Pin;
+    Pose frame;  // in the world, where the bodies are now
+
+    // Of the second body against the first, in the frame.
+    std::array<JointRange, 3> linear{};   // (unit: meters)
+    std::array<JointRange, 3> angular{};  // (unit: radians), within -pi..pi; right-handed
+
+    // Keeps a hinge turning: towards motor_speed (unit: radians per second), with no more than motor_torque
+    // (unit: newton meters). No torque, no motor.
+    double motor_speed = 0.0;
+    double motor_torque = 0.0;
+
+    bool bodies_collide = false;  // with each other
+};
+
+// Names a joint of one world for as long as it is in it.
+struct JointId {
+    std::uint32_t value = 0xffffffffu;
+
+    bool valid() const { return value != 0xffffffffu; }
+    friend bool operator==(JointId, JointId) = default;
+};
+
+// What is wrong with it and what to do; empty when nothing is.
+std::string wrong_in(const JointDescription& joint);
+
+}  // namespace tactus

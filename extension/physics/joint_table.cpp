@@ -1,0 +1,184 @@
+#include "physics/joint_table.hpp"
+
+#include "physics/jolt.hpp"
+
+#include <Jolt/Physics/Constraints/HingeConstraint.h>
+#include <Jolt/Physics/Constraints/PointConstraint.h>
+#include <Jolt/Physics/Constraints/SixDOFConstraint.h>
+#include <Jolt/Physics/PhysicsSystem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "physics/jolt_units.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr std::uint32_t index_bits = 16;
+constexpr std::uint32_t index_mask = (1u << index_bits) - 1;
+
+bool is_free(const JointRange& range) {
+    return range.lower > range.upper;
+}
+
+JPH::Vec3 axis(const JointDescription& joint, const Vec3& in_frame) {
+    return units::plain(joint.frame.rotation * in_frame);
+}
+
+JPH::TwoBodyConstraint* pin(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
+    const JPH::Ref settings = new JPH::PointConstraintSettings;
+    settings->mPoint1 = settings->mPoint2 = units::position(joint.frame.position);
+    return settings->Create(first, second);
+}
+
+// Jolt's limits enclose its zero, ours need not: its zero is put into the middle of the range.
+JPH::TwoBodyConstraint* hinge(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
+    const JointRange& range = joint.angular[2];
+    const bool free = is_free(range) || range.upper - range.lower >= 2.0 * std::numbers::pi;
+    const double middle = free ? 0.0 : 0.5 * (range.lower + range.upper);
+    const double half = free ? std::numbers::pi : 0.5 * (range.upper - range.lower);
+    const JPH::Ref settings = new JPH::HingeConstraintSettings;
+    settings->mPoint1 = settings->mPoint2 = units::position(joint.frame.position);
+    settings->mHingeAxis1 = settings->mHingeAxis2 = axis(joint, {0.0, 0.0, 1.0});
+    settings->mNormalAxis1 = axis(joint, {std::cos(middle), std::sin(middle), 0.0});
+    settings->mNormalAxis2 = axis(joint, {1.0, 0.0, 0.0});
+    settings->mLimitsMin = static_cast<float>(-half);
+    settings->mLimitsMax = static_cast<float>(half);
+    if (joint.motor_torque > 0.0)
+        settings->mMotorSettings.SetTorqueLimit(units::area(joint.motor_torque));
+    auto* constraint = static_cast<JPH::HingeConstraint*>(settings->Create(first, second));
+    if (joint.motor_torque > 0.0) {
+        constraint->SetTargetAngularVelocity(static_cast<float>(joint.motor_speed));
+        constraint->SetMotorState(JPH::EMotorState::Velocity);
+    }
+    return constraint;
+}
+
+JPH::TwoBodyConstraint* six_axes(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
+    using Axis = JPH::SixDOFConstraintSettings::EAxis;
+    const JPH::Ref settings = new JPH::SixDOFConstraintSettings;
+    settings->mPosition1 = settings->mPosition2 = units::position(joint.frame.position);
+    settings->mAxisX1 = settings->mAxisX2 = axis(joint, {1.0, 0.0, 0.0});
+    settings->mAxisY1 = settings->mAxisY2 = axis(joint, {0.0, 1.0, 0.0});
+    settings->mSwingType = JPH::ESwingType::Pyramid;
+    const auto limit = [&settings](int index, const JointRange& range, double to_jolt, double full) {
+        const auto which = static_cast<Axis>(index);
+        if (is_free(range) || range.upper - range.lower >= full)
+            settings->MakeFreeAxis(which);
+        else if (range.lower == 0.0 && range.upper == 0.0)
+            settings->MakeFixedAxis(which);
+        else
+            settings->SetLimitedAxis(which, static_cast<float>(range.lower * to_jolt),
+                                     static_cast<float>(range.upper * to_jolt));
+    };
+    const bool slider = joint.kind == JointKind::Slider;
+    for (int i = 0; i < 3; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        limit(i, slider && i > 0 ? JointRange::locked() : joint.linear[at], units::jolt_per_meter, HUGE_VAL);
+        limit(3 + i, slider ? JointRange::locked() : joint.angular[at], 1.0, 2.0 * std::numbers::pi);
+    }
+    return settings->Create(first, second);
+}
+
+JPH::TwoBodyConstraint* create(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
+    switch (joint.kind) {
+        case JointKind::Pin:
+            return pin(joint, first, second);
+        case JointKind::Hinge:
+            return hinge(joint, first, second);
+        case JointKind::Slider:
+        case JointKind::SixAxes:
+            return six_axes(joint, first, second);
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+std::string wrong_in(const JointDescription& joint) {
+    const Vec3& p = joint.frame.position;
+    if (!std::isfinite(p.x + p.y + p.z) || !(std::abs(glm::length(joint.frame.rotation) - 1.0) < 1e-3))
+        return "the joint's transform is not finite or holds a scale; reset it";
+    for (const auto& ranges : {joint.linear, joint.angular})
+        for (const JointRange& range : ranges)
+            if (!std::isfinite(range.lower + range.upper))
+                return "a limit of the joint is not a finite number";
+    for (const JointRange& range : joint.angular)
+        if (!is_free(range) && (range.lower < -std::numbers::pi || range.upper > std::numbers::pi))
+            return "an angle limit of the joint is beyond half a turn; keep within -180 to 180 degrees";
+    if (!std::isfinite(joint.motor_speed) ||
+        !(joint.motor_torque >= 0.0 && std::isfinite(joint.motor_torque)))
+        return "the joint's motor needs a finite speed and a torque that is not negative";
+    return {};
+}
+
+JointTable::JointTable(JPH::PhysicsSystem& system, std::size_t most) : system_(system), joints_(most) {
+    SetEmbedded();  // lives in the world, Jolt does not delete it
+}
+
+JointId JointTable::add(const JointDescription& description, JPH::Body& first, JPH::Body& second) {
+    const auto vacant = std::find_if(joints_.begin(), joints_.end(),
+                                     [](const Joint& joint) { return joint.constraint == nullptr; });
+    if (vacant == joints_.end())
+        return {};
+    vacant->constraint = create(description, first, second);
+    vacant->first = first.GetID().GetIndexAndSequenceNumber();
+    vacant->second = second.GetID().GetIndexAndSequenceNumber();
+    vacant->bodies_collide = description.bodies_collide;
+    join_group(first);
+    join_group(second);
+    system_.AddConstraint(vacant->constraint);
+    return {(vacant->generation << index_bits) | static_cast<std::uint32_t>(vacant - joints_.begin())};
+}
+
+bool JointTable::remove(JointId id) {
+    const std::size_t index = id.value & index_mask;
+    if (index >= joints_.size() || joints_[index].constraint == nullptr ||
+        joints_[index].generation != id.value >> index_bits)
+        return false;
+    remove(joints_[index]);
+    return true;
+}
+
+void JointTable::remove(Joint& joint) {
+    system_.GetBodyInterfaceNoLock().ActivateConstraint(joint.constraint);
+    system_.RemoveConstraint(joint.constraint);
+    joint.constraint = nullptr;
+    joint.generation = (joint.generation + 1) & (index_mask >> 1);
+}
+
+void JointTable::remove_all_of(const JPH::Body& body) {
+    for (Joint& joint : joints_)
+        if (joint.constraint != nullptr &&
+            (joint.constraint->GetBody1() == &body || joint.constraint->GetBody2() == &body))
+            remove(joint);
+}
+
+void JointTable::shape_changed(const JPH::Body& body, JPH::Vec3Arg way) {
+    for (Joint& joint : joints_)
+        if (joint.constraint != nullptr)
+            joint.constraint->NotifyShapeChanged(body.GetID(), way);
+}
+
+std::size_t JointTable::count() const {
+    return static_cast<std::size_t>(std::count_if(
+        joints_.begin(), joints_.end(), [](const Joint& joint) { return joint.constraint != nullptr; }));
+}
+
+void JointTable::join_group(JPH::Body& body) {
+    if (!body.GetID().IsInvalid())  // the world itself has no place among the bodies
+        body.SetCollisionGroup({this, body.GetID().GetIndexAndSequenceNumber(), 0});
+}
+
+bool JointTable::CanCollide(const JPH::CollisionGroup& a, const JPH::CollisionGroup& b) const {
+    return std::none_of(joints_.begin(), joints_.end(), [&a, &b](const Joint& joint) {
+        return joint.constraint != nullptr && !joint.bodies_collide &&
+               ((joint.first == a.GetGroupID() && joint.second == b.GetGroupID()) ||
+                (joint.first == b.GetGroupID() && joint.second == a.GetGroupID()));
+    });
+}
+
+}  // namespace tactus

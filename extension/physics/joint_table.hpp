@@ -1,0 +1,53 @@
+// The joints of a world: private to physics/.
+#pragma once
+
+#include <vector>
+
+#include "physics/joint.hpp"
+#include "physics/jolt.hpp"
+
+#include <Jolt/Physics/Body/Body.h>
+#include <Jolt/Physics/Collision/CollisionGroup.h>
+#include <Jolt/Physics/Collision/GroupFilter.h>
+#include <Jolt/Physics/Constraints/TwoBodyConstraint.h>
+
+namespace JPH {
+class PhysicsSystem;
+}
+
+namespace tactus {
+
+class JointTable final : public JPH::GroupFilter {
+public:
+    JointTable(JPH::PhysicsSystem& system, std::size_t most);
+
+    // The bodies are different and at least one of them can move; the description has nothing wrong.
+    JointId add(const JointDescription& description, JPH::Body& first, JPH::Body& second);
+    bool remove(JointId id);
+    void remove_all_of(const JPH::Body& body);
+
+    // The centre of mass of a body moved within it.
+    void shape_changed(const JPH::Body& body, JPH::Vec3Arg way);
+
+    std::size_t count() const;
+
+    // Bodies of a joint have the group of their index; those that may not collide are looked up here.
+    bool CanCollide(const JPH::CollisionGroup& a, const JPH::CollisionGroup& b) const override;
+
+private:
+    struct Joint {
+        JPH::Ref<JPH::TwoBodyConstraint> constraint;  // null: vacant
+        JPH::CollisionGroup::GroupID first = 0;
+        JPH::CollisionGroup::GroupID second = 0;
+        bool bodies_collide = true;
+        std::uint32_t generation = 0;
+    };
+
+    void remove(Joint& joint);
+    void join_group(JPH::Body& body);
+
+    JPH::PhysicsSystem& system_;
+    std::vector<Joint> joints_;
+};
+
+}  // namespace tactus

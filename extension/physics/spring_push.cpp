@@ -1,0 +1,119 @@
+#include "physics/spring_push.hpp"
+
+#include "physics/jolt.hpp"
+
+#include <Jolt/Physics/Body/BodyManager.h>
+#include <Jolt/Physics/IslandBuilder.h>
+#include <Jolt/Physics/LargeIslandSplitter.h>
+
+#include <algorithm>
+
+#include "physics/jolt_units.hpp"
+
+namespace tactus {
+
+namespace {
+
+// Jolt's own cannot be made on its own.
+struct PlainSettings final : JPH::ConstraintSettings {};
+
+// A body is light to a spring when k dt^2 exceeds this share of its mass.
+constexpr float light = 0.05f;
+
+// Contacts of a single light body settle to a thousandth within the first, spring and contacts together in
+// the rest.
+constexpr int held_iterations = 24;
+constexpr JPH::uint light_iterations = 40;
+
+// The velocity of the point for a unit impulse there: 1/m - [r] I^-1 [r].
+JPH::Mat44 inverse_mass_at(const JPH::Body& body, JPH::Vec3Arg arm) {
+    const JPH::MotionProperties& motion = *body.GetMotionProperties();
+    const JPH::Mat44 cross = JPH::Mat44::sCrossProduct(arm);
+    const JPH::Mat44 turning =
+        cross.Multiply3x3(motion.GetInverseInertiaForRotation(JPH::Mat44::sRotation(body.GetRotation())))
+            .Multiply3x3(cross.Transposed3x3());
+    return JPH::Mat44::sScale(motion.GetInverseMass()) + turning;
+}
+
+}  // namespace
+
+SpringPush::SpringPush() : JPH::Constraint(PlainSettings()) {
+    SetEmbedded();  // lives in the world, Jolt does not delete it
+}
+
+void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
+    const JPH::RVec3 point = units::position(spring.point);
+    push_ = {};
+    push_.body = &body;
+    push_.sticks = spring.sticks;
+    push_.force = units::vector(spring.force);
+    push_.direction = push_.force.Normalized();
+    push_.local_point = body.GetRotation().Conjugated() * JPH::Vec3(point - body.GetCenterOfMassPosition());
+    push_.start = point;
+    push_.hand_velocity = along(units::vector(spring.hand_velocity));
+    push_.first_velocity = along(body.GetPointVelocity(point));
+    push_.stiffness = static_cast<float>(spring.stiffness);
+    push_.damping = static_cast<float>(spring.damping);
+}
+
+// In terms of the impulse l and with the hand's velocity w, the force at a sub-step's end is
+//     l / dt = F0 + k (h + w dt - u - v dt) - c (v - v0)
+//     <=>   v + l / (dt (c + k dt)) = (F0 + k (h - u + w dt) + c v0) / (c + k dt).
+void SpringPush::SetupVelocityConstraint(float seconds) {
+    arm_ = push_.body->GetRotation() * push_.local_point;
+    const JPH::Vec3 given = along(JPH::Vec3(push_.body->GetCenterOfMassPosition() - push_.start) + arm_);
+    const JPH::Vec3 force = push_.force + push_.stiffness * (push_.hand_velocity * push_.elapsed - given);
+    const float resistance = push_.damping + push_.stiffness * seconds;
+    softness_ = 1.0f / (seconds * resistance);
+    bias_ = (force + push_.stiffness * seconds * push_.hand_velocity + push_.damping * push_.first_velocity) /
+            resistance;
+    impulse_ = force.Dot(push_.direction) > 0.0f ? force * seconds : JPH::Vec3::sZero();
+    push_.elapsed += seconds;
+
+    const JPH::Mat44 inverse_mass = inverse_mass_at(*push_.body, arm_);
+    const float inverse_mass_along = push_.direction.Dot(inverse_mass.Multiply3x3(push_.direction));
+    effective_mass_ = push_.sticks ? (inverse_mass + JPH::Mat44::sScale(softness_)).Inversed3x3()
+                                   : JPH::Mat44::sScale(1.0f / (inverse_mass_along + softness_));
+    held_ = inverse_mass_along > light * softness_ ? held_iterations : 0;
+    SetNumVelocityStepsOverride(held_ > 0 ? light_iterations : 0);
+}
+
+// A braced body does not give way: the answer is the force itself, and the contacts remember theirs.
+void SpringPush::WarmStartVelocityConstraint(float) {
+    add_impulse(impulse_);
+}
+
+bool SpringPush::SolveVelocityConstraint(float) {
+    if (held_ > 0) {
+        --held_;
+        return true;  // or Jolt would think that it is done
+    }
+    const JPH::Vec3 before = impulse_;
+    impulse_ = before - effective_mass_.Multiply3x3(velocity() + softness_ * before - bias_);
+    if (impulse_.Dot(push_.direction) < 0.0f)
+        impulse_ = JPH::Vec3::sZero();
+    add_impulse(impulse_ - before);
+    return impulse_ != before;
+}
+
+JPH::Vec3 SpringPush::velocity() const {
+    const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
+    return along(motion.GetLinearVelocity() + motion.GetAngularVelocity().Cross(arm_));
+}
+
+void SpringPush::add_impulse(JPH::Vec3Arg impulse) {
+    JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
+    motion.AddLinearVelocityStep(motion.GetInverseMass() * impulse);
+    motion.AddAngularVelocityStep(
+        motion.MultiplyWorldSpaceInverseInertiaByVector(push_.body->GetRotation(), arm_.Cross(impulse)));
+}
+
+void SpringPush::BuildIslands(JPH::uint32 index, JPH::IslandBuilder& islands, JPH::BodyManager&) {
+    islands.LinkConstraint(index, push_.body->GetIndexInActiveBodiesInternal());
+}
+
+JPH::uint SpringPush::BuildIslandSplits(JPH::LargeIslandSplitter& splitter) const {
+    return splitter.AssignToNonParallelSplit(push_.body);
+}
+
+}  // namespace tactus

@@ -1,0 +1,80 @@
+// A hand's force on a body that gives way under it: private to physics/.
+//
+// The hand's spring holds F = k (hand - proxy), and the proxy sits on the body. Applied as a mere force for a
+// whole step, it overshoots as soon as k dt^2 exceeds the body's mass (1 g at 1000 N/m and 1 ms) and the two
+// of them ring. So the step solves it along with the contacts, implicitly: at its end
+//
+//     F = F0 + k (h - u) - c (v - v0)
+//
+// with u and h the ways of the point and of the hand since the step began, v0 and v the point's velocity at
+// its begin and end. That is stable for every mass. A braced body feels F0 to the full, a free one what is
+// left of it; a body pushed at a steady pace feels what holds it back, since hand and body advance together.
+//
+// A sliding fingertip: the same along the direction n of F0 alone. In both cases F . n >= 0.
+//
+// A light body that is braced needs care. Solved in turns with the contacts, the spring would first give way
+// to a body that seems free, and come back by a share m / (k dt^2) a turn. So it first holds F0 while the
+// contacts find what they have to bear, and gives way only then to what still moves.
+#pragma once
+
+#include "physics/jolt.hpp"
+#include "physics/physics_world.hpp"
+
+#include <Jolt/Physics/Body/Body.h>
+#include <Jolt/Physics/Constraints/Constraint.h>
+
+namespace tactus {
+
+class SpringPush final : public JPH::Constraint {
+public:
+    SpringPush();
+
+    // For the next step. The force is not zero, the stiffness positive.
+    void set(JPH::Body& body, const SpringForce& spring);
+    void take(const SpringPush& other) { push_ = other.push_; }
+
+    bool acts_on(const JPH::Body& body) const { return push_.body == &body; }
+
+    JPH::EConstraintSubType GetSubType() const override { return JPH::EConstraintSubType::User1; }
+    void NotifyShapeChanged(const JPH::BodyID&, JPH::Vec3Arg) override {}
+    void ResetWarmStart() override {}
+    void SetupVelocityConstraint(float seconds) override;
+    void WarmStartVelocityConstraint(float) override;
+    bool SolveVelocityConstraint(float seconds) override;
+    bool SolvePositionConstraint(float, float) override { return false; }
+    void BuildIslands(JPH::uint32 index, JPH::IslandBuilder& islands, JPH::BodyManager& bodies) override;
+    JPH::uint BuildIslandSplits(JPH::LargeIslandSplitter& splitter) const override;
+    JPH::Ref<JPH::ConstraintSettings> GetConstraintSettings() const override { return nullptr; }
+
+private:
+    JPH::Vec3 velocity() const;  // of the point, along n alone for a sliding fingertip
+    JPH::Vec3 along(JPH::Vec3Arg v) const {
+        return push_.sticks ? v : push_.direction * push_.direction.Dot(v);
+    }
+    void add_impulse(JPH::Vec3Arg impulse);
+
+    // All in Jolt's units, in the world but for local_point.
+    struct Push {
+        JPH::Body* body = nullptr;
+        bool sticks = false;
+        JPH::Vec3 direction = JPH::Vec3::sZero();       // n
+        JPH::Vec3 local_point = JPH::Vec3::sZero();     // in the frame of the body's centre of mass
+        JPH::RVec3 start = JPH::RVec3::sZero();         // the point when the step began
+        JPH::Vec3 force = JPH::Vec3::sZero();           // F0
+        JPH::Vec3 hand_velocity = JPH::Vec3::sZero();   // dh/dt
+        JPH::Vec3 first_velocity = JPH::Vec3::sZero();  // v0
+        float stiffness = 0.0f;                         // k
+        float damping = 0.0f;                           // c
+        float elapsed = 0.0f;                           // since the step began (unit: seconds)
+    };
+    Push push_;
+
+    JPH::Vec3 arm_ = JPH::Vec3::sZero();   // from the centre of mass to the point
+    JPH::Vec3 bias_ = JPH::Vec3::sZero();  // velocity at which the spring would be slack
+    JPH::Mat44 effective_mass_ = JPH::Mat44::sZero();
+    float softness_ = 0.0f;  // velocity the spring gives way by for a unit impulse
+    JPH::Vec3 impulse_ = JPH::Vec3::sZero();
+    int held_ = 0;  // iterations to come in which the impulse stays what it is
+};
+
+}  // namespace tactus

@@ -1,0 +1,130 @@
+// A world whose past can be corrected: what really was is put in at a past tick, and what the hand did since
+// is replayed.
+//
+// The present world steps on as ever. Beside it stands a twin with the same bodies; a replay runs there, as
+// many steps a tick as the caller allows, until it has caught up, and only then the present is set to it. So
+// no tick is late, however much there is to replay. Without a correction the twin costs nothing.
+//
+// Thread rule: that of PhysicsWorld, for both worlds together.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "physics/physics_world.hpp"
+
+namespace tactus {
+
+struct TimelineSettings {
+    PhysicsSettings physics;
+    std::uint32_t ticks = 512;  // how far back it reaches, >= 2
+    std::uint32_t ticks_a_snapshot =
+        8;  // a correction replays up to so many ticks more; a snapshot costs 3 us a body
+    std::uint32_t inputs_a_tick = 32;    // forces and moves; what exceeds them is applied but not replayed
+    std::size_t snapshot_bytes = 65536;  // for each of ticks / ticks_a_snapshot (see PhysicsWorld::save)
+};
+
+// Where a body was and how it moved.
+struct BodyTruth {
+    BodyId id;
+    Pose pose;
+    Vec3 linear_velocity{0.0};
+    Vec3 angular_velocity{0.0};
+};
+
+// Forces that depend on where the bodies are, as a hand's do, are better computed anew than repeated.
+class PastInputs {
+public:
+    virtual ~PastInputs() = default;
+    // Acts on `world` before the step of `tick`, in place of what was recorded. In the loop: no allocation,
+    // no lock.
+    virtual void act(std::uint64_t tick, PhysicsWorld& world) = 0;
+};
+
+class Timeline {
+public:
+    explicit Timeline(const TimelineSettings& settings);
+
+    // For reading, and for settings that are to hold in the past as well: make the same call to twin().
+    PhysicsWorld& world() { return present_; }
+    const PhysicsWorld& world() const { return present_; }
+    PhysicsWorld& twin() { return twin_; }
+
+    // Both worlds get one of two alike bodies (prepare() the same description twice). The past is forgotten.
+    BodyId add(PreparedBody& body, PreparedBody& same_body);
+    std::pair<PreparedBody, PreparedBody> remove(BodyId id);
+
+    // Inputs of the coming step, recorded.
+    void apply_force(BodyId id, const Vec3& force, const Vec3& world_point);
+    void apply_spring_force(BodyId id, const SpringForce& spring);
+    void apply_torque(BodyId id, const Vec3& torque);
+    void set_pose(BodyId id, const Pose& pose);
+    void set_velocity(BodyId id, const Vec3& linear, const Vec3& angular);
+
+    std::uint32_t step(double seconds);  // as PhysicsWorld::step()
+    std::uint64_t tick() const {
+        return tick_;
+    }  // steps made so far: the state now is that before step `tick`
+    std::uint64_t oldest_tick() const;  // the first that can be corrected
+
+    // What was true before the step of `tick`. Starts a replay; a correction under way is replaced. False
+    // when the past does not reach back so far. `truth` is copied, at most most_truths of it; `inputs` is
+    // used until the replay is done.
+    bool correct(std::uint64_t tick, std::span<const BodyTruth> truth, PastInputs* inputs = nullptr);
+
+    // Replays at most `most_steps` ticks. True when a replay has caught up in this call and the present has
+    // changed.
+    bool replay(std::uint32_t most_steps);
+    bool replaying() const { return replaying_; }
+
+    static constexpr std::size_t most_truths = 64;
+
+private:
+    struct Input {
+        enum class Kind : std::uint8_t { force, spring_force, torque, pose, velocity };
+        Kind kind = Kind::force;
+        BodyId id;
+        SpringForce spring;  // force and point of a plain one too; a torque or linear velocity in `force`
+        Pose pose;
+        Vec3 angular{0.0};
+    };
+    struct Tick {
+        double seconds = 0.0;
+        std::uint32_t inputs = 0;
+    };
+    struct Snapshot {
+        std::uint64_t tick = 0;
+        std::size_t bytes = 0;  // 0: none
+    };
+
+    void forget_past();
+    void record(const Input& input);
+    static void apply(const Input& input, PhysicsWorld& world);
+    void save(const PhysicsWorld& world, std::uint64_t tick);
+    void replay_tick();
+    std::span<std::byte> slot(std::uint64_t tick);
+    std::size_t slot_index(std::uint64_t tick) const;
+
+    TimelineSettings settings_;
+    PhysicsWorld present_;
+    PhysicsWorld twin_;
+    std::uint64_t tick_ = 0;
+    std::uint64_t first_known_ = 0;  // no past before this tick
+
+    std::vector<Tick> ticks_;          // by tick modulo settings_.ticks
+    std::vector<Input> inputs_;        // inputs_a_tick for each of them
+    std::vector<Snapshot> snapshots_;  // by tick / ticks_a_snapshot modulo their number
+    std::vector<std::byte> memory_;    // snapshot_bytes for each of them
+    std::vector<std::byte> hand_over_;
+
+    bool replaying_ = false;
+    std::uint64_t replay_at_ = 0;   // the twin's tick
+    std::uint64_t truth_at_ = 0;    // when the truth is put in
+    std::vector<BodyTruth> truth_;  // capacity most_truths
+    PastInputs* past_inputs_ = nullptr;
+};
+
+}  // namespace tactus

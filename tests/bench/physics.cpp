@@ -1,0 +1,706 @@
+// Things that move: what a tick with moving bodies costs, how they feel, and how right they are.
+//
+//     physics [--quick]
+//
+// Writes the file that TACTUS_BENCH_JSON names (build/bench/physics.json otherwise): one flat object. Whole
+// ticks are a Session's; Jolt's bare step is Jolt's own world of the same boxes, stepped in turns with it in
+// the same run.
+#include <Jolt/Jolt.h>
+
+#include <Jolt/Core/JobSystemSingleThreaded.h>
+#include <Jolt/Core/TempAllocator.h>
+#include <Jolt/Physics/Body/BodyCreationSettings.h>
+#include <Jolt/Physics/Collision/Shape/BoxShape.h>
+#include <Jolt/Physics/PhysicsSystem.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <numbers>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "physics/timeline.hpp"
+#include "realtime/clock.hpp"
+#include "session/session.hpp"
+
+namespace {
+
+using namespace tactus;
+
+constexpr double tick = 1e-3;  // (unit: seconds)
+constexpr Vec3 down{0.0, -9.81, 0.0};
+
+struct Results {
+    std::vector<std::pair<std::string, double>> values;
+
+    void add(const std::string& key, double value) {
+        values.emplace_back(key, value);
+        std::printf("  %-40s %.6g\n", key.c_str(), value);
+        std::fflush(stdout);
+    }
+
+    bool write(const char* path) const {
+        std::FILE* file = std::fopen(path, "w");
+        if (file == nullptr)
+            return false;
+        std::fprintf(file, "{\n");
+        for (std::size_t i = 0; i < values.size(); ++i)
+            std::fprintf(file, "  \"%s\": %.6g%s\n", values[i].first.c_str(), values[i].second,
+                         i + 1 < values.size() ? "," : "");
+        std::fprintf(file, "}\n");
+        return std::fclose(file) == 0;
+    }
+};
+
+double percentile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+template <class Work>
+double microseconds(Work&& work) {
+    const Nanoseconds start = monotonic_now();
+    work();
+    return static_cast<double>(monotonic_now() - start) * 1e-3;
+}
+
+std::vector<PlacedShape> one(Shape shape) {
+    return {PlacedShape{std::move(shape), Pose{}}};
+}
+
+BodyDescription box(const Vec3& size, const Vec3& position, double mass) {
+    BodyDescription body;
+    body.shapes = one(BoxShape{0.5 * size});
+    body.pose.position = position;
+    body.mass = mass;
+    body.material.friction = 0.5;
+    return body;
+}
+
+BodyDescription ground() {
+    BodyDescription body;
+    body.shapes = one(PlaneShape{});
+    body.motion = Motion::Static;
+    body.material.friction = 0.5;
+    return body;
+}
+
+// --- whole ticks
+// -----------------------------------------------------------------------------------------------------
+
+// A hand that is told where to be.
+class Hand final : public Device {
+public:
+    DeviceSample read(Nanoseconds) override {
+        return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, 0, true};
+    }
+    void write(Nanoseconds, const Vec3& value) override { force = value; }
+
+    Vec3 position{0.0, 1.0, 0.0};
+    Vec3 velocity{0.0};
+    Vec3 force{0.0};
+};
+
+class Rig {
+public:
+    Rig(std::uint32_t most_bodies, double stiffness)
+        : session_(settings(most_bodies)), stiffness_(stiffness) {
+        hand_handle_ = session_.add_device(hand, Workspace{}).handle;
+        ProxyDescription finger;
+        finger.device = hand_handle_;
+        finger.settings.radius = radius;
+        proxy_ = session_.add_proxy(finger).handle;
+    }
+
+    SessionHandle add(const BodyDescription& description) {
+        BodyAddition addition;
+        addition.description = description;
+        addition.touch_material.stiffness = stiffness_;
+        addition.touch_material.static_friction = addition.touch_material.dynamic_friction = 0.3;
+        const AddResult result = session_.add_body(addition);
+        if (!result.error.empty()) {
+            std::fprintf(stderr, "%s\n", result.error.c_str());
+            std::exit(1);
+        }
+        if (++sent_ % 1000 == 0)
+            session_.settle();
+        return result.handle;
+    }
+
+    void settle() { session_.settle(); }
+
+    double step() {  // (unit: microseconds)
+        now_ += 1'000'000;
+        return microseconds([this] { session_.tick(now_); });
+    }
+
+    const SessionSnapshot& look() {
+        session_.refresh();
+        return session_.snapshot();
+    }
+
+    Pose pose(SessionHandle handle) {
+        const SessionSnapshot& snapshot = look();
+        for (std::size_t i = 0; i < snapshot.body_count; ++i)
+            if (snapshot.bodies[i].handle == handle)
+                return snapshot.bodies[i].pose;
+        return {};
+    }
+
+    static constexpr double radius = 0.005;
+    Hand hand;
+
+private:
+    static SessionSettings settings(std::uint32_t most_bodies) {
+        SessionSettings result;
+        result.most_bodies = most_bodies;
+        result.most_parts = most_bodies;
+        result.physics.gravity = down;
+        return result;
+    }
+
+    Session session_;
+    double stiffness_;
+    SessionHandle hand_handle_ = no_handle;
+    SessionHandle proxy_ = no_handle;
+    Nanoseconds now_ = 0;
+    int sent_ = 0;
+};
+
+constexpr double edge = 0.15;  // of the box of the thesis (unit: meters)
+
+Vec3 place(int i) {
+    return {0.2 * (i % 32), 0.5 * edge, -0.2 * (i / 32)};
+}
+
+// The finger rubs the first box to and fro, pressing from above, so that it is awake and touched in every
+// tick.
+void rub(Rig& rig, const Pose& first, int i) {
+    const double phase = 2.0 * std::numbers::pi * i * tick;
+    rig.hand.position = first.position + Vec3(0.02 * std::sin(phase), 0.5 * edge + Rig::radius - 0.004, 0.0);
+    rig.hand.velocity = {0.04 * std::numbers::pi * std::cos(phase), 0.0, 0.0};
+}
+
+struct RubbedBoxes {
+    RubbedBoxes(int awake, int still, int sleeping)
+        : rig(static_cast<std::uint32_t>(awake + still + sleeping + 8), 500.0) {
+        rig.add(ground());
+        for (int i = 0; i < awake; ++i) {
+            BodyDescription body = box(Vec3(edge), place(i), 1.0);
+            body.can_sleep = false;
+            const SessionHandle handle = rig.add(body);
+            first = i == 0 ? handle : first;
+        }
+        for (int i = 0; i < still; ++i) {
+            BodyDescription body =
+                box(Vec3(0.1), {-5.0 - 0.2 * (i % 100), 0.05 + 0.3 * (i / 5000), 0.2 * (i / 100 % 50)}, 1.0);
+            body.motion = Motion::Static;
+            rig.add(body);
+        }
+        for (int i = 0; i < sleeping; ++i)
+            rig.add(box(Vec3(0.1), {10.0 + 0.2 * (i % 32), 0.05, 0.2 * (i / 32)}, 1.0));
+        rig.settle();
+        const int until_asleep = sleeping > 0 ? 2000 : 200;
+        for (int i = 0; i < until_asleep; ++i)
+            run();
+    }
+
+    double run() {
+        rub(rig, rig.pose(first), ticks++);
+        return rig.step();
+    }
+
+    Rig rig;
+    SessionHandle first = no_handle;
+    int ticks = 0;
+};
+
+// Jolt as it comes: its own settings, metres for units, a force on the first box.
+class BareJolt {
+public:
+    explicit BareJolt(int boxes) : scratch_(16 << 20) {
+        jobs_.Init(256);
+        system_.Init(1024, 1, 2048, 1024, layers_, against_layer_, pairs_);
+        JPH::BodyCreationSettings floor(new JPH::BoxShape({100.0f, 1.0f, 100.0f}), {0, -1, 0},
+                                        JPH::Quat::sIdentity(), JPH::EMotionType::Static, 0);
+        bodies().CreateAndAddBody(floor, JPH::EActivation::DontActivate);
+        for (int i = 0; i < boxes; ++i) {
+            const Vec3 at = place(i);
+            JPH::BodyCreationSettings body(
+                new JPH::BoxShape(JPH::Vec3::sReplicate(0.5f * static_cast<float>(edge))),
+                JPH::RVec3(at.x, at.y, at.z), JPH::Quat::sIdentity(), JPH::EMotionType::Dynamic, 1);
+            body.mAllowSleeping = false;
+            body.mFriction = 0.5f;
+            const JPH::BodyID id = bodies().CreateAndAddBody(body, JPH::EActivation::Activate);
+            first_ = i == 0 ? id : first_;
+        }
+        system_.OptimizeBroadPhase();
+    }
+
+    double run() {
+        bodies().AddForce(first_, JPH::Vec3(ticks_++ % 1000 < 500 ? 0.5f : -0.5f, -2.0f, 0.0f));
+        return microseconds([this] { system_.Update(static_cast<float>(tick), 1, &scratch_, &jobs_); });
+    }
+
+private:
+    JPH::BodyInterface& bodies() { return system_.GetBodyInterfaceNoLock(); }
+
+    struct Layers final : JPH::BroadPhaseLayerInterface {
+        JPH::uint GetNumBroadPhaseLayers() const override { return 2; }
+        JPH::BroadPhaseLayer GetBroadPhaseLayer(JPH::ObjectLayer layer) const override {
+            return JPH::BroadPhaseLayer(static_cast<JPH::BroadPhaseLayer::Type>(layer));
+        }
+    };
+    Layers layers_;
+    JPH::ObjectVsBroadPhaseLayerFilter against_layer_;
+    JPH::ObjectLayerPairFilter pairs_;
+    JPH::TempAllocatorImpl scratch_;
+    JPH::JobSystemSingleThreaded jobs_;
+    JPH::PhysicsSystem system_;
+    JPH::BodyID first_;
+    int ticks_ = 0;
+};
+
+void tick_over_jolt(Results& results, const std::string& name, int boxes, int rounds) {
+    RubbedBoxes whole(boxes, 0, 0);
+    BareJolt bare(boxes);
+    for (int i = 0; i < 300; ++i)
+        bare.run();
+    std::vector<double> ours;
+    std::vector<double> jolt;
+    for (int round = 0; round < rounds; ++round)
+        for (int i = 0; i < 100; ++i) {
+            ours.push_back(whole.run());
+            jolt.push_back(bare.run());
+        }
+    results.add(name + "_tick_us", percentile(ours, 0.5));
+    results.add(name + "_jolt_step_us", percentile(jolt, 0.5));
+    results.add(name + "_tick_over_jolt_step", percentile(ours, 0.5) / percentile(jolt, 0.5));
+}
+
+void idle_crowd(Results& results, int rounds) {
+    RubbedBoxes alone(1, 0, 0);
+    RubbedBoxes crowd(1, 10'000, 1'000);
+    std::vector<double> few;
+    std::vector<double> many;
+    for (int i = 0; i < 100 * rounds; ++i) {
+        few.push_back(alone.run());
+        many.push_back(crowd.run());
+    }
+    results.add("idle_crowd_awake", static_cast<double>(crowd.rig.look().awake_bodies));
+    results.add("idle_crowd_over_one_box", percentile(many, 0.5) / percentile(few, 0.5));
+    results.add("idle_crowd_over_one_box_p99", percentile(many, 0.99) / percentile(few, 0.99));
+}
+
+// The same of physics alone: what is left of the difference is the proxy's.
+void idle_crowd_step(Results& results, int rounds) {
+    struct Scene {
+        Scene(int still, int sleeping) : world(settings()) {
+            const auto enter = [this](const BodyDescription& description) {
+                PreparedBody body = prepare(description);
+                return world.add(body);
+            };
+            enter(ground());
+            box_id = enter(box(Vec3(edge), place(0), 1.0));
+            for (int i = 0; i < still; ++i) {
+                BodyDescription body = box(
+                    Vec3(0.1), {-5.0 - 0.2 * (i % 100), 0.05 + 0.3 * (i / 5000), 0.2 * (i / 100 % 50)}, 1.0);
+                body.motion = Motion::Static;
+                enter(body);
+            }
+            for (int i = 0; i < sleeping; ++i)
+                enter(box(Vec3(0.1), {10.0 + 0.2 * (i % 32), 0.05, 0.2 * (i / 32)}, 1.0));
+            for (int i = 0; i < 2000; ++i)
+                run();
+        }
+        static PhysicsSettings settings() {
+            PhysicsSettings result;
+            result.max_bodies = 12'000;
+            return result;
+        }
+        double run() {
+            world.apply_force(box_id, {ticks++ % 1000 < 500 ? 6.0 : -6.0, 0.0, 0.0},
+                              world.center_of_mass(box_id));
+            return microseconds([this] { world.step(tick); });
+        }
+        PhysicsWorld world;
+        BodyId box_id;
+        int ticks = 0;
+    };
+    Scene alone(0, 0);
+    Scene crowd(10'000, 1'000);
+    std::vector<double> few;
+    std::vector<double> many;
+    for (int i = 0; i < 100 * rounds; ++i) {
+        few.push_back(alone.run());
+        many.push_back(crowd.run());
+    }
+    results.add("idle_crowd_step_over_one_box", percentile(many, 0.5) / percentile(few, 0.5));
+    results.add("idle_crowd_step_over_one_box_p99", percentile(many, 0.99) / percentile(few, 0.99));
+}
+
+void awake_bodies(Results& results, bool quick) {
+    for (const int awake : {1, 3, 10, 30, 100, 300, 1000}) {
+        RubbedBoxes boxes(awake, 0, 0);
+        std::vector<double> times;
+        const int ticks = quick ? 200 : std::max(500, 20'000 / awake);
+        for (int i = 0; i < ticks; ++i)
+            times.push_back(boxes.run());
+        results.add("awake_" + std::to_string(awake) + "_tick_p50_us", percentile(times, 0.5));
+        results.add("awake_" + std::to_string(awake) + "_tick_p99_us", percentile(times, 0.99));
+    }
+}
+
+// --- how it feels
+// ----------------------------------------------------------------------------------------------------
+
+// The finger pushes the box at 30 mm/s for ten seconds; the first half second is the start.
+void push(Results& results) {
+    constexpr double speed = 0.03;
+    Rig rig(8, 1000.0);
+    rig.add(ground());
+    const SessionHandle handle = rig.add(box(Vec3(edge), {0.0, 0.5 * edge, 0.0}, 1.0));
+    rig.settle();
+    double x = -0.5 * edge - Rig::radius - 0.002;
+    double largest_gap = 0.0;
+    int lost = 0;
+    std::vector<double> forces;
+    for (int i = 0; i < 10'000; ++i) {
+        x += speed * tick;
+        rig.hand.position = {x, 0.4 * edge, 0.0};
+        rig.hand.velocity = {speed, 0.0, 0.0};
+        rig.step();
+        const SessionSnapshot& snapshot = rig.look();
+        if (i < 500)
+            continue;
+        const double face = rig.pose(handle).position.x - 0.5 * edge;
+        largest_gap = std::max(largest_gap, std::abs(face - Rig::radius - snapshot.proxies[0].position.x));
+        forces.push_back(-snapshot.proxies[0].force.x);
+        lost += snapshot.proxies[0].contact_count > 0 ? 0 : 1;
+    }
+    double mean = 0.0;
+    for (const double force : forces)
+        mean += force / static_cast<double>(forces.size());
+    // First-order high pass at 30 Hz.
+    const double keep = 1.0 / (1.0 + 2.0 * std::numbers::pi * 30.0 * tick);
+    double passed = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 1; i < forces.size(); ++i) {
+        passed = keep * (passed + forces[i] - forces[i - 1]);
+        square += passed * passed / static_cast<double>(forces.size());
+    }
+    results.add("push_gap_max_um", largest_gap * 1e6);
+    results.add("push_mean_force", mean);
+    results.add("push_force_noise_percent", 100.0 * std::sqrt(square) / mean);
+    results.add("push_ticks_lost", lost);
+}
+
+// Pressed with 8 N a little off its middle; the largest way of a corner to and fro in the last of three
+// seconds.
+void press(Results& results, const std::string& name, double size) {
+    constexpr double stiffness = 1000.0;
+    Rig rig(8, stiffness);
+    rig.add(ground());
+    const Vec3 start{0.0, 0.5 * size, 0.0};
+    BodyDescription cube = box(Vec3(size), start, 1000.0 * size * size * size);
+    cube.can_sleep = false;
+    const SessionHandle handle = rig.add(cube);
+    rig.settle();
+    const Vec3 above{0.1 * size, size + Rig::radius, 0.05 * size};
+    std::array<Vec3, 8> low;
+    std::array<Vec3, 8> high;
+    double force = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+        const double depth = std::min(1.0, i / 300.0) * 8.0 / stiffness;
+        rig.hand.position = above + Vec3(0.0, 0.001 - depth * (1.0 + 0.001 / (8.0 / stiffness)), 0.0);
+        rig.step();
+        if (i < 2000)
+            continue;
+        const Pose pose = rig.pose(handle);
+        force = rig.hand.force.y;
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            const Vec3 side((corner & 1) != 0 ? 0.5 : -0.5, (corner & 2) != 0 ? 0.5 : -0.5,
+                            (corner & 4) != 0 ? 0.5 : -0.5);
+            const Vec3 at = to_parent(pose, size * side);
+            low[corner] = i == 2000 ? at : glm::min(low[corner], at);
+            high[corner] = i == 2000 ? at : glm::max(high[corner], at);
+        }
+    }
+    double most = 0.0;
+    for (std::size_t corner = 0; corner < 8; ++corner)
+        most = std::max(most, glm::length(high[corner] - low[corner]));
+    results.add(name + "_force", force);
+    results.add(name + "_rest_um", most * 1e6);
+}
+
+// --- going back
+// ------------------------------------------------------------------------------------------------------
+
+Vec3 force_at(std::uint64_t at, std::size_t body) {
+    std::minstd_rand random(static_cast<unsigned>(at * 31u + body + 1u));
+    const auto newtons = [&random] { return static_cast<double>(random() % 12001u) * 1e-3 - 6.0; };
+    const double x = newtons();
+    return {x, newtons(), 0.0};
+}
+
+struct Past {
+    explicit Past(int boxes) : timeline(settings()) {
+        join(ground());
+        for (int i = 0; i < boxes; ++i)
+            ids.push_back(join(box(Vec3(edge), place(i), 1.0)));
+        live(300);
+    }
+
+    static TimelineSettings settings() {
+        TimelineSettings result;
+        // A small scene says so: Jolt empties its table of contacts in every step.
+        result.physics.max_bodies = 64;
+        result.physics.max_touching_pairs = 128;
+        result.physics.max_contacts = 128;
+        return result;
+    }
+
+    BodyId join(const BodyDescription& description) {
+        PreparedBody body = prepare(description);
+        PreparedBody same = prepare(description);
+        return timeline.add(body, same);
+    }
+
+    void live(int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            for (std::size_t body = 0; body < ids.size(); ++body)
+                timeline.apply_force(ids[body], force_at(timeline.tick(), body),
+                                     timeline.world().center_of_mass(ids[body]) + Vec3(0.0, 0.03, 0.02));
+            timeline.step(tick);
+        }
+    }
+
+    // A finger goes to and fro with the first box, at 30 mm/s at most.
+    void live_pushed(int ticks) {
+        constexpr double stiffness = 1000.0;
+        for (int i = 0; i < ticks; ++i) {
+            const double phase = 2.0 * static_cast<double>(timeline.tick()) * tick;
+            const Vec3 velocity{0.03 * std::cos(phase), 0.0, 0.0};
+            const Pose pose = timeline.world().pose(ids[0]);
+            const double side = velocity.x > 0.0 ? -1.0 : 1.0;
+            const Vec3 point = to_parent(pose, Vec3(side * 0.5 * edge, -0.1 * edge, 0.0));
+            const Vec3 face{place(0).x + 0.015 * std::sin(phase) + side * (0.5 * edge - 0.005), point.y,
+                            point.z};
+            const double depth = side * (point.x - face.x);
+            if (depth > 0.0)
+                timeline.apply_spring_force(
+                    ids[0], {{-side * stiffness * depth, 0.0, 0.0}, point, stiffness, 0.0, velocity});
+            timeline.step(tick);
+        }
+    }
+
+    bool same_as(const Past& other) const {
+        return std::equal(ids.begin(), ids.end(), other.ids.begin(), [&](BodyId a, BodyId b) {
+            const Pose mine = timeline.world().pose(a);
+            const Pose theirs = other.timeline.world().pose(b);
+            return mine.position == theirs.position && mine.rotation == theirs.rotation &&
+                   timeline.world().linear_velocity(a) == other.timeline.world().linear_velocity(b);
+        });
+    }
+
+    Timeline timeline;
+    std::vector<BodyId> ids;
+};
+
+void rollback(Results& results, bool quick) {
+    {
+        Past past(1);
+        std::vector<double> work;
+        for (int i = 0; i < 100; ++i) {
+            past.live_pushed(20);
+            work.push_back(microseconds([&past] {
+                past.timeline.correct(past.timeline.tick() - 100, {});
+                past.timeline.replay(1000);
+            }));
+        }
+        results.add("rollback_one_box_work_ms", percentile(work, 0.5) * 1e-3);
+    }
+    {
+        // Spread out: a tick is the present's step and two of the past's.
+        Past past(10);
+        std::vector<double> ticks;
+        std::vector<double> lengths;
+        for (int round = 0; round < 30; ++round) {
+            past.live(100);
+            int length = 0;
+            bool done = false;
+            while (!done) {
+                ticks.push_back(microseconds([&] {
+                    if (length == 0)
+                        past.timeline.correct(past.timeline.tick() - 100, {});
+                    done = past.timeline.replay(2);
+                    past.live(1);
+                }));
+                ++length;
+            }
+            lengths.push_back(length);
+        }
+        results.add("rollback_ten_boxes_tick_p50_us", percentile(ticks, 0.5));
+        results.add("rollback_ten_boxes_tick_p99_us", percentile(ticks, 0.99));
+        results.add("rollback_ten_boxes_tick_max_us", percentile(ticks, 1.0));
+        results.add("rollback_ten_boxes_ticks", percentile(lengths, 0.5));
+    }
+    {
+        Past past(5);
+        Past plain(5);
+        std::mt19937 random(1);
+        int mismatches = 0;
+        const int rollbacks = quick ? 50 : 1000;
+        for (int i = 0; i < rollbacks; ++i) {
+            const int ahead = 1 + static_cast<int>(random() % 20);
+            past.live(ahead);
+            plain.live(ahead);
+            past.timeline.correct(past.timeline.tick() - random() % 100, {});
+            past.timeline.replay(1000);
+            mismatches += past.same_as(plain) ? 0 : 1;
+        }
+        results.add("rollbacks", rollbacks);
+        results.add("rollback_mismatches", mismatches);
+    }
+}
+
+// --- how right it is
+// -------------------------------------------------------------------------------------------------
+
+double percent_off(double value, double exact) {
+    return 100.0 * std::abs(value - exact) / std::abs(exact);
+}
+
+BodyId add(PhysicsWorld& world, const BodyDescription& description) {
+    PreparedBody body = prepare(description);
+    return world.add(body);
+}
+
+int steps_of(double seconds, double step) {
+    return static_cast<int>(std::lround(seconds / step));
+}
+
+// x = g t^2 / 2 after one second.
+double fall_error(double step) {
+    PhysicsWorld world;
+    const BodyId id = add(world, box(Vec3(0.1), {0.0, 10.0, 0.0}, 1.0));
+    for (int i = 0; i < steps_of(1.0, step); ++i)
+        world.step(step);
+    return percent_off(10.0 - world.pose(id).position.y, 0.5 * 9.81);
+}
+
+// A box at 1.5 m/s comes to rest after v^2 / (2 mu g).
+double sliding_error(double step) {
+    PhysicsWorld world;
+    add(world, ground());
+    BodyDescription description = box({0.2, 0.1, 0.2}, {0.0, 0.05, 0.0}, 1.0);
+    description.material.friction = 0.3;
+    const BodyId id = add(world, description);
+    for (int i = 0; i < steps_of(0.2, step); ++i)
+        world.step(step);
+    world.set_velocity(id, {1.5, 0.0, 0.0}, Vec3(0.0));
+    const double start = world.pose(id).position.x;
+    for (int i = 0; i < steps_of(1.0, step); ++i)
+        world.step(step);
+    return percent_off(world.pose(id).position.x - start, 1.5 * 1.5 / (2.0 * 0.3 * 9.81));
+}
+
+// 5 N for half a second over ice: momentum F t, energy (F t)^2 / (2 m), work F s.
+double push_error(double step) {
+    constexpr double force = 5.0;
+    constexpr double mass = 2.0;
+    constexpr double seconds = 0.5;
+    PhysicsWorld world;
+    BodyDescription ice = ground();
+    ice.material.friction = 0.0;
+    add(world, ice);
+    BodyDescription description = box(Vec3(edge), {0.0, 0.5 * edge, 0.0}, mass);
+    description.material.friction = 0.0;
+    const BodyId id = add(world, description);
+    for (int i = 0; i < steps_of(seconds, step); ++i) {
+        world.apply_force(id, {force, 0.0, 0.0}, world.center_of_mass(id));
+        world.step(step);
+    }
+    const double momentum = force * seconds;
+    const double energy = momentum * momentum / (2.0 * mass);
+    const double speed = world.linear_velocity(id).x;
+    return std::max({percent_off(mass * speed, momentum), percent_off(0.5 * mass * speed * speed, energy),
+                     percent_off(force * world.pose(id).position.x, energy)});
+}
+
+// A hand's spring, d = 20 mm deep, throws a box over ice: m v^2 = k d^2. The implicit spring
+// (spring_push.hpp) gives stability for this loss, which is pi/2 dt sqrt(k / m) to first order.
+double spring_energy_loss(double step) {
+    constexpr double stiffness = 100.0;
+    constexpr double depth = 0.02;
+    constexpr double mass = 1.0;
+    PhysicsWorld world;
+    BodyDescription ice = ground();
+    ice.material.friction = 0.0;
+    add(world, ice);
+    BodyDescription description = box(Vec3(edge), {0.0, 0.5 * edge, 0.0}, mass);
+    description.material.friction = 0.0;
+    const BodyId id = add(world, description);
+    for (int i = 0; i < steps_of(0.5, step); ++i) {
+        const Vec3 at = world.pose(id).position;
+        const double left = depth - at.x;
+        if (left > 0.0)
+            world.apply_spring_force(
+                id, {{stiffness * left, 0.0, 0.0}, at - Vec3(0.5 * edge, 0.0, 0.0), stiffness});
+        world.step(step);
+    }
+    const double speed = world.linear_velocity(id).x;
+    return 100.0 * (1.0 - mass * speed * speed / (stiffness * depth * depth));
+}
+
+void checks(Results& results) {
+    const double fall = fall_error(tick);
+    const double sliding = sliding_error(tick);
+    const double push = push_error(tick);
+    results.add("check_fall_error_percent", fall);
+    results.add("check_sliding_error_percent", sliding);
+    results.add("check_push_error_percent", push);
+    results.add("check_max_error_percent", std::max({fall, sliding, push}));
+    results.add("spring_energy_loss_percent", spring_energy_loss(tick));
+    for (const double milliseconds : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        char name[32];
+        std::snprintf(name, sizeof(name), "pareto_%.2fms", milliseconds);
+        const double step = milliseconds * 1e-3;
+        double worst = 0.0;
+        const double time = microseconds(
+            [&] { worst = std::max({fall_error(step), sliding_error(step), push_error(step)}); });
+        results.add(std::string(name) + ".max_error_percent", worst);
+        results.add(std::string(name) + ".spring_energy_loss_percent", spring_energy_loss(step));
+        results.add(std::string(name) + ".run_ms", time * 1e-3);
+    }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    const bool quick = count > 1 && std::string_view(arguments[1]) == "--quick";
+    const int rounds = quick ? 5 : 60;
+    const char* path = std::getenv("TACTUS_BENCH_JSON");
+    Results results;
+    prepare(ground());  // starts Jolt
+    tick_over_jolt(results, "one_box", 1, rounds);
+    tick_over_jolt(results, "ten_boxes", 10, rounds);
+    idle_crowd(results, rounds);
+    idle_crowd_step(results, rounds);
+    push(results);
+    press(results, "press_20mm", 0.02);
+    press(results, "press_5mm", 0.005);
+    rollback(results, quick);
+    checks(results);
+    awake_bodies(results, quick);
+    if (!results.write(path != nullptr ? path : "build/bench/physics.json")) {
+        std::fprintf(stderr, "cannot write the results\n");
+        return 1;
+    }
+    return 0;
+}

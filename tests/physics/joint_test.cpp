@@ -1,0 +1,252 @@
+#include "physics/joint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <limits>
+#include <numbers>
+
+#include "physics/physics_world.hpp"
+#include "scene.hpp"
+#include "support/realtime_audit.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace scene;
+
+constexpr double pi = std::numbers::pi;
+const Quat upright{1.0, 0.0, 0.0, 0.0};
+// Turns the frame's z axis up.
+const Quat z_up = glm::angleAxis(-pi / 2.0, Vec3(1.0, 0.0, 0.0));
+
+PhysicsSettings weightless() {
+    PhysicsSettings settings;
+    settings.gravity = Vec3(0.0);
+    return settings;
+}
+
+// Angle about y (unit: radians).
+double heading(const Pose& pose) {
+    const Vec3 x = pose.rotation * Vec3(1.0, 0.0, 0.0);
+    return std::atan2(-x.z, x.x);
+}
+
+// A door 0.8 m wide, hung at its left edge.
+struct Door {
+    explicit Door(JointRange range) : world(weightless()) {
+        BodyDescription leaf = box({0.8, 2.0, 0.04}, {0.4, 1.0, 0.0}, 20.0);
+        leaf.can_sleep = false;
+        id = add(world, leaf);
+        JointDescription hinge;
+        hinge.kind = JointKind::Hinge;
+        hinge.frame = {{0.0, 1.0, 0.0}, z_up};
+        hinge.angular[2] = range;
+        joint = world.add_joint(hinge, BodyId{}, id);
+        EXPECT_TRUE(joint.valid());
+    }
+    PhysicsWorld world;
+    BodyId id;
+    JointId joint;
+};
+
+// M = F r = I w', I = m w^2 / 3 about the edge (and the leaf's thickness).
+TEST(Joint, DoorTurnsAboutItsHinge) {
+    Door door(JointRange::free());
+    const double inertia = 20.0 * (0.64 / 3.0 + 0.0016 / 12.0);
+    for (int i = 0; i < 500; ++i) {
+        const Pose pose = door.world.pose(door.id);
+        door.world.apply_force(door.id, direction_to_parent(pose, {0.0, 0.0, -5.0}),
+                               to_parent(pose, {0.4, 0.0, 0.0}));
+        door.world.step(tick);
+    }
+    const double expected = 0.5 * (5.0 * 0.8 / inertia) * 0.25;
+    EXPECT_NEAR(heading(door.world.pose(door.id)), expected, 0.005 * expected);
+    const Vec3 edge = to_parent(door.world.pose(door.id), {-0.4, 0.0, 0.0});
+    EXPECT_LT(glm::length(edge - Vec3(0.0, 1.0, 0.0)), 1e-4);
+}
+
+TEST(Joint, HingeStopsAtItsLimits) {
+    Door door({-0.2, 0.5});
+    for (const double push : {-20.0, 20.0}) {
+        for (int i = 0; i < 3000; ++i) {
+            const Pose pose = door.world.pose(door.id);
+            door.world.apply_force(door.id, direction_to_parent(pose, {0.0, 0.0, push}),
+                                   to_parent(pose, {0.4, 0.0, 0.0}));
+            door.world.step(tick);
+        }
+        EXPECT_NEAR(heading(door.world.pose(door.id)), push < 0.0 ? 0.5 : -0.2, 2e-3);
+    }
+}
+
+TEST(Joint, HingeBetweenTwoBodiesCountsTheSecondAgainstTheFirst) {
+    PhysicsWorld world(weightless());
+    BodyDescription frame = box({0.1, 2.0, 0.1}, {-0.06, 1.0, 0.0}, 1.0);
+    frame.motion = Motion::Static;
+    const BodyId post = add(world, frame);
+    const BodyId leaf = add(world, box({0.8, 2.0, 0.04}, {0.4, 1.0, 0.0}, 20.0));
+    JointDescription hinge;
+    hinge.kind = JointKind::Hinge;
+    hinge.frame = {{0.0, 1.0, 0.0}, z_up};
+    hinge.angular[2] = {0.3, 0.4};
+    ASSERT_TRUE(world.add_joint(hinge, post, leaf).valid());
+    run(world, 2000);
+    EXPECT_GT(heading(world.pose(leaf)), 0.3 - 5e-3);
+    EXPECT_LT(heading(world.pose(leaf)), 0.4 + 5e-3);
+}
+
+TEST(Joint, MotorTurnsTheHinge) {
+    PhysicsWorld world(weightless());
+    const BodyId wheel = add(world, box({0.2, 0.05, 0.2}, Vec3(0.0), 1.0));
+    JointDescription hinge;
+    hinge.kind = JointKind::Hinge;
+    hinge.frame = {Vec3(0.0), z_up};
+    hinge.angular[2] = JointRange::free();
+    hinge.motor_speed = 3.0;
+    hinge.motor_torque = 1.0;
+    ASSERT_TRUE(world.add_joint(hinge, BodyId{}, wheel).valid());
+    run(world, 500);
+    EXPECT_NEAR(world.angular_velocity(wheel).y, 3.0, 1e-3);
+}
+
+// A pendulum of length l: T = 2 pi sqrt((l + 2 r^2 / (5 l)) / g) for small swings of a ball of radius r.
+TEST(Joint, PinnedBallSwingsAsAPendulum) {
+    PhysicsWorld world;
+    const double length = 0.5;
+    const double radius = 0.02;
+    BodyDescription bob = ball(radius, {0.02, -length, 0.0}, 0.2);
+    bob.can_sleep = false;
+    const BodyId id = add(world, bob);
+    ASSERT_TRUE(world.add_joint({JointKind::Pin, {Vec3(0.0), upright}}, BodyId{}, id).valid());
+    int first = -1;
+    int last = -1;
+    int crossings = 0;
+    double before = 0.02;
+    for (int i = 0; i < 10000; ++i) {
+        world.step(tick);
+        const double x = world.pose(id).position.x;
+        if (before > 0.0 && x <= 0.0) {
+            first = first < 0 ? i : first;
+            last = i;
+            ++crossings;
+        }
+        before = x;
+    }
+    ASSERT_GT(crossings, 2);
+    const double period = (last - first) * tick / (crossings - 1);
+    const double effective = std::sqrt(length * length + 0.0004) + 0.4 * radius * radius / length;
+    EXPECT_NEAR(period, 2.0 * pi * std::sqrt(effective / 9.81), 0.005 * period);
+}
+
+TEST(Joint, SliderMovesAlongItsAxisOnlyAndStops) {
+    PhysicsWorld world;
+    const BodyId id = add(world, box(Vec3(0.1), {1.0, 1.0, 1.0}, 1.0));
+    JointDescription slider;
+    slider.kind = JointKind::Slider;
+    slider.frame = {{1.0, 1.0, 1.0}, upright};
+    slider.linear[0] = {-0.05, 0.1};
+    ASSERT_TRUE(world.add_joint(slider, BodyId{}, id).valid());
+    for (int i = 0; i < 1000; ++i) {
+        world.apply_force(id, {5.0, 2.0, 1.0}, to_parent(world.pose(id), {0.0, 0.05, 0.0}));
+        world.step(tick);
+    }
+    const Pose pose = world.pose(id);
+    EXPECT_NEAR(pose.position.x, 1.1, 1e-3);
+    EXPECT_NEAR(pose.position.y, 1.0, 1e-3);
+    EXPECT_NEAR(pose.position.z, 1.0, 1e-3);
+    EXPECT_NEAR(std::abs(pose.rotation.w), 1.0, 1e-4);
+}
+
+TEST(Joint, SixAxesLimitEachOnItsOwn) {
+    PhysicsWorld world(weightless());
+    const BodyId id = add(world, box(Vec3(0.1), Vec3(0.0), 1.0));
+    JointDescription joint;
+    joint.kind = JointKind::SixAxes;
+    joint.linear = {JointRange{-0.01, 0.02}, JointRange::free(), JointRange::locked()};
+    ASSERT_TRUE(world.add_joint(joint, BodyId{}, id).valid());
+    for (int i = 0; i < 500; ++i) {
+        world.apply_force(id, {1.0, 1.0, 1.0}, world.center_of_mass(id));
+        world.step(tick);
+    }
+    EXPECT_NEAR(world.pose(id).position.x, 0.02, 1e-4);
+    EXPECT_NEAR(world.pose(id).position.y, 0.125, 1e-3);
+    EXPECT_NEAR(world.pose(id).position.z, 0.0, 1e-4);
+}
+
+TEST(Joint, JoinedBodiesOverlapUnlessToldToCollide) {
+    for (const bool collide : {false, true}) {
+        PhysicsWorld world(weightless());
+        const BodyId a = add(world, box(Vec3(0.1), Vec3(0.0), 1.0));
+        const BodyId b = add(world, box(Vec3(0.1), {0.09, 0.0, 0.0}, 1.0));
+        JointDescription joint;
+        joint.kind = JointKind::SixAxes;
+        joint.linear[0] = JointRange::free();
+        joint.bodies_collide = collide;
+        ASSERT_TRUE(world.add_joint(joint, a, b).valid());
+        run(world, 200);
+        const double apart = world.pose(b).position.x - world.pose(a).position.x;
+        EXPECT_NEAR(apart, collide ? 0.1 : 0.09, 1e-3);
+    }
+}
+
+TEST(Joint, RemovedJointLetsGo) {
+    PhysicsWorld world;
+    const BodyId id = add(world, ball(0.05, Vec3(0.0), 1.0));
+    const JointId joint = world.add_joint({JointKind::Pin, {Vec3(0.0), upright}}, BodyId{}, id);
+    run(world, 200);
+    EXPECT_NEAR(world.pose(id).position.y, 0.0, 1e-4);
+    EXPECT_TRUE(world.remove_joint(joint));
+    EXPECT_FALSE(world.remove_joint(joint));
+    run(world, 200);
+    EXPECT_LT(world.pose(id).position.y, -0.1);
+}
+
+TEST(Joint, GoesWithItsBody) {
+    PhysicsWorld world;
+    const BodyId a = add(world, ball(0.05, Vec3(0.0), 1.0));
+    const BodyId b = add(world, ball(0.05, {0.2, 0.0, 0.0}, 1.0));
+    world.add_joint({JointKind::Pin, {{0.1, 0.0, 0.0}, upright}}, a, b);
+    EXPECT_EQ(world.joint_count(), 1u);
+    PreparedBody gone = world.remove(a);
+    EXPECT_EQ(world.joint_count(), 0u);
+    run(world, 10);
+    EXPECT_TRUE(world.add(gone).valid());
+}
+
+TEST(Joint, RefusesWhatCannotBeJoined) {
+    PhysicsWorld world;
+    const BodyId floor = add(world, ground());
+    const BodyId id = add(world, ball(0.05, Vec3(0.0), 1.0));
+    EXPECT_FALSE(world.add_joint({}, floor, BodyId{}).valid());
+    EXPECT_FALSE(world.add_joint({}, id, id).valid());
+    EXPECT_FALSE(world.add_joint({}, id, BodyId{12345}).valid());
+}
+
+TEST(Joint, SaysWhatIsWrong) {
+    JointDescription joint;
+    EXPECT_EQ(wrong_in(joint), "");
+    joint.angular[1] = {0.0, 4.0};
+    EXPECT_NE(wrong_in(joint), "");
+    joint.angular[1] = JointRange::locked();
+    joint.frame.position.x = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(wrong_in(joint), "");
+}
+
+TEST(Joint, AddingSteppingAndRemovingAllocatesNothing) {
+    PhysicsWorld world;
+    const BodyId a = add(world, ball(0.05, Vec3(0.0), 1.0));
+    const BodyId b = add(world, ball(0.05, {0.2, 0.0, 0.0}, 1.0));
+    testing::AuditScope audit;
+    for (const JointKind kind : {JointKind::Pin, JointKind::Hinge, JointKind::Slider, JointKind::SixAxes}) {
+        const JointId joint = world.add_joint({kind, {{0.1, 0.0, 0.0}, upright}}, a, b);
+        run(world, 5);
+        world.remove_joint(joint);
+    }
+    audit.finish();
+    EXPECT_EQ(audit.allocations(), 0u) << audit.describe();
+    EXPECT_EQ(audit.frees(), 0u) << audit.describe();
+}
+
+}  // namespace
+}  // namespace tactus
