@@ -27,7 +27,7 @@ def generated(api):
     """Runs the generator when the engine's API, the generator or the classes in use have changed."""
     output = Path("build/binding")
     inputs = [api / "extension_api.json", api / "gdextension_interface.h", *sorted(BINDING.rglob("*.py"))]
-    inputs += sorted(BINDING.glob("*.txt"))
+    inputs += sorted(path for path in BINDING.rglob("*") if path.suffix in (".txt", ".inc"))
     inputs += sorted(path for folder in ("nodes", "binding") for path in Path("extension", folder).rglob("*.[hc]pp"))
     digest = hashlib.sha256()
     for path in inputs:
@@ -37,3 +37,18 @@ def generated(api):
         subprocess.run([sys.executable, BINDING / "generate.py", "--api", api, "--output", output], check=True)
         stamp.write_text(digest.hexdigest())
     return output / "include", sorted(str(path) for path in (output / "src").rglob("*.cpp"))
+
+
+def class_reference(target):
+    """The source that gives the editor the class reference; a program for players has none."""
+    files = sorted(Path("extension/doc_classes").glob("*.xml"))
+    if target != "template_debug" or not files:
+        return None
+    output = Path("build", target, "doc_data.cpp")
+    command = [sys.executable, BINDING / "doc_data.py", "--output", output.with_suffix(".partial"), *files]
+    subprocess.run(command, check=True)
+    partial = output.with_suffix(".partial")
+    if not output.is_file() or output.read_bytes() != partial.read_bytes():
+        partial.replace(output)
+    partial.unlink(missing_ok=True)
+    return str(output)

@@ -54,7 +54,7 @@ void HapticDevice::set_path(const Ref<HapticPath>& path) {
 
 void HapticDevice::set_wheel_step(double meters) {
     if (!is_above_zero(meters)) {
-        refuse(get_name(), "wheel_step", meters, "a finite number above 0");
+        refuse(*this, "wheel_step", meters, "a finite number above 0");
         return;
     }
     wheel_step_ = meters;
@@ -62,7 +62,7 @@ void HapticDevice::set_wheel_step(double meters) {
 
 void HapticDevice::set_force_limit(double newtons) {
     if (!is_at_least_zero(newtons)) {
-        refuse(get_name(), "force_limit", newtons, "a finite number, 0 or more");
+        refuse(*this, "force_limit", newtons, "a finite number, 0 or more");
         return;
     }
     force_limit_ = newtons;
@@ -187,6 +187,7 @@ void HapticDevice::_validate_property(PropertyInfo& property) const {
 }
 
 void HapticDevice::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticDevice::_get_configuration_warnings);
     ClassDB::bind_method(D_METHOD("set_driver", "driver"), &HapticDevice::set_driver);
     ClassDB::bind_method(D_METHOD("get_driver"), &HapticDevice::get_driver);
     ClassDB::bind_method(D_METHOD("set_path", "path"), &HapticDevice::set_path);

@@ -11,7 +11,7 @@ using namespace godot;
 
 void HapticMaterial::set(double& property, double value, const char* name) {
     if (!is_at_least_zero(value)) {
-        refuse("HapticMaterial", name, value, "a finite number, 0 or more");
+        refuse(*this, name, value, "a finite number, 0 or more");
         return;
     }
     if (property != value) {

@@ -140,6 +140,7 @@ void HapticMesh::_validate_property(PropertyInfo& property) const {
 }
 
 void HapticMesh::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticMesh::_get_configuration_warnings);
     ClassDB::bind_method(D_METHOD("set_mesh", "mesh"), &HapticMesh::set_mesh);
     ClassDB::bind_method(D_METHOD("get_mesh"), &HapticMesh::get_mesh);
     ClassDB::bind_method(D_METHOD("set_library_mesh", "name"), &HapticMesh::set_library_mesh);

@@ -25,7 +25,7 @@ void HapticPath::set_form(Form form) {
 
 void HapticPath::set_center(const Vector3& center) {
     if (!center.is_finite()) {
-        refuse("HapticPath", "center", center, "made of finite numbers");
+        refuse(*this, "center", center, "made of finite numbers");
         return;
     }
     change(circle_.centre, from_godot(center));
@@ -35,7 +35,7 @@ Vector3 HapticPath::get_center() const { return to_godot(circle_.centre); }
 
 void HapticPath::set_radius(double radius) {
     if (!is_at_least_zero(radius)) {
-        refuse("HapticPath", "radius", radius, "a finite number, 0 or more");
+        refuse(*this, "radius", radius, "a finite number, 0 or more");
         return;
     }
     change(circle_.radius, radius);
@@ -43,7 +43,7 @@ void HapticPath::set_radius(double radius) {
 
 void HapticPath::set_amplitude(double amplitude) {
     if (!is_at_least_zero(amplitude)) {
-        refuse("HapticPath", "amplitude", amplitude, "a finite number, 0 or more");
+        refuse(*this, "amplitude", amplitude, "a finite number, 0 or more");
         return;
     }
     change(circle_.amplitude, amplitude);
@@ -51,7 +51,7 @@ void HapticPath::set_amplitude(double amplitude) {
 
 void HapticPath::set_turn_time(double seconds) {
     if (!(seconds >= 1e-3 && seconds <= 1e6)) {
-        refuse("HapticPath", "turn_time", seconds, "between 0.001 and 1,000,000 seconds");
+        refuse(*this, "turn_time", seconds, "between 0.001 and 1,000,000 seconds");
         return;
     }
     change(circle_.turn_time, from_seconds(seconds));
@@ -59,7 +59,7 @@ void HapticPath::set_turn_time(double seconds) {
 
 void HapticPath::set_waves(int waves) {
     if (waves < 0) {
-        refuse("HapticPath", "waves", waves, "0 or more");
+        refuse(*this, "waves", waves, "0 or more");
         return;
     }
     change(circle_.waves, waves);

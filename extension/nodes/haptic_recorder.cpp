@@ -1,6 +1,6 @@
 #include "nodes/haptic_recorder.hpp"
 
-#include <godot_cpp/classes/dir_access.hpp>
+#include <filesystem>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
@@ -49,7 +49,7 @@ void HapticRecorder::set_trace_path(const String& path) {
 
 void HapticRecorder::set_trace_seconds(double seconds) {
     if (!is_above_zero(seconds)) {
-        refuse(get_name(), "trace_seconds", seconds, "a finite number above 0");
+        refuse(*this, "trace_seconds", seconds, "a finite number above 0");
         return;
     }
     trace_seconds_ = seconds;
@@ -94,14 +94,12 @@ HapticRecorder::File HapticRecorder::open(const String& path) {
     if (path.is_empty()) {
         return nullptr;
     }
-    const String whole = ProjectSettings::get_singleton()->globalize_path(path);
-    const String folder = whole.get_base_dir();
-    if (!folder.is_empty()) {
-        DirAccess::make_dir_recursive_absolute(folder);
-    }
-    File file(std::fopen(from_godot(whole).c_str(), "wb"));
+    const std::filesystem::path whole = from_godot(ProjectSettings::get_singleton()->globalize_path(path));
+    std::error_code ignored;  // fopen says whether there is a folder
+    std::filesystem::create_directories(whole.parent_path(), ignored);
+    File file(std::fopen(whole.c_str(), "wb"));
     if (file == nullptr) {
-        fail("'" + whole + "' cannot be written: choose a folder that exists and may be written to");
+        fail("'" + path + "' cannot be written: choose a folder that exists and may be written to");
     }
     return file;
 }
@@ -190,6 +188,7 @@ void HapticRecorder::_notification(int what) {
 }
 
 void HapticRecorder::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticRecorder::_get_configuration_warnings);
     ClassDB::bind_method(D_METHOD("set_proxy", "path"), &HapticRecorder::set_proxy);
     ClassDB::bind_method(D_METHOD("get_proxy"), &HapticRecorder::get_proxy);
     ClassDB::bind_method(D_METHOD("set_object", "path"), &HapticRecorder::set_object);

@@ -98,7 +98,7 @@ HapticWorld::~HapticWorld() = default;
 
 void HapticWorld::set_tick_rate(int hertz) {
     if (hertz < 10 || hertz > 20000) {
-        refuse(get_name(), "tick_rate", hertz, "between 10 and 20,000 Hz");
+        refuse(*this, "tick_rate", hertz, "between 10 and 20,000 Hz");
         return;
     }
     tick_rate_ = hertz;
@@ -114,7 +114,7 @@ void HapticWorld::set_clock(Clock clock) {
 
 void HapticWorld::set_gravity(const Vector3& gravity) {
     if (!gravity.is_finite()) {
-        refuse(get_name(), "gravity", gravity, "made of finite numbers");
+        refuse(*this, "gravity", gravity, "made of finite numbers");
         return;
     }
     gravity_ = gravity;
@@ -125,7 +125,7 @@ void HapticWorld::set_gravity(const Vector3& gravity) {
 
 void HapticWorld::set_most_bodies(int count) {
     if (count < 1 || count > 65536) {
-        refuse(get_name(), "most_bodies", count, "between 1 and 65,536");
+        refuse(*this, "most_bodies", count, "between 1 and 65,536");
         return;
     }
     most_bodies_ = count;
@@ -134,7 +134,7 @@ void HapticWorld::set_most_bodies(int count) {
 
 void HapticWorld::set_realtime_priority(int priority) {
     if (priority < 0 || priority > 99) {
-        refuse(get_name(), "realtime_priority", priority, "between 0 (ordinary scheduling) and 99");
+        refuse(*this, "realtime_priority", priority, "between 0 (ordinary scheduling) and 99");
         return;
     }
     realtime_priority_ = priority;
@@ -142,8 +142,8 @@ void HapticWorld::set_realtime_priority(int priority) {
 }
 
 void HapticWorld::set_processor(int processor) {
-    if (processor < -1) {
-        refuse(get_name(), "processor", processor, "-1 (any), or a processor's number");
+    if (processor < last_processor) {
+        refuse(*this, "processor", processor, "-2 (the last one), -1 (any), or a processor's number");
         return;
     }
     processor_ = processor;
@@ -430,6 +430,7 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
 }
 
 void HapticWorld::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticWorld::_get_configuration_warnings);
     ClassDB::bind_method(D_METHOD("set_tick_rate", "hertz"), &HapticWorld::set_tick_rate);
     ClassDB::bind_method(D_METHOD("get_tick_rate"), &HapticWorld::get_tick_rate);
     ClassDB::bind_method(D_METHOD("set_clock", "clock"), &HapticWorld::set_clock);
@@ -476,7 +477,7 @@ void HapticWorld::_bind_methods() {
     ADD_GROUP("Haptic Thread", "");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "realtime_priority", PROPERTY_HINT_RANGE, "0,99,1"),
                  "set_realtime_priority", "get_realtime_priority");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-1,63,1,or_greater"), "set_processor",
+    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-2,63,1,or_greater"), "set_processor",
                  "get_processor");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "lock_memory"), "set_lock_memory", "is_locking_memory");
     ADD_PROPERTY(PropertyInfo(Variant::BOOL, "measure_baseline"), "set_measure_baseline", "is_measuring_baseline");

@@ -7,6 +7,7 @@
 
 #include "core/haptics/touch_material.hpp"
 #include "nodes/haptic_material.hpp"
+#include "realtime/realtime_thread.hpp"
 
 namespace tactus {
 
@@ -84,7 +85,7 @@ private:
     godot::Ref<HapticMaterial> default_material_;
     int most_bodies_ = 1024;
     int realtime_priority_ = 70;
-    int processor_ = -1;
+    int processor_ = last_processor;
     bool lock_memory_ = true;
     bool measure_baseline_ = false;
 

@@ -99,14 +99,19 @@ Ref<ArrayMesh> tube_mesh(const std::vector<Vec3>& points, double thickness, bool
     return one_surface(vertices, normals, indices);
 }
 
-Ref<StandardMaterial3D> plain_material(const Color& color, bool lit) {
+Ref<StandardMaterial3D> lit_material(const Color& color) {
     Ref<StandardMaterial3D> material;
     material.instantiate();
     material->set_albedo(color);
-    material->set_shading_mode(lit ? BaseMaterial3D::SHADING_MODE_PER_PIXEL : BaseMaterial3D::SHADING_MODE_UNSHADED);
-    if (color.a < 1.0f) {
-        material->set_transparency(BaseMaterial3D::TRANSPARENCY_ALPHA);
-    }
+    return material;
+}
+
+Ref<StandardMaterial3D> see_through_material(const Color& color) {
+    Ref<StandardMaterial3D> material = lit_material(color);
+    material->set_shading_mode(BaseMaterial3D::SHADING_MODE_UNSHADED);
+    material->set_flag(BaseMaterial3D::FLAG_DISABLE_DEPTH_TEST, true);
+    // Transparent things are drawn last: nothing is drawn over them.
+    material->set_transparency(BaseMaterial3D::TRANSPARENCY_ALPHA);
     return material;
 }
 

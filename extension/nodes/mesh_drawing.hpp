@@ -19,6 +19,8 @@ godot::Ref<godot::ArrayMesh> drawn_mesh(const TriangleMesh& mesh);
 // A round tube along the points, for lines that stay visible from anywhere (unit of thickness: meters).
 godot::Ref<godot::ArrayMesh> tube_mesh(const std::vector<Vec3>& points, double thickness, bool closed);
 
-godot::Ref<godot::StandardMaterial3D> plain_material(const godot::Color& color, bool lit);
+// Lit like everything else; or bright, and seen through whatever stands before it.
+godot::Ref<godot::StandardMaterial3D> lit_material(const godot::Color& color);
+godot::Ref<godot::StandardMaterial3D> see_through_material(const godot::Color& color);
 
 }  // namespace tactus

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 #include <unordered_set>
@@ -12,15 +13,20 @@ namespace tactus {
 inline bool is_above_zero(double value) { return std::isfinite(value) && value > 0.0; }
 inline bool is_at_least_zero(double value) { return std::isfinite(value) && value >= 0.0; }
 
-// A setter keeps the old value and says why.
-inline void refuse(const godot::String& who, const char* property, const godot::Variant& value, const char* wanted) {
-    godot::UtilityFunctions::push_error(who, ": ", property, " = ", value, " was refused, the old value stays: it must be ",
-                                        wanted, ".");
+// The node's path where it has one, else its name, else its class; a resource's file or class.
+inline godot::String name_of(const godot::Object& object) {
+    if (const auto* node = godot::Object::cast_to<godot::Node>(&object)) {
+        const godot::String name = node->is_inside_tree() ? godot::String(node->get_path()) : godot::String(node->get_name());
+        return name.is_empty() ? node->get_class() : name;
+    }
+    const auto* resource = godot::Object::cast_to<godot::Resource>(&object);
+    return resource != nullptr && !resource->get_path().is_empty() ? resource->get_path() : object.get_class();
 }
 
-// The node's path where it has one, else its name.
-inline godot::String name_of(const godot::Node& node) {
-    return node.is_inside_tree() ? godot::String(node.get_path()) : godot::String(node.get_name());
+// A setter keeps the old value and says why.
+inline void refuse(const godot::Object& who, const char* property, const godot::Variant& value, const char* wanted) {
+    godot::UtilityFunctions::push_error(name_of(who), ": ", property, " = ", value,
+                                        " was refused, the old value stays: it must be ", wanted, ".");
 }
 
 // Says each text once.

@@ -25,8 +25,9 @@ namespace {
 constexpr double hand_size = 0.5;
 constexpr double line_size = 0.2;
 
-const Color proxy_color(0.15f, 0.55f, 1.0f);
-const Color hand_color(1.0f, 0.25f, 0.2f);
+constexpr float opaque = 1.0f;
+const Color proxy_color(0.1f, 0.4f, 0.9f, opaque);
+const Color hand_color(0.95f, 0.15f, 0.15f, opaque);
 
 Ref<SphereMesh> sphere_mesh() {
     Ref<SphereMesh> mesh;
@@ -69,7 +70,7 @@ void ProxyPointer::set_device(const NodePath& path) {
 
 void ProxyPointer::set_radius(double meters) {
     if (!is_above_zero(meters)) {
-        refuse(get_name(), "radius", meters, "a finite number above 0");
+        refuse(*this, "radius", meters, "a finite number above 0");
         return;
     }
     radius_ = meters;
@@ -195,6 +196,7 @@ MeshInstance3D* ProxyPointer::add_picture(const Ref<Mesh>& mesh, const Ref<Mater
     picture->set_mesh(mesh);
     picture->set_material_override(look);
     picture->set_as_top_level(true);
+    picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
     add_child(picture, false, INTERNAL_MODE_BACK);
     return picture;
 }
@@ -204,11 +206,11 @@ void ProxyPointer::make_pictures() {
         return;
     }
     if (show_proxy_ && proxy_picture_ == nullptr) {
-        proxy_picture_ = add_picture(sphere_mesh(), plain_material(proxy_color, true));
+        proxy_picture_ = add_picture(sphere_mesh(), lit_material(proxy_color));
     }
     if (show_hand_ && hand_picture_ == nullptr) {
-        hand_picture_ = add_picture(sphere_mesh(), plain_material(hand_color, true));
-        line_picture_ = add_picture(line_mesh(), plain_material(hand_color, false));
+        hand_picture_ = add_picture(sphere_mesh(), see_through_material(hand_color));
+        line_picture_ = add_picture(line_mesh(), see_through_material(hand_color));
     }
     place_pictures();
 }
@@ -266,6 +268,7 @@ void ProxyPointer::_notification(int what) {
 }
 
 void ProxyPointer::_bind_methods() {
+    ClassDB::bind_method(D_METHOD("get_warnings"), &ProxyPointer::_get_configuration_warnings);
     ClassDB::bind_method(D_METHOD("set_device", "path"), &ProxyPointer::set_device);
     ClassDB::bind_method(D_METHOD("get_device"), &ProxyPointer::get_device);
     ClassDB::bind_method(D_METHOD("set_radius", "meters"), &ProxyPointer::set_radius);

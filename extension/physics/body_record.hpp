@@ -15,12 +15,14 @@ struct BodyRecord {
     BodyRecord(const BodyRecord&) = delete;
     BodyRecord& operator=(const BodyRecord&) = delete;
 
-    JPH::Body* body = nullptr;            // null while a world owns it
+    JPH::Body* body = nullptr;            // ours to free; null while a world owns it
+    JPH::Body* in_world = nullptr;        // the world's; null while in none
     bool may_be_dynamic = false;          // its shape and mass are those of a body that forces can move
     JPH::MassProperties mass_properties;  // in Jolt's units
     double mass = 0.0;                    // (unit: kilograms); 0 for what cannot move
     CollisionLayers collision;
-    std::size_t layer_pair = 0;  // index in the world's CollisionTable
+    std::size_t layer_pair = 0;    // index in the world's CollisionTable
+    bool tree_may_differ = false;  // waits in the world's TreeKeeper
 };
 
 }  // namespace tactus

@@ -1,7 +1,7 @@
 // Godot's 32 layers and masks in Jolt's terms.
 //
 // Jolt asks whether two object layers collide. An object layer here is the index of a (layer, mask) pair in a
-// table, times two, plus one for bodies that can move. Pairs are shared and counted.
+// table, times four, plus the tree of the broad phase that the body is kept in. Pairs are shared and counted.
 #pragma once
 
 #include <cstdint>
@@ -15,38 +15,43 @@
 
 namespace tactus {
 
-// Still and moving bodies live in two trees, so that what moves does not make the still ones' tree stale.
-constexpr JPH::BroadPhaseLayer still_layer{0};
-constexpr JPH::BroadPhaseLayer moving_layer{1};
+// Three trees, because Jolt rebuilds what surrounds a body that moves: those awake must not make the trees of
+// thousands that rest, or can never move, stale.
+enum class Tree : std::uint8_t { Still = 0, Awake = 1, Resting = 2 };
+constexpr JPH::uint tree_count = 3;
 
-constexpr JPH::ObjectLayer object_layer(std::size_t pair, bool can_move) {
-    return static_cast<JPH::ObjectLayer>(pair * 2 + (can_move ? 1 : 0));
+constexpr JPH::BroadPhaseLayer broad_phase_layer(Tree tree) {
+    return JPH::BroadPhaseLayer(static_cast<JPH::BroadPhaseLayer::Type>(tree));
+}
+
+constexpr JPH::ObjectLayer object_layer(std::size_t pair, Tree tree) {
+    return static_cast<JPH::ObjectLayer>(pair * 4 + static_cast<std::size_t>(tree));
+}
+constexpr Tree tree_of(JPH::ObjectLayer layer) {
+    return static_cast<Tree>(layer & 3);
+}
+constexpr std::size_t pair_of(JPH::ObjectLayer layer) {
+    return layer >> 2;
 }
 
 // What 16 bits of object layer leave room for; the last one means "none" to Jolt.
-constexpr std::size_t most_pairs = 32767;
-
-constexpr bool can_move(JPH::ObjectLayer layer) {
-    return (layer & 1) != 0;
-}
+constexpr std::size_t most_pairs = 16383;
 
 class LayerInterface final : public JPH::BroadPhaseLayerInterface {
 public:
-    JPH::uint GetNumBroadPhaseLayers() const override { return 2; }
+    JPH::uint GetNumBroadPhaseLayers() const override { return tree_count; }
     JPH::BroadPhaseLayer GetBroadPhaseLayer(JPH::ObjectLayer layer) const override {
-        return can_move(layer) ? moving_layer : still_layer;
+        return broad_phase_layer(tree_of(layer));
     }
 #if defined(JPH_EXTERNAL_PROFILE) || defined(JPH_PROFILE_ENABLED)
-    const char* GetBroadPhaseLayerName(JPH::BroadPhaseLayer layer) const override {
-        return layer == moving_layer ? "moving" : "still";
-    }
+    const char* GetBroadPhaseLayerName(JPH::BroadPhaseLayer) const override { return "tree"; }
 #endif
 };
 
 class BroadPhaseFilter final : public JPH::ObjectVsBroadPhaseLayerFilter {
 public:
     bool ShouldCollide(JPH::ObjectLayer layer, JPH::BroadPhaseLayer tree) const override {
-        return can_move(layer) || tree == moving_layer;
+        return tree_of(layer) != Tree::Still || tree != broad_phase_layer(Tree::Still);
     }
 };
 
@@ -65,7 +70,7 @@ public:
 
     // Whether a body of `a` is pushed by one of `b`.
     bool notices(JPH::ObjectLayer a, JPH::ObjectLayer b) const {
-        return (entries_[a >> 1].pair.mask & entries_[b >> 1].pair.layer) != 0;
+        return (entries_[pair_of(a)].pair.mask & entries_[pair_of(b)].pair.layer) != 0;
     }
 
     // Some pair in use might push another without being pushed.

@@ -1,56 +1,21 @@
 #include "physics/physics_world.hpp"
 #include "physics/jolt.hpp"
 
-#include <Jolt/Core/JobSystemSingleThreaded.h>
-#include <Jolt/Core/TempAllocator.h>
 #include <Jolt/Physics/Body/BodyInterface.h>
-#include <Jolt/Physics/PhysicsSystem.h>
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
-#include "physics/body_record.hpp"
-#include "physics/collision_layers.hpp"
-#include "physics/contact_rules.hpp"
 #include "physics/jolt_runtime.hpp"
 #include "physics/jolt_units.hpp"
-#include "physics/loop_memory.hpp"
-#include "physics/world_settings.hpp"
+#include "physics/world_state.hpp"
 
 namespace tactus {
 
 static_assert(JPH::BodyID::cMaxBodyIndex == 0x7fffffu, "BodyId::index() takes these bits");
 
 namespace {
-
-constexpr std::size_t mebibyte = std::size_t{1} << 20;
-
-// The broad phase takes up to four tree nodes of 128 bytes a body while it rebuilds, in pages rounded up to
-// powers of two; saving and restoring takes a few words a body.
-std::size_t loop_memory_size(std::uint32_t max_bodies) {
-    return 8 * mebibyte + std::size_t{2048} * max_bodies;
-}
-
-// Scratch of a single step: the contact constraints, the bodies' and contacts' links to islands, the pairs
-// found.
-JPH::uint step_memory_size(const PhysicsSettings& settings) {
-    constexpr std::size_t per_contact = 1024;
-    constexpr std::size_t per_body = 64;
-    return static_cast<JPH::uint>(4 * mebibyte + per_contact * settings.max_contacts +
-                                  per_body * settings.max_bodies);
-}
-
-// Far more jobs than the single-threaded system holds at any time.
-constexpr JPH::uint jobs_per_sub_step = 64;
-
-PhysicsSettings within_range(PhysicsSettings settings) {
-    settings.max_bodies = std::clamp(settings.max_bodies, 1u, 65536u);
-    settings.max_touching_pairs = std::clamp(settings.max_touching_pairs, 16u, 65536u);
-    settings.max_contacts = std::clamp(settings.max_contacts, 16u, 65536u);
-    settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
-    return settings;
-}
 
 JPH::EMotionType motion_type(Motion motion) {
     switch (motion) {
@@ -72,63 +37,7 @@ Pose pose_of(const JPH::Body& body) {
     return {units::position(body.GetPosition()), units::rotation(body.GetRotation())};
 }
 
-// Only what moves can be asleep.
-class MovingOnly final : public JPH::BroadPhaseLayerFilter {
-public:
-    bool ShouldCollide(JPH::BroadPhaseLayer layer) const override { return layer == moving_layer; }
-};
-
 }  // namespace
-
-struct PhysicsWorld::Impl {
-    explicit Impl(const PhysicsSettings& wanted)
-        : settings(within_range(wanted)),
-          memory(loop_memory_size(settings.max_bodies)),
-          layers(settings.max_bodies),
-          one_sided(layers),
-          step_memory(step_memory_size(settings)),
-          records(settings.max_bodies) {
-        jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
-        constexpr JPH::uint one_mutex = 1;
-        system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
-                    layer_interface, broad_phase_filter, layers);
-        system.SetPhysicsSettings(jolt_settings(settings));
-        system.SetCombineFriction(combined_friction);
-        system.SetCombineRestitution(combined_restitution);
-        system.SetGravity(units::vector(settings.gravity));
-    }
-
-    // Nobody else is in the world, so Jolt's per-body locks have nothing to protect.
-    JPH::BodyInterface& bodies() { return system.GetBodyInterfaceNoLock(); }
-
-    JPH::Body* find(BodyId id) const {
-        return id.valid() ? system.GetBodyLockInterfaceNoLock().TryGetBody(JPH::BodyID(id.value)) : nullptr;
-    }
-
-    BodyRecord& record(const JPH::Body& body) { return *records[body.GetID().GetIndex()]; }
-
-    // Whatever rests on, leans on or is about to touch a body that changes.
-    void wake_around(const JPH::Body& body) {
-        constexpr double reach = 2e-3;  // (unit: meters)
-        JPH::AABox box = body.GetWorldSpaceBounds();
-        box.ExpandBy(JPH::Vec3::sReplicate(units::length(reach)));
-        bodies().ActivateBodiesInAABox(box, MovingOnly(), JPH::ObjectLayerFilter());
-    }
-
-    void listen_if_needed() { system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr); }
-
-    PhysicsSettings settings;
-    LoopMemory memory;
-    LayerInterface layer_interface;
-    BroadPhaseFilter broad_phase_filter;
-    CollisionTable layers;
-    OneSidedContacts one_sided;
-    JPH::TempAllocatorImplWithMallocFallback step_memory;
-    JPH::JobSystemSingleThreaded jobs;
-    JPH::PhysicsSystem system;
-    std::vector<std::unique_ptr<BodyRecord>> records;  // by the body's index
-    std::size_t body_count = 0;
-};
 
 PhysicsWorld::PhysicsWorld(const PhysicsSettings& settings) {
     start_jolt();
@@ -153,10 +62,14 @@ BodyId PhysicsWorld::add(PreparedBody& body) {
     const JPH::BodyID id = added.GetID();
     record.layer_pair = pair;
     record.body = nullptr;
-    impl_->records[id.GetIndex()] = std::move(body.record_);
+    record.in_world = &added;
+    impl_->records[id.GetIndex()] = body.record_.release();
     ++impl_->body_count;
+    ++impl_->structure;
     impl_->listen_if_needed();
-    impl_->bodies().SetObjectLayer(id, object_layer(pair, added.CanBeKinematicOrDynamic()));
+    added.SetUserData(reinterpret_cast<JPH::uint64>(&added));
+    impl_->bodies().SetObjectLayer(
+        id, object_layer(pair, added.CanBeKinematicOrDynamic() ? Tree::Awake : Tree::Still));
     impl_->bodies().AddBody(id, JPH::EActivation::Activate);
     impl_->wake_around(added);
     return {id.GetIndexAndSequenceNumber()};
@@ -170,10 +83,14 @@ PreparedBody PhysicsWorld::remove(BodyId id) {
     const JPH::BodyID jolt_id = body->GetID();
     impl_->wake_around(*body);
     impl_->bodies().RemoveBody(jolt_id);
+    impl_->trees.forget(jolt_id);
     impl_->bodies().UnassignBodyID(jolt_id);
-    PreparedBody removed(std::move(impl_->records[jolt_id.GetIndex()]));
+    PreparedBody removed(
+        std::unique_ptr<BodyRecord>(std::exchange(impl_->records[jolt_id.GetIndex()], nullptr)));
+    ++impl_->structure;
     impl_->layers.give_back(removed.record_->layer_pair);
     removed.record_->body = body;
+    removed.record_->in_world = nullptr;
     --impl_->body_count;
     return removed;
 }
@@ -188,6 +105,7 @@ bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
         body->CanBeKinematicOrDynamic() != spare.body->CanBeKinematicOrDynamic())
         return false;
     const LoopMemoryScope scope(impl_->memory);
+    ++impl_->structure;
     impl_->wake_around(*body);
     // Held here, and by `other` afterwards, so that nothing is freed in the loop.
     const JPH::RefConst<JPH::Shape> old_shape = body->GetShape();
@@ -225,6 +143,10 @@ void PhysicsWorld::set_pose(BodyId id, const Pose& pose) {
     if (body == nullptr)
         return;
     const LoopMemoryScope scope(impl_->memory);
+    // A still body's place is remembered as if it had woken.
+    if (body->IsStatic())
+        impl_->journal.note(*body);
+    impl_->wake(*body);
     impl_->wake_around(*body);
     impl_->bodies().SetPositionAndRotation(body->GetID(), units::position(pose.position),
                                            units::rotation(pose.rotation), JPH::EActivation::Activate);
@@ -236,6 +158,7 @@ void PhysicsWorld::move_to(BodyId id, const Pose& pose, double seconds) {
     if (body == nullptr || body->IsStatic() || !(seconds > 0.0))
         return;
     const LoopMemoryScope scope(impl_->memory);
+    impl_->wake(*body);
     impl_->bodies().MoveKinematic(body->GetID(), units::position(pose.position),
                                   units::rotation(pose.rotation), static_cast<float>(seconds));
 }
@@ -245,6 +168,7 @@ void PhysicsWorld::set_velocity(BodyId id, const Vec3& linear, const Vec3& angul
     if (body == nullptr || body->IsStatic())
         return;
     const LoopMemoryScope scope(impl_->memory);
+    impl_->wake(*body);
     impl_->bodies().SetLinearAndAngularVelocity(body->GetID(), units::vector(linear), units::plain(angular));
 }
 
@@ -256,6 +180,7 @@ bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
     if (motion_of(*body) == motion)
         return true;
     const LoopMemoryScope scope(impl_->memory);
+    ++impl_->structure;
     impl_->wake_around(*body);
     impl_->bodies().SetMotionType(body->GetID(), motion_type(motion), JPH::EActivation::Activate);
     return true;
@@ -296,7 +221,7 @@ void PhysicsWorld::set_collision(BodyId id, const CollisionLayers& collision) {
     record.collision = collision;
     record.layer_pair = pair;
     impl_->listen_if_needed();
-    impl_->bodies().SetObjectLayer(body->GetID(), object_layer(pair, body->CanBeKinematicOrDynamic()));
+    impl_->bodies().SetObjectLayer(body->GetID(), object_layer(pair, tree_of(body->GetObjectLayer())));
     impl_->bodies().InvalidateContactCache(body->GetID());
 }
 
@@ -320,7 +245,7 @@ void PhysicsWorld::wake(BodyId id) {
     if (body == nullptr || body->IsStatic())
         return;
     const LoopMemoryScope scope(impl_->memory);
-    impl_->bodies().ActivateBody(body->GetID());
+    impl_->wake(*body);
 }
 
 void PhysicsWorld::sleep(BodyId id) {
@@ -336,6 +261,7 @@ void PhysicsWorld::apply_force(BodyId id, const Vec3& force, const Vec3& world_p
     if (body == nullptr || !body->IsDynamic() || force == Vec3(0.0))
         return;
     const LoopMemoryScope scope(impl_->memory);
+    impl_->wake(*body);
     impl_->bodies().AddForce(body->GetID(), units::vector(force), units::position(world_point));
 }
 
@@ -344,6 +270,7 @@ void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
     if (body == nullptr || !body->IsDynamic() || torque == Vec3(0.0))
         return;
     const LoopMemoryScope scope(impl_->memory);
+    impl_->wake(*body);
     impl_->bodies().AddTorque(body->GetID(), units::torque(torque));
 }
 
@@ -373,6 +300,7 @@ std::uint32_t PhysicsWorld::step(double seconds) {
     const auto has = [error](JPH::EPhysicsUpdateError bit) {
         return (error & bit) != JPH::EPhysicsUpdateError::None;
     };
+    impl_->trees.tidy_some();
     std::uint32_t status = step_ok;
     if (has(JPH::EPhysicsUpdateError::BodyPairCacheFull))
         status |= step_pairs_full;

@@ -34,11 +34,12 @@ struct PhysicsSettings {
     std::uint32_t max_bodies = 4096;  // 1..65536; what is added beyond is refused
     std::uint32_t max_touching_pairs =
         8192;  // pairs of bodies near each other; beyond, contacts are lost and said so
-    std::uint32_t max_contacts = 4096;  // pairs of surfaces in contact, likewise
-    Vec3 gravity{0.0, -9.81, 0.0};      // (unit: meters per square second)
-    int sub_steps = 1;                  // collision steps in one step(), 1..16
-    int velocity_iterations = 10;       // of the contact solver in a sub-step, >= 2
-    int position_iterations = 2;        // >= 1
+    std::uint32_t max_contacts = 4096;     // pairs of surfaces in contact, likewise
+    Vec3 gravity{0.0, -9.81, 0.0};         // (unit: meters per square second)
+    int sub_steps = 1;                     // collision steps in one step(), 1..16
+    int velocity_iterations = 10;          // of the contact solver in a sub-step, >= 2
+    int position_iterations = 2;           // >= 1
+    std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
 };
 
 // Bits that step() returns.
@@ -112,6 +113,22 @@ public:
     // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.
     std::uint32_t step(double seconds);
 
+    // --- going back in time
+
+    // What is awake and what its motion depends on, as bytes: poses, velocities, contacts, joints, sleep
+    // timers, gravity. Not the settings of bodies, nor forces applied but not stepped. Returns how many bytes
+    // were written, 0 when `memory` is too small (about 400 bytes a body and 250 a contact).
+    std::size_t save(std::span<std::byte> memory) const;
+
+    // The same with everything that could move, awake or not: what another world made by the same calls
+    // needs.
+    std::size_t save_everything(std::span<std::byte> memory) const;
+
+    // Goes back to the moment of the snapshot, to the last bit. False, and nothing has changed, when bodies
+    // were added, removed, reshaped or frozen since, or when more bodies have woken than
+    // `remembered_wakings`.
+    bool restore(std::span<const std::byte> snapshot);
+
     // --- looking at it
 
     Pose pose(BodyId id) const;
@@ -125,6 +142,8 @@ public:
     std::uint64_t memory_overflows() const;  // see step_memory_full; since the world was made
 
 private:
+    std::size_t save_state(std::span<std::byte> memory, bool everything) const;
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

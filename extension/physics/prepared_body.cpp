@@ -191,7 +191,7 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.mRotation = units::rotation(description.pose.rotation);
     settings.mLinearVelocity = units::vector(description.linear_velocity);
     settings.mAngularVelocity = units::plain(description.angular_velocity);
-    settings.mObjectLayer = object_layer(0, needs_motion(description));
+    settings.mObjectLayer = object_layer(0, needs_motion(description) ? Tree::Awake : Tree::Still);
     settings.mMotionType = motion_type(description.motion);
     settings.mMotionQuality =
         description.continuous ? JPH::EMotionQuality::LinearCast : JPH::EMotionQuality::Discrete;

@@ -42,10 +42,30 @@ SessionSnapshot empty_snapshot(std::size_t most_bodies) {
 }
 
 std::string check_material(const TouchMaterial& m) {
-    const bool sound = m.stiffness >= 0.0 && m.damping >= 0.0 && m.dynamic_friction >= 0.0 &&
-                       m.static_friction >= 0.0 && std::isfinite(m.stiffness + m.damping + m.dynamic_friction +
-                                                                 m.static_friction);
-    return sound ? "" : "a value of the touch material is negative or not a number: set all of them to 0 or above";
+    for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth,
+                               m.magnet_force, m.viscosity, m.stick_slip_stiffness, m.stick_slip_force,
+                               m.vibration_force, m.vibration_frequency, m.pop_through_force}) {
+        if (!(value >= 0.0) || !std::isfinite(value)) {
+            return "a value of the touch material is negative or not a number: set all of them to 0 or above";
+        }
+    }
+    if (!(m.texture_size > 0.0) || !(m.magnet_range > 0.0)) {
+        return "the touch material's texture size or magnet range is not a positive length: set both above 0 m";
+    }
+    return {};
+}
+
+std::string check_texture(const HeightImage* image) {
+    if (image && (image->columns == 0 || image->rows == 0 ||
+                  image->heights.size() != std::size_t{image->columns} * image->rows)) {
+        return "the touch material's texture has no pixels, or not as many as its size says: load the image again";
+    }
+    return {};
+}
+
+TouchMaterial with_texture(TouchMaterial material, const HeightImage* image) {
+    material.texture = image;
+    return material;
 }
 
 std::string check_proxy(const ProxyDescription& d) {
@@ -117,6 +137,9 @@ AddResult Session::add_body(const BodyAddition& addition) {
     if (std::string error = check_material(addition.touch_material); !error.empty()) {
         return {no_handle, std::move(error)};
     }
+    if (std::string error = check_texture(addition.texture.get()); !error.empty()) {
+        return {no_handle, std::move(error)};
+    }
     const auto& touched = addition.touch_shapes.empty() ? addition.description.shapes : addition.touch_shapes;
     TouchShapeResult touch = make_touch_shape(touched);
     if (!touch.shape) {
@@ -131,7 +154,8 @@ AddResult Session::add_body(const BodyAddition& addition) {
         return {no_handle, "the world already holds its limit of " + std::to_string(impl_->settings.most_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    impl_->send(command::AddBody{handle, std::move(body), std::move(touch.shape), addition.touch_material,
+    impl_->send(command::AddBody{handle, std::move(body), std::move(touch.shape),
+                                 with_texture(addition.touch_material, addition.texture.get()), addition.texture,
                                  addition.description.collision.layer, addition.description.pose,
                                  addition.description.motion});
     return {handle, {}};
@@ -149,9 +173,11 @@ void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Ve
     impl_->send(command::SetBodyVelocity{body, linear, angular});
 }
 
-void Session::set_touch_material(SessionHandle body, const TouchMaterial& material) {
-    if (check_material(material).empty()) {
-        impl_->send(command::SetTouchMaterial{body, material});
+void Session::set_touch_material(SessionHandle body, const TouchMaterial& material,
+                                 std::shared_ptr<const HeightImage> texture) {
+    if (check_material(material).empty() && check_texture(texture.get()).empty()) {
+        const TouchMaterial complete = with_texture(material, texture.get());
+        impl_->send(command::SetTouchMaterial{body, complete, std::move(texture)});
     }
 }
 
@@ -229,6 +255,8 @@ bool Session::collect() {
                 break;
             case Retired::Kind::proxy:
                 impl_->proxies.give_back(remains.handle);
+                break;
+            case Retired::Kind::texture:
                 break;
         }
         remains = {};

@@ -24,6 +24,7 @@ struct BodyAddition {
     // What the proxy touches, in the body's frame; empty: the description's own shapes.
     std::vector<PlacedShape> touch_shapes;
     TouchMaterial touch_material;
+    std::shared_ptr<const HeightImage> texture;  // becomes touch_material.texture; null: none
 };
 
 struct AddResult {
@@ -51,7 +52,8 @@ public:
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);
     void set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular);
-    void set_touch_material(SessionHandle body, const TouchMaterial& material);
+    void set_touch_material(SessionHandle body, const TouchMaterial& material,
+                            std::shared_ptr<const HeightImage> texture = nullptr);
     void set_body_layers(SessionHandle body, const CollisionLayers& layers);
     void set_body_motion(SessionHandle body, Motion motion);
     void set_body_surface(SessionHandle body, const SurfaceMaterial& surface);

@@ -18,7 +18,8 @@ SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body, c.handle, std::move(c.body), std::move(c.shape), nullptr};
+        retired = {Retired::Kind::body, c.handle, std::move(c.body), std::move(c.shape), nullptr,
+                   std::move(c.texture)};
         return true;
     };
     const BodyId id = physics_.add(c.body);
@@ -30,15 +31,29 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
         c.body = physics_.remove(id);
         return give_back();
     }
-    bodies_[c.handle] = {id, slot, std::move(c.shape), c.motion, {}, 0};
+    bodies_[c.handle] = {id, slot, std::move(c.shape), std::move(c.texture), c.motion, {}, 0};
+    note_magnet(c.handle);
     handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
     handle_of_id_[id.index()] = c.handle;
     if (c.motion != Motion::Static) {
-        state_of_[c.handle] = static_cast<std::uint32_t>(states_.size());
-        states_.push_back({c.handle, c.pose, physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
-        states_changed_at_ = tick_ + 1;
+        show_state(c.handle);
     }
     return false;
+}
+
+// From the next snapshot on, the body is among those that can move.
+void SessionLoop::show_state(SessionHandle handle) {
+    const BodyId id = bodies_[handle].id;
+    state_of_[handle] = static_cast<std::uint32_t>(states_.size());
+    states_.push_back({handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
+    states_changed_at_ = tick_ + 1;
+}
+
+void SessionLoop::note_magnet(SessionHandle handle) {
+    std::erase(magnets_, handle);
+    if (scene_.body(bodies_[handle].slot).material.magnet_force > 0.0) {
+        magnets_.push_back(handle);
+    }
 }
 
 bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
@@ -47,6 +62,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
         return false;
     }
     end_travel(c.handle);
+    std::erase(magnets_, c.handle);
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
     handle_of_id_[removed->id.index()] = no_handle;
@@ -58,7 +74,8 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
         }
         states_changed_at_ = tick_ + 1;
     }
-    retired = {Retired::Kind::body, c.handle, physics_.remove(removed->id), std::move(removed->shape), nullptr};
+    retired = {Retired::Kind::body, c.handle, physics_.remove(removed->id), std::move(removed->shape), nullptr,
+               std::move(removed->texture)};
     *removed = {};
     return true;
 }
@@ -100,11 +117,17 @@ bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
     return false;
 }
 
-bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired&) {
-    if (const Body* const changed = body(c.handle)) {
+bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired& retired) {
+    if (Body* const changed = body(c.handle)) {
         scene_.set_material(changed->slot, c.material);
+        std::swap(changed->texture, c.texture);
+        note_magnet(c.handle);
     }
-    return false;
+    if (!c.texture) {
+        return false;
+    }
+    retired = {Retired::Kind::texture, no_handle, {}, nullptr, nullptr, std::move(c.texture)};
+    return true;
 }
 
 bool SessionLoop::carry_out(command::SetBodySurface& c, Retired&) {
@@ -126,6 +149,9 @@ bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
     if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
         end_travel(c.handle);
         changed->motion = c.motion;
+        if (c.motion != Motion::Static && state_of_[c.handle] == no_handle) {
+            show_state(c.handle);
+        }
     }
     return false;
 }
@@ -163,20 +189,19 @@ bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
 
 bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
     devices_[c.handle] = {};
-    retired = {Retired::Kind::device, c.handle, {}, nullptr, nullptr};
+    retired = {Retired::Kind::device, c.handle, {}, nullptr, nullptr, nullptr};
     return true;
 }
 
 bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
-    proxies_[c.handle] = {std::move(c.proxy), c.description, Vec3(0.0), {}};
+    proxies_[c.handle] = {std::move(c.proxy), c.description, Vec3(0.0), {}, {}};
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
     ProxySlot& changed = proxies_[c.handle];
     if (changed.proxy) {
-        if (changed.description.device != c.description.device ||
-            changed.description.settings.radius != c.description.settings.radius) {
+        if (changed.description.device != c.description.device) {
             changed.proxy->restart();
         }
         changed.description = c.description;
@@ -186,7 +211,8 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
-    retired = {Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy)};
+    retired = {Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy),
+               nullptr};
     proxies_[c.handle] = {};
     return true;
 }

@@ -15,6 +15,7 @@ struct AddBody {
     PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
     TouchMaterial material;
+    std::shared_ptr<const HeightImage> texture;  // keeps material.texture alive
     std::uint32_t layer;
     Pose pose;
     Motion motion;
@@ -38,6 +39,7 @@ struct SetBodyVelocity {
 struct SetTouchMaterial {
     SessionHandle handle;
     TouchMaterial material;
+    std::shared_ptr<const HeightImage> texture;
 };
 struct SetBodySurface {
     SessionHandle handle;
@@ -104,11 +106,12 @@ using Command =
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, device, proxy } kind = Kind::body;
+    enum class Kind { body, device, proxy, texture } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
     std::unique_ptr<Proxy> proxy;
+    std::shared_ptr<const HeightImage> texture;
 };
 
 }  // namespace tactus

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/haptics/nearest_surface.hpp"
+
 namespace tactus {
 
 namespace {
@@ -38,6 +40,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       handle_of_id_(settings.most_bodies, no_handle),
       state_of_(settings.most_bodies, no_handle) {
     travelling_.reserve(settings.most_bodies);
+    magnets_.reserve(settings.most_bodies);
     awake_before_.reserve(settings.most_bodies);
     awake_.reserve(settings.most_bodies);
     states_.reserve(settings.most_bodies);
@@ -56,7 +59,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         const TraceScope scope(trace, TickStage::move_proxy);
         for (ProxySlot& slot : proxies_) {
             if (slot.proxy) {
-                touch(slot);
+                touch(slot, now);
             }
         }
     }
@@ -157,7 +160,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
     }
 }
 
-void SessionLoop::touch(ProxySlot& slot) {
+void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     if (!slot.description.enabled || slot.description.device >= most_devices ||
         !devices_[slot.description.device].device) {
         slot.force = Vec3(0.0);
@@ -168,14 +171,51 @@ void SessionLoop::touch(ProxySlot& slot) {
     DeviceSlot& device = devices_[slot.description.device];
     const ProxyTick tick = slot.proxy->move(scene_, device.hand);
     HandForce force = contact_force(scene_, slot.proxy->touching(), tick.slide, device.hand_velocity, seconds_);
+    break_surfaces(slot, force);
+    add_surface_effects(scene_, slot.proxy->touching(), {device.hand, device.hand_velocity}, now, seconds_, slot.effects,
+                        force);
     if (slot.description.force_law == ForceLaw::smoothed) {
         smooth(force, slot.force);
     }
+    force.total += attract(slot);
     slot.force = force.total;
     device.force += force.total;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
     press_bodies(force);
     describe(slot, tick, force);
+}
+
+// Magnetic surfaces pull from a distance, and are pulled.
+Vec3 SessionLoop::attract(const ProxySlot& slot) {
+    Vec3 pull(0.0);
+    const ProxySettings& proxy = slot.proxy->settings();
+    for (const SessionHandle handle : magnets_) {
+        const Body& magnet = bodies_[handle];
+        const TouchBody& surface = scene_.body(magnet.slot);
+        const double far = proxy.radius + surface.material.magnet_range;
+        if ((surface.layer & proxy.mask) == 0) {
+            continue;
+        }
+        const NearestSurface nearest = nearest_surface(scene_, magnet.slot, slot.proxy->position(), far);
+        const double strength = magnet_pull(surface.material, nearest.distance - proxy.radius);
+        const Vec3 on_hand = nearest.normal * -strength;
+        pull += on_hand;
+        if (magnet.motion == Motion::Dynamic) {
+            physics_.apply_force(magnet.id, -on_hand, slot.proxy->position() - nearest.normal * nearest.distance);
+        }
+    }
+    return pull;
+}
+
+// A surface pressed harder than it bears lets the proxy through from the next tick on.
+void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
+    for (int i = 0; i < force.contact_count; ++i) {
+        const ContactForce& part = force.contacts[i];
+        const double bears = scene_.body(part.body).material.pop_through_force;
+        if (bears > 0.0 && glm::length(part.on_hand) > bears) {
+            slot.proxy->pass_through(part.body);
+        }
+    }
 }
 
 // The opposite of what the hand feels goes to what it touches, where it touches it.

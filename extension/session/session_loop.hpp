@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
@@ -30,6 +31,7 @@ private:
         BodyId id;
         int slot = -1;  // in the touch scene; -1: not in the loop
         std::shared_ptr<const TouchShape> shape;
+        std::shared_ptr<const HeightImage> texture;
         Motion motion = Motion::Static;
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
         Pose target;
@@ -51,6 +53,7 @@ private:
         std::unique_ptr<Proxy> proxy;
         ProxyDescription description;
         Vec3 force{0.0};  // on the hand, in the world (unit: newtons)
+        EffectMemory effects;
         ProxyState state;
     };
 
@@ -59,7 +62,7 @@ private:
     bool carry_out(command::TeleportBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);
-    bool carry_out(command::SetTouchMaterial& c, Retired&);
+    bool carry_out(command::SetTouchMaterial& c, Retired& retired);
     bool carry_out(command::SetBodySurface& c, Retired&);
     bool carry_out(command::SetBodyLayers& c, Retired&);
     bool carry_out(command::SetBodyMotion& c, Retired&);
@@ -80,8 +83,12 @@ private:
     void travel();
     void follow_physics();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
+    void show_state(SessionHandle handle);
     void read_devices(Nanoseconds now);
-    void touch(ProxySlot& slot);
+    void touch(ProxySlot& slot, Nanoseconds now);
+    Vec3 attract(const ProxySlot& slot);
+    void break_surfaces(ProxySlot& slot, const HandForce& force);
+    void note_magnet(SessionHandle handle);
     void press_bodies(const HandForce& force);
     void write_devices(Nanoseconds now);
     void step_physics();
@@ -98,6 +105,7 @@ private:
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
+    std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
     std::vector<BodyId> awake_before_;
     std::vector<BodyId> awake_;
     std::vector<BodyState> states_;  // of all bodies that are not static, dense

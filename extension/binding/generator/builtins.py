@@ -47,9 +47,9 @@ def type_constant(name):
 
 def fragment_of(name):
     """Members written by hand that stand in the class beside the generated ones."""
-    path = FRAGMENTS / f"{snake_case(name)}.hpp"
+    path = FRAGMENTS / f"{snake_case(name)}.inc"
     if name in ELEMENTS:
-        path = FRAGMENTS / "packed_array.hpp"
+        path = FRAGMENTS / "packed_array.inc"
     if not path.exists():
         return ""
     text = path.read_text(encoding="utf-8").replace("@CLASS@", name).replace("@ELEMENT@", ELEMENTS.get(name, ""))
@@ -241,7 +241,7 @@ class BuiltinWriter:
             for name in sorted(self.forward - {self.name})
         )
         body = "\n".join(self.declarations)
-        tail = FRAGMENTS / f"{snake_case(self.name)}_after.hpp"
+        tail = FRAGMENTS / f"{snake_case(self.name)}_after.inc"
         after = tail.read_text(encoding="utf-8") if tail.exists() else ""
         return f"""namespace godot {{
 

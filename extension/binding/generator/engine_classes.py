@@ -164,7 +164,7 @@ class ClassWriter:
 
     def header(self):
         forward = "".join(f"class {name};\n" for name in sorted(self.forward - {self.base}))
-        fragment_path = FRAGMENTS / f"{snake_case(self.name)}.hpp"
+        fragment_path = FRAGMENTS / f"{snake_case(self.name)}.inc"
         fragment = ""
         if fragment_path.exists():
             lines = fragment_path.read_text(encoding="utf-8").splitlines()

@@ -42,24 +42,26 @@ Variant* Array::end() {
 }
 
 const Variant& Dictionary::operator[](const Variant& key) const {
-    return *static_cast<const Variant*>(interface.dictionary_operator_index_const(opaque_, key._native_ptr()));
+    return *static_cast<const Variant*>(
+        interface.dictionary_operator_index_const(opaque_, key._native_ptr()));
 }
 
 Variant& Dictionary::operator[](const Variant& key) {
     return *static_cast<Variant*>(interface.dictionary_operator_index(opaque_, key._native_ptr()));
 }
 
-#define GODOT_BINDING_PACKED_ARRAY(m_class, m_element, m_index)                                                     \
-    m_class::m_class(std::initializer_list<m_element> values) : m_class() {                                         \
-        resize(static_cast<int64_t>(values.size()));                                                                \
-        std::copy(values.begin(), values.end(), ptrw());                                                            \
-    }                                                                                                               \
-    const m_element* m_class::ptr() const {                                                                         \
-        return is_empty() ? nullptr                                                                                 \
-                          : reinterpret_cast<const m_element*>(interface.packed_##m_index##_const(opaque_, 0));     \
-    }                                                                                                               \
-    m_element* m_class::ptrw() {                                                                                    \
-        return is_empty() ? nullptr : reinterpret_cast<m_element*>(interface.packed_##m_index(opaque_, 0));         \
+#define GODOT_BINDING_PACKED_ARRAY(m_class, m_element, m_index)                                             \
+    m_class::m_class(std::initializer_list<m_element> values) : m_class() {                                 \
+        resize(static_cast<int64_t>(values.size()));                                                        \
+        std::copy(values.begin(), values.end(), ptrw());                                                    \
+    }                                                                                                       \
+    const m_element* m_class::ptr() const {                                                                 \
+        return is_empty()                                                                                   \
+                   ? nullptr                                                                                \
+                   : reinterpret_cast<const m_element*>(interface.packed_##m_index##_const(opaque_, 0));    \
+    }                                                                                                       \
+    m_element* m_class::ptrw() {                                                                            \
+        return is_empty() ? nullptr : reinterpret_cast<m_element*>(interface.packed_##m_index(opaque_, 0)); \
     }
 
 GODOT_BINDING_PACKED_ARRAY(PackedByteArray, uint8_t, byte_array_operator_index)

@@ -49,7 +49,8 @@ int compare(const MethodTarget& a, const MethodTarget& b) {
 uint32_t hash(void* userdata) {
     const MethodTarget& target = target_of(userdata);
     const std::string_view bytes(reinterpret_cast<const char*>(target.pointer), sizeof(target.pointer));
-    return static_cast<uint32_t>(std::hash<std::string_view>()(bytes) ^ std::hash<uint64_t>()(target.object_id));
+    return static_cast<uint32_t>(std::hash<std::string_view>()(bytes) ^
+                                 std::hash<uint64_t>()(target.object_id));
 }
 
 GDExtensionBool equal(void* a, void* b) {

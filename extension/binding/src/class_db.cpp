@@ -35,7 +35,8 @@ OwnClass* find_own(const StringName& name) {
 
 GDExtensionClassCallVirtual get_virtual(void* userdata, GDExtensionConstStringNamePtr name, uint32_t) {
     const StringName& wanted = *static_cast<const StringName*>(name);
-    for (const OwnClass* entry = static_cast<OwnClass*>(userdata); entry != nullptr; entry = find_own(entry->parent)) {
+    for (const OwnClass* entry = static_cast<OwnClass*>(userdata); entry != nullptr;
+         entry = find_own(entry->parent)) {
         for (const auto& [method, call] : entry->virtuals) {
             if (method == wanted) {
                 return call;
@@ -75,8 +76,8 @@ bool prepare(const MethodBind& bind, const GDExtensionConstVariantPtr* given, GD
 
 void call(void* userdata, GDExtensionClassInstancePtr instance, const GDExtensionConstVariantPtr* given,
           GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError* error) {
-    call_checked(*static_cast<const MethodBind*>(userdata), static_cast<Wrapped*>(instance), given, count, result,
-                 error);
+    call_checked(*static_cast<const MethodBind*>(userdata), static_cast<Wrapped*>(instance), given, count,
+                 result, error);
 }
 
 void ptrcall(void* userdata, GDExtensionClassInstancePtr instance, const GDExtensionConstTypePtr* arguments,
@@ -158,7 +159,8 @@ void release_classes(int level) {
 
 }  // namespace internal
 
-void ClassDB::begin_class(const StringName& name, const StringName& parent, GDExtensionClassCreationInfo4& info) {
+void ClassDB::begin_class(const StringName& name, const StringName& parent,
+                          GDExtensionClassCreationInfo4& info) {
     ERR_FAIL_COND_MSG(internal::find_own(name) != nullptr, String(name) + " is registered twice.");
     internal::own_classes.push_back(std::make_unique<internal::OwnClass>());
     internal::OwnClass* entry = internal::own_classes.back().get();
@@ -167,16 +169,16 @@ void ClassDB::begin_class(const StringName& name, const StringName& parent, GDEx
     entry->level = internal::current_level;
     info.get_virtual_func = &internal::get_virtual;
     info.class_userdata = entry;
-    internal::interface.classdb_register_extension_class4(internal::library, name._native_ptr(), parent._native_ptr(),
-                                                          &info);
+    internal::interface.classdb_register_extension_class4(internal::library, name._native_ptr(),
+                                                          parent._native_ptr(), &info);
 }
 
 const StringName& ClassDB::current_class() {
     return internal::own_classes.back()->name;
 }
 
-MethodBind* ClassDB::add_method(const StringName& class_name, const MethodDefinition& definition, MethodBind* bind,
-                                std::vector<Variant> defaults) {
+MethodBind* ClassDB::add_method(const StringName& class_name, const MethodDefinition& definition,
+                                MethodBind* bind, std::vector<Variant> defaults) {
     internal::OwnClass* entry = internal::find_own(class_name);
     std::unique_ptr<MethodBind> owned(bind);
     ERR_FAIL_NULL_V_MSG(entry, nullptr, String(class_name) + " is not registered.");
@@ -187,8 +189,9 @@ MethodBind* ClassDB::add_method(const StringName& class_name, const MethodDefini
     bind->name = definition.name;
     bind->defaults = std::move(defaults);
     for (size_t i = 0; i < bind->argument_list.size(); ++i) {
-        bind->argument_list[i].info.name =
-            i < definition.args.size() ? definition.args[i] : StringName("arg" + itos(static_cast<int64_t>(i)));
+        bind->argument_list[i].info.name = i < definition.args.size()
+                                               ? definition.args[i]
+                                               : StringName("arg" + itos(static_cast<int64_t>(i)));
     }
     internal::announce(class_name, *bind);
     entry->methods.push_back(std::move(owned));
@@ -205,12 +208,13 @@ void ClassDB::add_property_subgroup(const StringName& class_name, const String& 
         internal::library, class_name._native_ptr(), name._native_ptr(), prefix._native_ptr());
 }
 
-void ClassDB::add_property(const StringName& class_name, const PropertyInfo& property, const StringName& setter,
-                           const StringName& getter, int index) {
+void ClassDB::add_property(const StringName& class_name, const PropertyInfo& property,
+                           const StringName& setter, const StringName& getter, int index) {
     PropertyInfo copy = property;
     const GDExtensionPropertyInfo info = copy.view();
     internal::interface.classdb_register_extension_class_property_indexed(
-        internal::library, class_name._native_ptr(), &info, setter._native_ptr(), getter._native_ptr(), index);
+        internal::library, class_name._native_ptr(), &info, setter._native_ptr(), getter._native_ptr(),
+        index);
 }
 
 void ClassDB::add_signal(const StringName& class_name, const MethodInfo& signal) {
@@ -227,8 +231,8 @@ void ClassDB::add_signal(const StringName& class_name, const MethodInfo& signal)
 void ClassDB::bind_integer_constant(const StringName& class_name, const StringName& enum_name,
                                     const StringName& constant_name, int64_t value, bool is_bitfield) {
     internal::interface.classdb_register_extension_class_integer_constant(
-        internal::library, class_name._native_ptr(), enum_name._native_ptr(), constant_name._native_ptr(), value,
-        is_bitfield);
+        internal::library, class_name._native_ptr(), enum_name._native_ptr(), constant_name._native_ptr(),
+        value, is_bitfield);
 }
 
 void ClassDB::bind_virtual_method(const StringName& class_name, const StringName& method,

@@ -6,8 +6,8 @@
 
 namespace godot {
 
-void _err_print_error(const char* function, const char* file, int line, const char* error, const char* message,
-                      bool editor_notify, bool is_warning) {
+void _err_print_error(const char* function, const char* file, int line, const char* error,
+                      const char* message, bool editor_notify, bool is_warning) {
     const bool plain = message == nullptr || message[0] == '\0';
     if (is_warning && plain) {
         internal::interface.print_warning(error, function, file, line, editor_notify);
@@ -20,20 +20,20 @@ void _err_print_error(const char* function, const char* file, int line, const ch
     }
 }
 
-void _err_print_error(const char* function, const char* file, int line, const char* error, const String& message,
-                      bool editor_notify, bool is_warning) {
+void _err_print_error(const char* function, const char* file, int line, const char* error,
+                      const String& message, bool editor_notify, bool is_warning) {
     _err_print_error(function, file, line, error, message.utf8().get_data(), editor_notify, is_warning);
 }
 
-void _err_print_error(const char* function, const char* file, int line, const String& error, const char* message,
-                      bool editor_notify, bool is_warning) {
+void _err_print_error(const char* function, const char* file, int line, const String& error,
+                      const char* message, bool editor_notify, bool is_warning) {
     _err_print_error(function, file, line, error.utf8().get_data(), message, editor_notify, is_warning);
 }
 
 void _err_print_index_error(const char* function, const char* file, int line, int64_t index, int64_t size,
                             const char* index_text, const char* size_text) {
-    const String text = String("Index ") + index_text + " = " + itos(index) + " is out of bounds (" + size_text +
-                        " = " + itos(size) + ").";
+    const String text = String("Index ") + index_text + " = " + itos(index) + " is out of bounds (" +
+                        size_text + " = " + itos(size) + ").";
     _err_print_error(function, file, line, text);
 }
 

@@ -40,8 +40,10 @@ void load_class_reference() {
     compressed.resize(doc_data.compressed_size);
     std::copy(doc_data.data, doc_data.data + doc_data.compressed_size, compressed.ptrw());
     const PackedByteArray xml = compressed.decompress(doc_data.uncompressed_size, compression_deflate);
-    ERR_FAIL_COND_MSG(xml.size() != doc_data.uncompressed_size, "The class reference of the extension is damaged.");
-    interface.editor_help_load_xml_from_utf8_chars_and_len(reinterpret_cast<const char*>(xml.ptr()), xml.size());
+    ERR_FAIL_COND_MSG(xml.size() != doc_data.uncompressed_size,
+                      "The class reference of the extension is damaged.");
+    interface.editor_help_load_xml_from_utf8_chars_and_len(reinterpret_cast<const char*>(xml.ptr()),
+                                                           xml.size());
 }
 
 void initialize_level(void*, GDExtensionInitializationLevel level) {
@@ -60,8 +62,11 @@ void deinitialize_level(void*, GDExtensionInitializationLevel level) {
         terminator(static_cast<ModuleInitializationLevel>(level));
     }
     release_classes(level);
-    if (level == GDEXTENSION_INITIALIZATION_CORE) {
+    // The servers among the singletons are destroyed between this level and the next one.
+    if (level == GDEXTENSION_INITIALIZATION_SCENE) {
         release_singletons();
+    }
+    if (level == GDEXTENSION_INITIALIZATION_CORE) {
         release_names();
     }
 }
@@ -90,7 +95,8 @@ void GDExtensionBinding::InitObject::register_terminator(Callback terminator) co
     internal::terminator = terminator;
 }
 
-void GDExtensionBinding::InitObject::set_minimum_library_initialization_level(ModuleInitializationLevel level) const {
+void GDExtensionBinding::InitObject::set_minimum_library_initialization_level(
+    ModuleInitializationLevel level) const {
     initialization_->minimum_initialization_level = static_cast<GDExtensionInitializationLevel>(level);
 }
 
@@ -101,7 +107,8 @@ GDExtensionBool GDExtensionBinding::InitObject::init() const {
     initialization_->initialize = &internal::initialize_level;
     initialization_->deinitialize = &internal::deinitialize_level;
     if (internal::interface.classdb_construct_object2 == nullptr) {
-        internal::interface.print_error("The extension needs Godot 4.4 or newer.", __FUNCTION__, __FILE__, __LINE__, 1);
+        internal::interface.print_error("The extension needs Godot 4.4 or newer.", __FUNCTION__, __FILE__,
+                                        __LINE__, 1);
         return 0;
     }
     return 1;

@@ -43,7 +43,8 @@ GDExtensionMethodBindPtr find_engine_method(const char* class_name, const char* 
     const GDExtensionMethodBindPtr method =
         interface.classdb_get_method_bind(class_key._native_ptr(), method_key._native_ptr(), hash);
     if (method == nullptr) {
-        ERR_PRINT(String("This Godot has no method ") + class_name + "." + method_name + " with the expected signature.");
+        ERR_PRINT(String("This Godot has no method ") + class_name + "." + method_name +
+                  " with the expected signature.");
     }
     return method;
 }
@@ -71,7 +72,8 @@ Variant call_vararg_engine_method(GDExtensionMethodBindPtr method, GodotObject* 
     return result;
 }
 
-GDExtensionPtrBuiltInMethod find_builtin_method(GDExtensionVariantType type, const char* method_name, int64_t hash) {
+GDExtensionPtrBuiltInMethod find_builtin_method(GDExtensionVariantType type, const char* method_name,
+                                                int64_t hash) {
     const StringName key(method_name);
     return interface.variant_get_ptr_builtin_method(type, key._native_ptr(), hash);
 }
@@ -104,7 +106,7 @@ GodotObject* find_singleton(const char* name) {
     return object;
 }
 
-// The engine's singletons outlive this library: their wrappers must go before it does.
+// Their wrappers must go before the engine's singletons do, and before this library does.
 void release_singletons() {
     const std::lock_guard lock(singletons_mutex);
     for (GodotObject* object : singletons) {

@@ -1,12 +1,15 @@
-// The larger operations of the math types. Where Godot has a rule of its own (Euler orders, text), Godot is asked.
+// The larger operations of the math types. Where Godot has a rule of its own (Euler orders, text), Godot is
+// asked.
 
 #include <godot_cpp/private/ptrcall.hpp>
 #include <godot_cpp/variant/variant.hpp>
 
 namespace godot {
 
-#define GODOT_BINDING_TO_STRING(m_class) \
-    m_class::operator String() const { return Variant(*this).stringify(); }
+#define GODOT_BINDING_TO_STRING(m_class)   \
+    m_class::operator String() const {     \
+        return Variant(*this).stringify(); \
+    }
 
 GODOT_BINDING_TO_STRING(Vector2)
 GODOT_BINDING_TO_STRING(Vector2i)
@@ -72,7 +75,8 @@ Basis Basis::looking_at(const Vector3& target, const Vector3& up, bool use_model
 }
 
 Transform3D Transform3D::interpolate_with(const Transform3D& to, real_t weight) const {
-    const Quaternion turned = basis.get_rotation_quaternion().slerp(to.basis.get_rotation_quaternion(), weight);
+    const Quaternion turned =
+        basis.get_rotation_quaternion().slerp(to.basis.get_rotation_quaternion(), weight);
     const Vector3 scale = basis.get_scale().lerp(to.basis.get_scale(), weight);
     return Transform3D(Basis(turned).scaled_local(scale), origin.lerp(to.origin, weight));
 }

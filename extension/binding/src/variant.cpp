@@ -19,7 +19,8 @@ struct Conversions {
     Conversions() {
         for (int type = Variant::BOOL; type < Variant::VARIANT_MAX; ++type) {
             const auto index = static_cast<size_t>(type);
-            from[index] = interface.get_variant_from_type_constructor(static_cast<GDExtensionVariantType>(type));
+            from[index] =
+                interface.get_variant_from_type_constructor(static_cast<GDExtensionVariantType>(type));
             to[index] = interface.get_variant_to_type_constructor(static_cast<GDExtensionVariantType>(type));
         }
     }
@@ -117,9 +118,13 @@ Variant::operator Object*() const {
     return get_type() == OBJECT ? ObjectDB::get_instance(operator ObjectID()) : nullptr;
 }
 
-#define GODOT_BINDING_VARIANT(m_class, m_type)                                                   \
-    Variant::Variant(const m_class& value) { put(opaque_, m_type, value); }                      \
-    Variant::operator m_class() const { return take<m_class>(*this, m_type); }
+#define GODOT_BINDING_VARIANT(m_class, m_type) \
+    Variant::Variant(const m_class& value) {   \
+        put(opaque_, m_type, value);           \
+    }                                          \
+    Variant::operator m_class() const {        \
+        return take<m_class>(*this, m_type);   \
+    }
 
 GODOT_BINDING_VARIANT(String, STRING)
 GODOT_BINDING_VARIANT(StringName, STRING_NAME)
@@ -187,16 +192,16 @@ Variant Variant::duplicate(bool deep) const {
 void Variant::callp(const StringName& method, const Variant** arguments, int argument_count, Variant& result,
                     GDExtensionCallError& error) {
     Variant answer;
-    interface.variant_call(opaque_, method._native_ptr(), reinterpret_cast<const void**>(arguments), argument_count,
-                           answer.opaque_, &error);
+    interface.variant_call(opaque_, method._native_ptr(), reinterpret_cast<const void**>(arguments),
+                           argument_count, answer.opaque_, &error);
     result = std::move(answer);
 }
 
 void Variant::evaluate(const Operator& op, const Variant& a, const Variant& b, Variant& result, bool& valid) {
     Variant answer;
     GDExtensionBool is_valid = 0;
-    interface.variant_evaluate(static_cast<GDExtensionVariantOperator>(op), a.opaque_, b.opaque_, answer.opaque_,
-                               &is_valid);
+    interface.variant_evaluate(static_cast<GDExtensionVariantOperator>(op), a.opaque_, b.opaque_,
+                               answer.opaque_, &is_valid);
     valid = is_valid != 0;
     result = std::move(answer);
 }

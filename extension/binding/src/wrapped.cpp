@@ -21,7 +21,8 @@ namespace {
 
 thread_local Construction announced;
 
-// Engine classes without a wrapper of their own (CSGBox3D) get that of their nearest base (GeometryInstance3D).
+// Engine classes without a wrapper of their own (CSGBox3D) get that of their nearest base
+// (GeometryInstance3D).
 std::mutex nearest_mutex;
 std::unordered_map<std::string, const GDExtensionInstanceBindingCallbacks*> nearest;
 
@@ -46,7 +47,8 @@ const GDExtensionInstanceBindingCallbacks* callbacks_of(GodotObject* object) {
         return known->second;
     }
     const GDExtensionInstanceBindingCallbacks* callbacks = nullptr;
-    for (StringName base = class_name; callbacks == nullptr; callbacks = callbacks_of(String(base).utf8().get_data())) {
+    for (StringName base = class_name; callbacks == nullptr;
+         callbacks = callbacks_of(String(base).utf8().get_data())) {
         base = parent_class(base);
         if (base == "") {
             base = "Object";
@@ -158,13 +160,20 @@ String Wrapped::_to_string() const {
 }
 
 PropertyInfo::PropertyInfo(const GDExtensionPropertyInfo* info)
-    : type(static_cast<Variant::Type>(info->type)), name(*static_cast<const StringName*>(info->name)),
-      class_name(*static_cast<const StringName*>(info->class_name)), hint(info->hint),
-      hint_string(*static_cast<const String*>(info->hint_string)), usage(info->usage) {}
+    : type(static_cast<Variant::Type>(info->type)),
+      name(*static_cast<const StringName*>(info->name)),
+      class_name(*static_cast<const StringName*>(info->class_name)),
+      hint(info->hint),
+      hint_string(*static_cast<const String*>(info->hint_string)),
+      usage(info->usage) {}
 
 GDExtensionPropertyInfo PropertyInfo::view() {
-    return {static_cast<GDExtensionVariantType>(type), name._native_ptr(), class_name._native_ptr(), hint,
-            hint_string._native_ptr(), usage};
+    return {static_cast<GDExtensionVariantType>(type),
+            name._native_ptr(),
+            class_name._native_ptr(),
+            hint,
+            hint_string._native_ptr(),
+            usage};
 }
 
 Object* ObjectDB::get_instance(uint64_t object_id) {

@@ -28,7 +28,16 @@ double squared_distance(const Vec3& p, const Vec3& q) {
 
 }  // namespace
 
+// The same steps as in offset_from_triangles, for the same reasons.
 TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+    constexpr double flat_area = 1e-12;
+    TriangleClosestPoint best = closest_on_segment(point, a, b);
+    for (const auto& [start, end] : {std::array{b, c}, std::array{c, a}}) {
+        const TriangleClosestPoint other = closest_on_segment(point, start, end);
+        if (squared_distance(point, other.point) < squared_distance(point, best.point)) {
+            best = other;
+        }
+    }
     const Vec3 ab = b - a;
     const Vec3 ac = c - a;
     const Vec3 ap = point - a;
@@ -37,15 +46,10 @@ TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a,
     const double area_ab = glm::dot(normal, glm::cross(ab, ap));
     const double area_ca = glm::dot(normal, glm::cross(ap, ac));
     const double area_bc = squared_normal - area_ab - area_ca;
-    if (area_ab >= 0.0 && area_ca >= 0.0 && area_bc >= 0.0 && squared_normal > 1e-280) {
-        return {point - normal * (glm::dot(normal, ap) / squared_normal), TriangleFeature::face, Vec3(0.0)};
-    }
-    TriangleClosestPoint best = closest_on_segment(point, a, b);
-    for (const auto& [start, end] : {std::array{b, c}, std::array{c, a}}) {
-        const TriangleClosestPoint other = closest_on_segment(point, start, end);
-        if (squared_distance(point, other.point) < squared_distance(point, best.point)) {
-            best = other;
-        }
+    if (area_ab >= 0.0 && area_ca >= 0.0 && area_bc >= 0.0 &&
+        squared_normal > glm::dot(ab, ab) * glm::dot(ac, ac) * flat_area * flat_area) {
+        const double height = glm::dot(normal, point - best.point) / squared_normal;
+        return {point - normal * height, TriangleFeature::face, Vec3(0.0)};
     }
     return best;
 }

@@ -108,7 +108,7 @@ SolidDistance distance_to(const CylinderShape& cylinder, const Vec3& p) {
     } else if (beyond_side > beyond_cap) {
         result.distance = beyond_side;
         result.normal = outward;
-        result.bend_u = 1.0 / radial;
+        result.bend_u = radial > tiny ? 1.0 / radial : 0.0;
     } else {
         result.distance = beyond_cap;
         result.normal = up;

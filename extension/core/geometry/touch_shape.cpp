@@ -42,6 +42,9 @@ struct Check {
         return h.hull ? check_mesh(*h.hull) : "the convex hull has no points: give it at least four";
     }
     std::string operator()(const MeshShape& m) const {
+        if (!(m.smooth_below >= 0.0 && m.smooth_below <= 3.1416)) {
+            return "the angle below which facets are smoothed is not between 0 and 180 degrees: set it so";
+        }
         return m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
     }
     std::string operator()(const HeightFieldShape& f) const {
@@ -49,6 +52,9 @@ struct Check {
                            f.heights->size() == std::size_t{f.columns} * f.rows;
         if (!sized) {
             return "the height field needs at least 2 x 2 samples and as many heights as samples: set its size and data";
+        }
+        if (!is_length(f.scale.x) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
+            return "the height field's spacing is not a positive length: set its scale above 0 m";
         }
         const bool finite = std::ranges::all_of(*f.heights, [](float h) { return std::isfinite(h); });
         return finite ? "" : "a height of the height field is not a finite number: repair its data";
@@ -59,7 +65,7 @@ TouchPart with_tree(const Pose& pose, const TriangleMesh& mesh, const ParallelRu
     auto tree = std::make_shared<TriangleTree>(TriangleTree::build(mesh, run));
     const Vec3 center = tree->center();
     const double radius = tree->radius();
-    return {pose, std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius};
+    return {pose, std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius, nullptr};
 }
 
 struct Compile {
@@ -67,12 +73,19 @@ struct Compile {
     const ParallelRunner& run;
 
     TouchPart operator()(const ConvexHullShape& h) const { return with_tree(pose, *h.hull, run); }
-    TouchPart operator()(const MeshShape& m) const { return with_tree(pose, *m.mesh, run); }
+    TouchPart operator()(const MeshShape& m) const {
+        TouchPart part = with_tree(pose, *m.mesh, run);
+        if (m.smooth_below > 0.0) {
+            part.smooth_normals =
+                std::make_shared<const std::vector<CornerNormals>>(smooth_normals(*m.mesh, m.smooth_below));
+        }
+        return part;
+    }
     TouchPart operator()(const HeightFieldShape& f) const { return with_tree(pose, height_field_mesh(f), run); }
     template <class ClosedForm>
     TouchPart operator()(const ClosedForm& shape) const {
         const Solid solid = shape;
-        return {pose, solid, Vec3(0.0), bounding_radius(solid)};
+        return {pose, solid, Vec3(0.0), bounding_radius(solid), nullptr};
     }
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/geometry/shape.hpp"
+#include "core/geometry/smooth_normals.hpp"
 #include "core/geometry/solid.hpp"
 #include "core/geometry/triangle_tree.hpp"
 
@@ -19,6 +20,7 @@ struct TouchPart {
     std::variant<Solid, std::shared_ptr<const TriangleTree>> surface;
     Vec3 center{0.0};     // of a ball that holds the part, in the part's frame (unit: meters)
     double radius = 0.0;  // of that ball; infinite for a half-space (unit: meters)
+    std::shared_ptr<const std::vector<CornerNormals>> smooth_normals;  // by triangle of the mesh; null: facets
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);

@@ -38,11 +38,13 @@ inline PackOffset nearer(const PackOffset& p, const PackOffset& q) {
 }  // namespace pack_detail
 
 // The point is measured against the three edges, each well-conditioned by itself, and against the plane where it
-// projects inside. Slivers lose their inside first and stay right through their edges; a triangle without area is its
-// edges. Where rounding calls a point inside that is not, the plane is nearer than the triangle: the error is on the
-// safe side.
+// projects inside. The height over the plane is taken from the nearest edge point: it lies in the plane too, and so the
+// plane is never called farther than the edges, however badly the normal of a sliver is known. Where rounding calls a
+// point inside that is not, the error is on the near, safe side. Below `flat_area` (the sine of the sharpest angle) the
+// normal's direction is rounding: such a triangle is its edges.
 inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& point) {
     using namespace pack_detail;
+    constexpr double flat_area = 1e-12;
     const LanesVec3 ab = t.b - t.a;
     const LanesVec3 ac = t.c - t.a;
     const LanesVec3 ap = point - t.a;
@@ -58,13 +60,32 @@ inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& 
     const Lanes area_ca = dot(normal, cross(ap, ac));
     const Lanes area_bc = squared_normal - area_ab - area_ca;
     const Lanes zero = splat(0.0);
-    const LaneMask inside =
-        (area_ab >= zero) & (area_ca >= zero) & (area_bc >= zero) & (squared_normal > splat(1e-280));
+    const Lanes squared_sides = dot(ab, ab) * dot(ac, ac);
+    const LaneMask inside = (area_ab >= zero) & (area_ca >= zero) & (area_bc >= zero) &
+                            (squared_normal > squared_sides * splat(flat_area * flat_area));
 
-    const Lanes height = dot(normal, ap) / lanes_max(squared_normal, splat(1e-300));
+    const Lanes height = dot(normal, best.offset) / lanes_max(squared_normal, splat(1e-300));
     const LanesVec3 offset = normal * height;
     const PackOffset plane{offset, dot(offset, offset)};
     return {select(inside, plane.offset, best.offset), select(inside, plane.squared, best.squared)};
+}
+
+// What is known of a pack after one look: no triangle of lane i is nearer to a point x than normal_i . x + offset_i.
+// Distance to a convex set lies above its tangents, so this stays true wherever x goes, and nearly exact while x slides
+// along the surface.
+struct PackBound {
+    LanesVec3 normal;
+    Lanes offset;  // (unit: meters)
+};
+
+inline PackBound bound_from(const PackOffset& seen, const LanesVec3& from) {
+    const Lanes distance = lanes_sqrt(seen.squared);
+    const LanesVec3 normal = seen.offset * (splat(1.0) / lanes_max(distance, splat(1e-150)));
+    return {normal, distance - dot(normal, from)};
+}
+
+inline Lanes least_distances(const PackBound& bound, const LanesVec3& point) {
+    return dot(bound.normal, point) + bound.offset;
 }
 
 // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle of the

@@ -98,7 +98,8 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             return;
         }
         const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
-        const double distance = std::sqrt(smallest(offset_from_triangles(packs_[index], exact).squared));
+        const PackOffset seen = offset_from_triangles(packs_[index], exact);
+        const double distance = std::sqrt(smallest(seen.squared));
         result.nearest = std::min(result.nearest, distance);
         if (distance > reach) {
             return;
@@ -107,7 +108,7 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             result.complete = false;
             return;
         }
-        out[result.count++] = {index, distance};
+        out[result.count++] = {bound_from(seen, exact), index};
     };
 
     Pending stack[stack_size];
@@ -120,7 +121,7 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             continue;
         }
         const BoxNode& node = nodes_[item.node];
-        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.data(),
+        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(),
                     stack, depth, leaf);
     }
     return result;
@@ -160,13 +161,13 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
         }
         const BoxNode& node = nodes_[item.node];
         push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(),
-                    packs_.data(), stack, depth, leaf);
+                    packs_.get(), stack, depth, leaf);
     }
     return found ? best : 2.0 * limit + 1.0;
 }
 
 std::size_t TriangleTree::bytes() const {
-    return nodes_.size() * sizeof(BoxNode) + packs_.size() * sizeof(TrianglePack) +
+    return nodes_.size() * sizeof(BoxNode) + ids_.size() / lane_count * sizeof(TrianglePack) +
            ids_.size() * sizeof(std::uint32_t);
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,10 +22,10 @@ using ParallelRunner = std::function<void(std::size_t count, const std::function
 
 void run_serially(std::size_t count, const std::function<void(std::size_t)>& task);
 
-// A pack near a query point, and the distance of its nearest triangle from that point.
+// A pack near a query point, and what the query has learnt about its distance.
 struct NearPack {
+    PackBound bound;
     std::uint32_t pack;
-    double distance;  // (unit: meters)
 };
 
 struct CollectResult {
@@ -39,7 +40,7 @@ public:
     static TriangleTree build(const TriangleMesh& mesh, const ParallelRunner& run = run_serially);
 
     // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's shape.
-    void refit(const TriangleMesh& moved);
+    void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
 
     // Every pack with a triangle within `reach` of the point, and the nearest distance up to `far` >= reach.
     CollectResult collect(const Vec3& point, double reach, double far, std::span<NearPack> out) const;
@@ -63,10 +64,11 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
-    void refit_bounds();
+    void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
+    void fit_boxes(const ParallelRunner& run);
 
-    std::vector<BoxNode> nodes_;  // parents before children
-    std::vector<TrianglePack> packs_;
+    std::vector<BoxNode> nodes_;             // parents before children
+    std::unique_ptr<TrianglePack[]> packs_;  // as many as ids_ holds groups of lane_count
     std::vector<std::uint32_t> ids_;
     Vec3 origin_{0.0};
     double radius_ = 0.0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "core/geometry/triangle_tree.hpp"
 
@@ -39,10 +40,10 @@ struct Box {
 };
 
 struct Primitive {
-    Box box;  // the w lanes hold the triangle's index (low) and nothing (high)
+    Float4 low, high;  // corners of its box; the w lanes hold the triangle's index (low) and nothing (high)
 
     std::uint32_t id() const {
-        const float bits = box.low[3];
+        const float bits = low[3];
         std::uint32_t index;
         __builtin_memcpy(&index, &bits, sizeof index);
         return index;
@@ -50,15 +51,15 @@ struct Primitive {
     void set_id(std::uint32_t index) {
         float bits;
         __builtin_memcpy(&bits, &index, sizeof bits);
-        box.low[3] = bits;
+        low[3] = bits;
     }
     Float4 doubled_center() const {
-        Float4 center = box.low + box.high;
+        Float4 center = low + high;
         center[3] = 0.0f;
         return center;
     }
     Box bounds() const {
-        Box plain = box;
+        Box plain{low, high};
         plain.low[3] = 0.0f;
         plain.high[3] = 0.0f;
         return plain;
@@ -163,8 +164,9 @@ public:
         place_origin(tree);
         Range all = make_primitives();
         build_nodes(tree, all);
-        fill_packs(tree);
-        tree.refit_bounds();
+        primitives_.reset();
+        tree.place_triangles(mesh_, run_);
+        tree.fit_boxes(run_);
         return tree;
     }
 
@@ -182,13 +184,12 @@ private:
     };
 
     void place_origin(TriangleTree& tree) {
+        // Of all vertices, used or not: any origin will do, the boxes only lose precision far from it.
         Vec3 low(std::numeric_limits<double>::infinity());
         Vec3 high(-std::numeric_limits<double>::infinity());
-        for (const auto& triangle : mesh_.triangles) {
-            for (const std::uint32_t corner : triangle) {
-                low = glm::min(low, mesh_.vertices[corner]);
-                high = glm::max(high, mesh_.vertices[corner]);
-            }
+        for (const Vec3& vertex : mesh_.vertices) {
+            low = glm::min(low, vertex);
+            high = glm::max(high, vertex);
         }
         tree.origin_ = 0.5 * (low + high);
         origin_ = tree.origin_;
@@ -201,11 +202,12 @@ private:
     }
 
     Range make_primitives() {
-        primitives_.resize(mesh_.triangles.size());
-        const std::size_t chunks = (primitives_.size() + chunk - 1) / chunk;
+        const std::size_t count = mesh_.triangles.size();
+        primitives_ = std::make_unique_for_overwrite<Primitive[]>(count);
+        const std::size_t chunks = (count + chunk - 1) / chunk;
         std::vector<Range> partial(chunks);
         run_(chunks, [&](std::size_t c) {
-            const std::size_t end = std::min(primitives_.size(), (c + 1) * chunk);
+            const std::size_t end = std::min(count, (c + 1) * chunk);
             for (std::size_t i = c * chunk; i < end; ++i) {
                 const auto& [a, b, d] = mesh_.triangles[i];
                 Box box;
@@ -213,12 +215,12 @@ private:
                 box.grow(to_float(mesh_.vertices[b]));
                 box.grow(to_float(mesh_.vertices[d]));
                 partial[c].bounds.grow(box);
-                primitives_[i].box = box;
+                primitives_[i] = {box.low, box.high};
                 partial[c].centers.grow(primitives_[i].doubled_center());
                 primitives_[i].set_id(static_cast<std::uint32_t>(i));
             }
         });
-        Range all{0, primitives_.size(), {}, {}};
+        Range all{0, count, {}, {}};
         for (const Range& part : partial) {
             all.bounds.grow(part.bounds);
             all.centers.grow(part.centers);
@@ -279,9 +281,8 @@ private:
         const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : (size[1] >= size[2] ? 1 : 2);
         const std::size_t packs = (range.size() + lane_count - 1) / lane_count;
         const std::size_t middle = range.begin + (packs / 2) * lane_count;
-        const auto first = primitives_.begin();
-        std::nth_element(first + static_cast<std::ptrdiff_t>(range.begin), first + static_cast<std::ptrdiff_t>(middle),
-                         first + static_cast<std::ptrdiff_t>(range.end), [axis](const Primitive& p, const Primitive& q) {
+        Primitive* const first = primitives_.get();
+        std::nth_element(first + range.begin, first + middle, first + range.end, [axis](const Primitive& p, const Primitive& q) {
                              const float a = p.doubled_center()[axis];
                              const float b = q.doubled_center()[axis];
                              return a < b || (a == b && p.id() < q.id());
@@ -302,11 +303,10 @@ private:
             return;
         }
         Box left_centers, right_centers;
-        const auto first = primitives_.begin();
+        Primitive* const first = primitives_.get();
         // A stable order is not needed, a repeatable one is: std::partition is a plain function of its input.
-        const auto middle = std::partition(
-            first + static_cast<std::ptrdiff_t>(range.begin), first + static_cast<std::ptrdiff_t>(range.end),
-            [&](const Primitive& primitive) {
+        const Primitive* const middle = std::partition(
+            first + range.begin, first + range.end, [&](const Primitive& primitive) {
                 const Float4 center = primitive.doubled_center();
                 const bool goes_left = scale.bins_of(center)[best.axis] <= best.bin;
                 (goes_left ? left_centers : right_centers).grow(center);
@@ -451,32 +451,11 @@ private:
         return first_node;
     }
 
-    void fill_packs(TriangleTree& tree) const {
-        tree.packs_.resize(tree.ids_.size() / lane_count);
-        const std::size_t chunks = (tree.packs_.size() + chunk - 1) / chunk;
-        run_(chunks, [&](std::size_t c) {
-            const std::size_t end = std::min(tree.packs_.size(), (c + 1) * chunk);
-            for (std::size_t p = c * chunk; p < end; ++p) {
-                TrianglePack& pack = tree.packs_[p];
-                LanesVec3* const corners[3] = {&pack.a, &pack.b, &pack.c};
-                for (std::size_t i = 0; i < lane_count; ++i) {
-                    const auto& triangle = mesh_.triangles[tree.ids_[p * lane_count + i]];
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const Vec3& corner = mesh_.vertices[triangle[k]];
-                        corners[k]->x[i] = corner.x;
-                        corners[k]->y[i] = corner.y;
-                        corners[k]->z[i] = corner.z;
-                    }
-                }
-            }
-        });
-    }
-
     const TriangleMesh& mesh_;
     const ParallelRunner& run_;
     const ParallelRunner serial_ = run_serially;
     Vec3 origin_{0.0};
-    std::vector<Primitive> primitives_;
+    std::unique_ptr<Primitive[]> primitives_;
 };
 
 TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner& run) {

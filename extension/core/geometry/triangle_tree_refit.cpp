@@ -51,55 +51,89 @@ Bounds around(const BoxNode& node) {
     return bounds;
 }
 
+// What one task has seen of the triangles.
+struct Extremes {
+    double squared_radius = 0.0;
+    double magnitude = 0.0;
+};
+
+constexpr std::size_t nodes_a_task = 4096;
+constexpr std::size_t packs_a_task = 16384;
+
 }  // namespace
 
-void TriangleTree::refit_bounds() {
-    double squared_radius = 0.0;
-    magnitude_ = 0.0;
-    for (std::size_t n = nodes_.size(); n-- > 0;) {
-        BoxNode& node = nodes_[n];
-        for (int i = 0; i < node_width; ++i) {
-            if (node.child[i] == BoxNode::unused) {
-                continue;
+void TriangleTree::place_triangles(const TriangleMesh& mesh, const ParallelRunner& run) {
+    const std::size_t count = ids_.size() / lane_count;
+    if (!packs_) {
+        packs_ = std::make_unique_for_overwrite<TrianglePack[]>(count);
+    }
+    run((count + packs_a_task - 1) / packs_a_task, [&](std::size_t task) {
+        const std::size_t end = std::min(count, (task + 1) * packs_a_task);
+        for (std::size_t p = task * packs_a_task; p < end; ++p) {
+            LanesVec3* const corners[3] = {&packs_[p].a, &packs_[p].b, &packs_[p].c};
+            for (std::size_t i = 0; i < lane_count; ++i) {
+                const auto& triangle = mesh.triangles[ids_[p * lane_count + i]];
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const Vec3& corner = mesh.vertices[triangle[k]];
+                    corners[k]->x[i] = corner.x;
+                    corners[k]->y[i] = corner.y;
+                    corners[k]->z[i] = corner.z;
+                }
             }
-            Bounds bounds;
-            if (node.child[i] & BoxNode::leaf_bit) {
-                const TrianglePack& triangles = packs_[node.child[i] & ~BoxNode::leaf_bit];
+        }
+    });
+}
+
+void TriangleTree::fit_boxes(const ParallelRunner& run) {
+    const std::size_t tasks = (nodes_.size() + nodes_a_task - 1) / nodes_a_task;
+    std::vector<Extremes> seen(tasks);
+    run(tasks, [&](std::size_t task) {
+        const std::size_t end = std::min(nodes_.size(), (task + 1) * nodes_a_task);
+        Extremes extremes;
+        for (std::size_t n = task * nodes_a_task; n < end; ++n) {
+            for (int i = 0; i < node_width; ++i) {
+                const std::uint32_t child = nodes_[n].child[i];
+                if (child == BoxNode::unused || !(child & BoxNode::leaf_bit)) {
+                    continue;
+                }
+                const TrianglePack& triangles = packs_[child & ~BoxNode::leaf_bit];
+                Bounds bounds;
                 grow(bounds, triangles.a);
                 grow(bounds, triangles.b);
                 grow(bounds, triangles.c);
                 const Vec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-                magnitude_ = std::max({magnitude_, largest.x, largest.y, largest.z});
-                bounds.low -= origin_;
-                bounds.high -= origin_;
-                const Vec3 far = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-                squared_radius = std::max(squared_radius, glm::dot(far, far));
-            } else {
-                bounds = around(nodes_[node.child[i]]);
+                extremes.magnitude = std::max({extremes.magnitude, largest.x, largest.y, largest.z});
+                const Vec3 far = glm::max(glm::abs(bounds.low - origin_), glm::abs(bounds.high - origin_));
+                extremes.squared_radius = std::max(extremes.squared_radius, glm::dot(far, far));
+                set_box(nodes_[n], i, bounds.low - origin_, bounds.high - origin_);
             }
-            set_box(node, i, bounds.low, bounds.high);
+        }
+        seen[task] = extremes;
+    });
+    Extremes all;
+    for (const Extremes& part : seen) {
+        all.squared_radius = std::max(all.squared_radius, part.squared_radius);
+        all.magnitude = std::max(all.magnitude, part.magnitude);
+    }
+    for (std::size_t n = nodes_.size(); n-- > 0;) {
+        for (int i = 0; i < node_width; ++i) {
+            const std::uint32_t child = nodes_[n].child[i];
+            if (child != BoxNode::unused && !(child & BoxNode::leaf_bit)) {
+                const Bounds bounds = around(nodes_[child]);
+                set_box(nodes_[n], i, bounds.low, bounds.high);
+            }
         }
     }
-    const Bounds all = around(nodes_[0]);
-    const Vec3 largest = glm::max(glm::abs(all.low), glm::abs(all.high));
+    const Bounds whole = around(nodes_[0]);
+    const Vec3 largest = glm::max(glm::abs(whole.low), glm::abs(whole.high));
     extent_ = std::max({largest.x, largest.y, largest.z});
-    radius_ = std::sqrt(squared_radius);
+    radius_ = std::sqrt(all.squared_radius);
+    magnitude_ = all.magnitude;
 }
 
-void TriangleTree::refit(const TriangleMesh& moved) {
-    for (std::size_t p = 0; p < packs_.size(); ++p) {
-        LanesVec3* const corners[3] = {&packs_[p].a, &packs_[p].b, &packs_[p].c};
-        for (std::size_t i = 0; i < lane_count; ++i) {
-            const auto& triangle = moved.triangles[ids_[p * lane_count + i]];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Vec3& corner = moved.vertices[triangle[k]];
-                corners[k]->x[i] = corner.x;
-                corners[k]->y[i] = corner.y;
-                corners[k]->z[i] = corner.z;
-            }
-        }
-    }
-    refit_bounds();
+void TriangleTree::refit(const TriangleMesh& moved, const ParallelRunner& run) {
+    place_triangles(moved, run);
+    fit_boxes(run);
 }
 
 }  // namespace tactus

@@ -8,6 +8,7 @@ namespace tactus {
 struct Contact {
     Vec3 point{0.0};             // on the surface, in the world (unit: meters)
     Vec3 normal{0.0, 1.0, 0.0};  // unit, from the surface to the proxy's centre, in the world
+    Vec3 force_direction{0.0, 1.0, 0.0};  // unit; the normal, or what force shading makes of it, in the world
     double gap = 0.0;            // distance still to the resting distance radius + skin (unit: meters)
     // How the distance bends with the proxy's place: second derivatives along u and cross(normal, u) (unit: 1/meter).
     Vec3 u{1.0, 0.0, 0.0};

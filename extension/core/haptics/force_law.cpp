@@ -35,7 +35,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Contact> touchi
         ContactForce& part = force.contacts[force.contact_count++];
         part.body = contact.body;
         part.point = contact.point;
-        part.on_hand = contact.normal * std::max(0.0, spring + damper) - held * material.stiffness;
+        part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * material.stiffness;
         force.total += part.on_hand;
     }
     return force;

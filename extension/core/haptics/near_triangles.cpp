@@ -68,6 +68,12 @@ Contact NearTriangles::contact(int index, const ScenePart& part, double rest) co
     contact.point = to_parent(part.pose, near.closest.point);
     contact.pivot = contact.point;  // an edge or a corner is the centre of its own curvature
     contact.normal = direction_to_parent(part.pose, normal);
+    contact.force_direction = contact.normal;
+    if (part.part->smooth_normals) {
+        const Vec3 smooth = interpolated_normal((*part.part->smooth_normals)[near.id], near.a, near.b, near.c,
+                                                near.closest.point, normal);
+        contact.force_direction = direction_to_parent(part.pose, smooth);
+    }
     contact.u = direction_to_parent(part.pose, u);
     contact.gap = near.distance - rest;
     contact.body = static_cast<int>(part.body);

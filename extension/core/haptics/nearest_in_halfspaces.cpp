@@ -42,6 +42,8 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace>
 
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
+    double low_slope = 0.0;
+    double high_slope = 0.0;
     int low_plane = -1;
     int high_plane = -1;
     for (int k = 0; k < second; ++k) {
@@ -55,13 +57,20 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace>
             best.feasible = best.feasible && missing <= tolerance;
         } else if (slope > 0.0 && missing / slope > low) {
             low = missing / slope;
+            low_slope = slope;
             low_plane = k;
         } else if (slope < 0.0 && missing / slope < high) {
             high = missing / slope;
+            high_slope = -slope;
             high_plane = k;
         }
     }
-    best.feasible = best.feasible && low <= high + tolerance;
+    // A bound along the line is a distance from its plane over the slope: what counts is by how much the plane that is
+    // met at a shallow angle would be missed at the other's bound, not how far apart the bounds are.
+    if (low > high) {
+        best.feasible = best.feasible && (low - high) * std::min(low_slope, high_slope) <= tolerance;
+        low = high = low_slope > high_slope ? low : high;
+    }
     best.active[0] = first;
     best.active[1] = second;
     best.active_count = 2;

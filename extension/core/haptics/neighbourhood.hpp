@@ -1,8 +1,8 @@
 // What a proxy remembers about the triangles around it. Consecutive ticks ask almost the same question: the packs
-// found within `reach` of one place answer for every place until the proxy has travelled out of them.
+// found within `reach` of one place answer for every place until the proxy has travelled out of them, and most of them
+// by their bound alone.
 //
-// Travel is measured by an odometer that only grows: the length of the proxy's path relative to the part. A pack found
-// at distance d when the odometer stood at o is at least d - (now - o) away now.
+// Travel is measured by an odometer that only grows: the length of the proxy's path relative to the part.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace tactus {
 struct Neighbourhood {
     static constexpr std::size_t capacity = 224;  // packs
 
-    std::array<NearPack, capacity> packs;  // distance: odometer reading at which the pack could be touched by a point
+    std::array<NearPack, capacity> packs;
     std::size_t count = 0;
     double covered_until = -1.0;  // odometer + distance up to which every pack is known
 
@@ -24,9 +24,6 @@ struct Neighbourhood {
         const CollectResult found = tree.collect(point, reach, reach, packs);
         count = found.complete ? found.count : 0;
         covered_until = found.complete ? odometer + reach : -1.0;
-        for (std::size_t i = 0; i < count; ++i) {
-            packs[i].distance += odometer;
-        }
         return found.complete;
     }
 };

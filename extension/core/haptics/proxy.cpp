@@ -15,45 +15,52 @@ bool Proxy::appear(const Vec3& hand) {
     const double room = settings_.radius * (1.0 - 1e-3);
     position_ = hand;
     present_ = surroundings_.clearance(hand, 2.0 * room) >= room;
+    surroundings_.invalidate();
     return present_;
 }
 
 // Straight on until something is in the way.
-void Proxy::advance(const Vec3& motion, bool& free) {
-    const double t = surroundings_.sweep(position_, motion);
+void Proxy::advance(const Vec3& motion, bool& free, int except) {
+    const double t = surroundings_.sweep(position_, motion, except);
     free = t > 1.0;
     const Vec3 moved = free ? motion : motion * t;
     position_ += moved;
     surroundings_.travelled(glm::length(moved));
 }
 
+// The moving body that the proxy rests on most.
+int Proxy::carrier() const {
+    int body = -1;
+    double most_pressure = 0.0;
+    for (const Contact& contact : touching()) {
+        if (contact.pressure > most_pressure && scene_->body(contact.body).moved) {
+            body = contact.body;
+            most_pressure = contact.pressure;
+        }
+    }
+    return body;
+}
+
 // A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way leads
-// through anything else.
+// through anything but the body that causes it, which stands at its new place already.
 void Proxy::ride_along(ProxyTick& tick) {
     if (scene_->moved_bodies().empty()) {
         return;
     }
-    int carrier = -1;
-    double most_pressure = 0.0;
-    for (const Contact& contact : touching()) {
-        if (contact.pressure > most_pressure && scene_->body(contact.body).moved) {
-            carrier = contact.body;
-            most_pressure = contact.pressure;
-        }
-    }
     bool free = true;
-    if (carrier >= 0) {
-        const TouchBody& body = scene_->body(carrier);
+    const int carried_by = carrier();
+    if (carried_by >= 0) {
+        const TouchBody& body = scene_->body(carried_by);
         const Vec3 carried = to_parent(body.pose, to_local(body.previous, position_));
-        advance(carried - position_, free);
+        advance(carried - position_, free, carried_by);
     }
-    const Vec3 push = surroundings_.pushed_by_moving_parts(position_, free ? carrier : -1);
-    if (push != Vec3(0.0)) {
-        bool pushed_freely = true;
-        advance(push, pushed_freely);
-        free = free && pushed_freely;
+    bool squeezed = !free;
+    Surroundings::Push push;
+    for (std::size_t from = 0; surroundings_.next_push(from, position_, free ? carried_by : -1, push);) {
+        advance(push.displacement, free, push.body);
+        squeezed = squeezed || !free;
     }
-    if (!free) {
+    if (squeezed) {
         tick.status |= proxy_squeezed;
     }
 }
@@ -76,17 +83,24 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
     touching_.clear();
     for (int i = 0; i < step.pressing_count; ++i) {
         Contact contact = contacts_.items[static_cast<std::size_t>(step.pressing[i])];
-        contact.pressure = step.pressure[i];
+        // Where moving bodies squeeze the proxy it cannot get out of their way: what they overlap it by presses, too.
+        contact.pressure = step.pressure[i] + std::max(0.0, -contact.gap - surroundings_.tolerances().skin);
         touching_.add(contact);
     }
 }
 
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Tolerances& tolerances = surroundings_.tolerances();
+    touching_.clear();
+    if (const double way = glm::length(hand - position_); surroundings_.is_clear(way)) {
+        position_ = hand;
+        surroundings_.travelled(way);
+        sliding_ = false;
+        return;
+    }
     bool slid = false;
     bool keep_all = false;
     ConstrainedStep step;
-    touching_.clear();
     for (tick.steps = 0; tick.steps < settings_.most_steps; ++tick.steps) {
         surroundings_.find_contacts(position_, contacts_, keep_all);
         step = constrained_step(hand - position_, contacts_.all(), tolerances.same, stretch_);
@@ -129,11 +143,14 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& hand) {
     ProxyTick tick;
     scene_ = &scene;
     surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
-    if (!present_ && !appear(hand)) {
-        tick.position = hand;
-        tick.status = proxy_absent;
+    if (!present_) {
         touching_.clear();
-        return tick;
+        if (!appear(hand)) {
+            tick.position = hand;
+            tick.status = proxy_absent;
+            return tick;
+        }
+        surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
     }
     ride_along(tick);
     descend(hand, tick);

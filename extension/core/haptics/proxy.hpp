@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <span>
 
 #include "core/haptics/constrained_step.hpp"
@@ -50,14 +51,25 @@ public:
     const Vec3& position() const { return position_; }
 
     // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
-    void displace(const Vec3& offset) { position_ += offset; }
+    void displace(const Vec3& offset) {
+        position_ += offset;
+        surroundings_.travelled(glm::length(offset));
+    }
+    // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
+    bool pass_through(int body) { return surroundings_.pass_through(body); }
+
     // As if just started: present again as soon as the hand is in a free place.
-    void restart() { present_ = false; }
+    void restart() {
+        present_ = false;
+        sliding_ = false;
+        touching_.clear();
+    }
 
 private:
     bool appear(const Vec3& hand);
     void ride_along(ProxyTick& tick);
-    void advance(const Vec3& motion, bool& free);
+    void advance(const Vec3& motion, bool& free, int except = -1);
+    int carrier() const;
     void descend(const Vec3& hand, ProxyTick& tick);
     double friction_limit(const ConstrainedStep& step) const;
     void keep_touching(const ConstrainedStep& step);

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/haptics/nearest_surface.hpp"
+
 namespace tactus {
 
 namespace {
@@ -62,7 +64,37 @@ void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
             record.slack += body.moved_by;
         }
     }
+    return_passed(center);
     retire_distant_parts();
+}
+
+bool Surroundings::pass_through(int body) {
+    if (passed_count_ == most_passed) {
+        return false;
+    }
+    passed_[passed_count_++] = body;
+    return true;
+}
+
+bool Surroundings::is_passed(std::uint32_t body) const {
+    for (std::size_t i = 0; i < passed_count_; ++i) {
+        if (passed_[i] == static_cast<int>(body)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void Surroundings::return_passed(const Vec3& center) {
+    const double room = radius_ + tolerances_.skin;
+    for (std::size_t i = 0; i < passed_count_;) {
+        const bool gone = !scene_->body(passed_[i]).shape;
+        if (gone || nearest_surface(*scene_, passed_[i], center, 2.0 * room).distance >= room) {
+            passed_[i] = passed_[--passed_count_];
+        } else {
+            ++i;
+        }
+    }
 }
 
 // Everything is far and due at once: the first question looks at each part again.
@@ -204,6 +236,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     }
     Contact contact;
     contact.normal = direction_to_parent(placed.pose, at.normal);
+    contact.force_direction = contact.normal;
     contact.u = direction_to_parent(placed.pose, at.u);
     contact.point = to_parent(placed.pose, local - at.normal * at.distance);
     contact.gap = at.distance - rest;
@@ -229,26 +262,26 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
     Record& record = records_[index];
     const double now = odometer_for(record);
     const auto look = [&](std::uint32_t pack) {
-        const Lanes squared = offset_from_triangles(tree.pack(pack), center).squared;
-        const double least = smallest(squared);
-        if (least <= squared_limit) {
-            for (int i = 0; i < lane_count; ++i) {
-                if (squared[i] <= squared_limit) {
-                    near.add(tree, pack, i, local);
-                }
+        const PackOffset seen = offset_from_triangles(tree.pack(pack), center);
+        for (int i = 0; i < lane_count; ++i) {
+            if (seen.squared[i] <= squared_limit) {
+                near.add(tree, pack, i, local);
             }
         }
-        return std::sqrt(least);
+        return seen;
     };
     if (hood) {
-        nearest = hood->covered_until - now;
+        Lanes least = splat(hood->covered_until - now);
         for (std::size_t i = 0; i < hood->count; ++i) {
             NearPack& remembered = hood->packs[i];
-            if (remembered.distance - now <= limit) {
-                remembered.distance = now + look(remembered.pack);
+            Lanes distances = least_distances(remembered.bound, center);
+            if (any(distances <= splat(limit))) {
+                remembered.bound = bound_from(look(remembered.pack), center);
+                distances = least_distances(remembered.bound, center);
             }
-            nearest = std::min(nearest, remembered.distance - now);
+            least = lanes_min(least, distances);
         }
+        nearest = smallest(least);
     } else {
         std::array<NearPack, Neighbourhood::capacity> packs;
         const CollectResult found = tree.collect(local, limit, limit, packs);
@@ -265,6 +298,15 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, Co
     }
 }
 
+bool Surroundings::is_clear(double length) const {
+    if (!far_.empty() && far_.front().due <= odometer_ + length) {
+        return false;
+    }
+    return std::ranges::all_of(near_, [&](std::uint32_t index) {
+        return records_[index].clear_until > odometer_for(records_[index]) + length;
+    });
+}
+
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep_all) {
     out.clear();
     bring_near(2.0 * tolerances_.reach, center);
@@ -274,6 +316,9 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep
             continue;
         }
         const ScenePart& placed = scene_->parts()[index];
+        if (is_passed(placed.body)) {
+            continue;
+        }
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
             find_tree_contacts(index, local, out, keep_all);
@@ -300,7 +345,7 @@ double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Ve
         const double now = odometer_for(records_[index]);
         const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
         const double covered = std::min(limit, std::max(reached, 0.0));
-        const double t = sweep_hood(*hood, tree, start, motion, length, covered, now);
+        const double t = sweep_hood(*hood, tree, start, motion, covered);
         if (t <= covered || reached >= limit) {
             return t <= covered ? t : 2.0 * limit + 1.0;
         }
@@ -309,48 +354,42 @@ double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Ve
 }
 
 double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
-                                const Vec3& motion, double length, double limit, double now) const {
+                                const Vec3& motion, double limit) const {
     const double stop = radius_ + tolerances_.stop;
-    const double untouched = now + stop + tolerances_.arrival;
-    // The nearest first: its hit shortens the way for all others.
-    std::size_t first = 0;
-    for (std::size_t i = 1; i < hood.count; ++i) {
-        first = hood.packs[i].distance < hood.packs[first].distance ? i : first;
-    }
+    const Lanes reached = splat(stop + tolerances_.arrival);
     double best = limit;
     bool found = false;
-    const auto sweep_pack = [&](const NearPack& remembered) {
-        if (remembered.distance - untouched > best * length) {
-            return;
+    // Bounds are linear: a pack that neither end of the way can touch is not touched between them.
+    const LanesVec3 from = splat(start);
+    LanesVec3 to = splat(start + motion * best);
+    for (std::size_t i = 0; i < hood.count; ++i) {
+        const NearPack& remembered = hood.packs[i];
+        const Lanes least =
+            lanes_min(least_distances(remembered.bound, from), least_distances(remembered.bound, to));
+        if (!any(least <= reached)) {
+            continue;
         }
         const double t = sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
-        }
-    };
-    if (hood.count > 0) {
-        sweep_pack(hood.packs[first]);
-    }
-    for (std::size_t i = 0; i < hood.count; ++i) {
-        if (i != first) {
-            sweep_pack(hood.packs[i]);
+            to = splat(start + motion * best);
         }
     }
     return found ? best : 2.0 * limit + 1.0;
 }
 
-double Surroundings::sweep(const Vec3& center, const Vec3& motion) {
+double Surroundings::sweep(const Vec3& center, const Vec3& motion, int except) {
     const double length = glm::length(motion);
     bring_near(length, center);
     double best = 1.0;
     bool found = false;
     for (const std::uint32_t index : near_) {
         const Record& record = records_[index];
-        if (record.clear_until > odometer_for(record) + best * length) {
+        const ScenePart& placed = scene_->parts()[index];
+        if (static_cast<int>(placed.body) == except || is_passed(placed.body) || record.clear_until > odometer_for(record) + best * length) {
             continue;
         }
-        const ScenePart& placed = scene_->parts()[index];
         const Vec3 start = to_local(placed.pose, center);
         const Vec3 way = direction_to_local(placed.pose, motion);
         const double t = placed.part->tree() ? sweep_tree(index, start, way, length, best)
@@ -366,42 +405,38 @@ double Surroundings::sweep(const Vec3& center, const Vec3& motion) {
 
 // Seen from a moving part, the proxy is what moves. Where its way in the part's frame meets a surface, the part ran
 // into the proxy there, and takes it along from that place on.
-Vec3 Surroundings::pushed_by_moving_parts(const Vec3& center, int carrier) {
-    Vec3 push(0.0);
-    for (const std::uint32_t index : near_) {
+bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier, Push& push) {
+    while (from < near_.size()) {
+        const std::uint32_t index = near_[from++];
         const ScenePart& placed = scene_->parts()[index];
         const TouchBody& body = scene_->body(static_cast<int>(placed.body));
         const Record& record = records_[index];
-        if (!body.moved || static_cast<int>(placed.body) == carrier || record.clear_until > odometer_for(record)) {
+        if (!body.moved || static_cast<int>(placed.body) == carrier || is_passed(placed.body) || record.clear_until > odometer_for(record)) {
             continue;
         }
-        const Vec3 before = to_local(placed.previous, center + push);
-        const Vec3 after = to_local(placed.pose, center + push);
-        const Vec3 way = after - before;
+        const Vec3 before = to_local(placed.previous, center);
+        const Vec3 way = to_local(placed.pose, center) - before;
         const double stop = radius_ + tolerances_.stop;
         const double t = placed.part->tree()
                              ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0)
                              : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
         if (t < 1.0) {
-            push = to_parent(placed.pose, before + way * t) - center;
+            push = {static_cast<int>(placed.body), to_parent(placed.pose, before + way * t) - center};
+            return true;
         }
     }
-    return push;
+    return false;
 }
 
 double Surroundings::clearance(const Vec3& center, double far) const {
     double nearest = far;
+    std::uint32_t looked_at = 0xffff'ffffu;
     for (const ScenePart& placed : scene_->parts()) {
-        if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
-            continue;
+        const bool touchable = placed.part && (scene_->body(static_cast<int>(placed.body)).layer & mask_) != 0;
+        if (touchable && placed.body != looked_at) {
+            looked_at = placed.body;
+            nearest = nearest_surface(*scene_, static_cast<int>(placed.body), center, nearest).distance;
         }
-        const Vec3 local = to_local(placed.pose, center);
-        if (glm::length(local - placed.part->center) - placed.part->radius >= nearest) {
-            continue;
-        }
-        const double distance = placed.part->tree() ? placed.part->tree()->collect(local, 0.0, nearest, {}).nearest
-                                                    : distance_to_solid(placed.part->solid(), local).distance;
-        nearest = std::min(nearest, distance);
     }
     return nearest;
 }

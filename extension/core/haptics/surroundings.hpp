@@ -42,16 +42,32 @@ public:
     // The proxy has moved by `length`, or a way of that length is about to be asked for.
     void travelled(double length) { odometer_ += length; }
 
+    // True where nothing can be met within `length` of the centre, as far as is already known.
+    bool is_clear(double length) const;
+
     // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and corners
     // that another triangle covers (see NearTriangles).
     void find_contacts(const Vec3& center, ContactList& out, bool keep_all = false);
 
-    // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1: free.
-    double sweep(const Vec3& center, const Vec3& motion);
+    // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1: free. The
+    // body `except` is not in the way: the one that causes the motion.
+    double sweep(const Vec3& center, const Vec3& motion, int except = -1);
 
-    // Where the parts that moved since the last tick push the proxy: the displacement that keeps it from being passed.
-    // A part whose body is `carrier` does not count: the proxy already moved with it.
-    Vec3 pushed_by_moving_parts(const Vec3& center, int carrier);
+    // The next part near the proxy, counting from `from`, that has run into it since the last tick; false where there is
+    // none. `displacement` is what keeps the proxy from being passed. The body `carrier` does not count: the proxy
+    // already moved with it.
+    struct Push {
+        int body = -1;
+        Vec3 displacement{0.0};
+    };
+    bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
+
+    // The body is no longer in the way, until the sphere is clear of its surface again. At most four at a time; false where
+    // there are four already.
+    bool pass_through(int body);
+
+    // Everything remembered is void: the proxy has been put elsewhere.
+    void invalidate() { revision_ = 0; }
 
     // Distance from the centre to the nearest surface, up to `far`. Negative inside a solid.
     double clearance(const Vec3& center, double far) const;
@@ -76,6 +92,8 @@ private:
     };
 
     void forget(const Vec3& center);
+    bool is_passed(std::uint32_t body) const;
+    void return_passed(const Vec3& center);
     void bring_near(double length, const Vec3& center);
     void make_near(std::uint32_t part);
     void send_far(std::uint32_t part, double distance);
@@ -85,9 +103,11 @@ private:
     Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
     double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start, const Vec3& motion,
-                      double length, double limit, double now) const;
+                      double limit) const;
     void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
+
+    static constexpr std::size_t most_passed = 4;
 
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
@@ -100,6 +120,8 @@ private:
     std::vector<Record> records_;
     std::vector<Far> far_;  // a heap, soonest due on top
     std::vector<std::uint32_t> near_;
+    std::array<int, most_passed> passed_{};
+    std::size_t passed_count_ = 0;
     std::vector<Neighbourhood> hoods_;
     std::vector<std::int16_t> free_hoods_;
     std::unique_ptr<NearTriangles> near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time

@@ -38,11 +38,12 @@ public:
 
 namespace internal {
 
-// A static object of this type (made by doc_data.py) carries the class reference of the extension's own classes into
-// the library; the editor gets it when it starts. The data is zlib-compressed XML.
+// A static object of this type (made by doc_data.py) carries the class reference of the extension's own
+// classes into the library; the editor gets it when it starts. The data is zlib-compressed XML.
 class DocDataRegistration {
 public:
-    DocDataRegistration(const char* hash, int uncompressed_size, int compressed_size, const unsigned char* data);
+    DocDataRegistration(const char* hash, int uncompressed_size, int compressed_size,
+                        const unsigned char* data);
 };
 
 }  // namespace internal

@@ -4,7 +4,8 @@
 //
 // * An engine object seen from here (a Camera3D in the scene) gets one C++ wrapper, kept by the engine as the
 //   object's "instance binding" and freed with it.
-// * An object of one of our own classes has its C++ half as "extension instance"; the same pointer is its binding.
+// * An object of one of our own classes has its C++ half as "extension instance"; the same pointer is its
+// binding.
 //
 // A wrapper never owns the engine object. Threads: as for the engine object itself.
 
@@ -31,7 +32,8 @@ struct Construction {
     GodotObject* existing_object = nullptr;  // set when an extension is reloaded under a living object
 };
 
-// Announces a Construction to the next Wrapped constructor of this thread; the one before it comes back in finish().
+// Announces a Construction to the next Wrapped constructor of this thread; the one before it comes back in
+// finish().
 class ConstructionScope {
 public:
     explicit ConstructionScope(const Construction& construction);
@@ -83,27 +85,29 @@ protected:
 }  // namespace godot
 
 // Stands first in every class that is registered with Godot.
-#define GDCLASS(m_class, m_inherits)                                                        \
-private:                                                                                    \
-    friend class ::godot::ClassDB;                                                          \
-    friend struct ::godot::internal::ClassAccess;                                           \
-                                                                                            \
-public:                                                                                     \
-    using self_type = m_class;                                                              \
-    using parent_type = m_inherits;                                                         \
-    static constexpr bool is_engine_class = false;                                          \
-    static const ::godot::StringName& get_class_static() {                                  \
-        static const ::godot::internal::InternedName name(#m_class);                        \
-        return name.get();                                                                  \
-    }                                                                                       \
-    static const ::godot::StringName& get_parent_class_static() { return m_inherits::get_class_static(); } \
-                                                                                            \
-protected:                                                                                  \
-    template <class T, class B>                                                             \
-    static void register_virtuals() {                                                       \
-        m_inherits::template register_virtuals<T, B>();                                     \
-    }                                                                                       \
-                                                                                            \
+#define GDCLASS(m_class, m_inherits)                                 \
+private:                                                             \
+    friend class ::godot::ClassDB;                                   \
+    friend struct ::godot::internal::ClassAccess;                    \
+                                                                     \
+public:                                                              \
+    using self_type = m_class;                                       \
+    using parent_type = m_inherits;                                  \
+    static constexpr bool is_engine_class = false;                   \
+    static const ::godot::StringName& get_class_static() {           \
+        static const ::godot::internal::InternedName name(#m_class); \
+        return name.get();                                           \
+    }                                                                \
+    static const ::godot::StringName& get_parent_class_static() {    \
+        return m_inherits::get_class_static();                       \
+    }                                                                \
+                                                                     \
+protected:                                                           \
+    template <class T, class B>                                      \
+    static void register_virtuals() {                                \
+        m_inherits::template register_virtuals<T, B>();              \
+    }                                                                \
+                                                                     \
 private:
 
 // The same for the generated wrappers of engine classes.
@@ -116,7 +120,9 @@ public:                                                                         
         static const ::godot::internal::InternedName name(#m_class);                        \
         return name.get();                                                                  \
     }                                                                                       \
-    static const ::godot::StringName& get_parent_class_static() { return m_inherits::get_class_static(); } \
+    static const ::godot::StringName& get_parent_class_static() {                           \
+        return m_inherits::get_class_static();                                              \
+    }                                                                                       \
     m_class() : m_inherits(get_class_static()) {}                                           \
     explicit m_class(::godot::GodotObject* object) : m_inherits(object) {}                  \
                                                                                             \

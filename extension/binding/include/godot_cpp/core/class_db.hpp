@@ -44,30 +44,34 @@ public:
     static void register_internal_class() {
         register_with<T>(false, false, false, false);
     }
-    // In the editor such a class is only a placeholder with the same properties: its code runs in the game alone.
+    // In the editor such a class is only a placeholder with the same properties: its code runs in the game
+    // alone.
     template <class T>
     static void register_runtime_class() {
         register_with<T>(false, false, true, true);
     }
 
     template <class M, class... Defaults>
-    static MethodBind* bind_method(const MethodDefinition& definition, M method, const Defaults&... defaults) {
+    static MethodBind* bind_method(const MethodDefinition& definition, M method,
+                                   const Defaults&... defaults) {
         return add_method(current_class(), definition, create_method_bind(method), {Variant(defaults)...});
     }
 
     template <class M, class... Defaults>
     static MethodBind* bind_static_method(const StringName& class_name, const MethodDefinition& definition,
                                           M function, const Defaults&... defaults) {
-        return add_method(class_name, definition, create_static_method_bind(function), {Variant(defaults)...});
+        return add_method(class_name, definition, create_static_method_bind(function),
+                          {Variant(defaults)...});
     }
 
     static void add_property_group(const StringName& class_name, const String& name, const String& prefix);
     static void add_property_subgroup(const StringName& class_name, const String& name, const String& prefix);
-    static void add_property(const StringName& class_name, const PropertyInfo& property, const StringName& setter,
-                             const StringName& getter, int index = -1);
+    static void add_property(const StringName& class_name, const PropertyInfo& property,
+                             const StringName& setter, const StringName& getter, int index = -1);
     static void add_signal(const StringName& class_name, const MethodInfo& signal);
     static void bind_integer_constant(const StringName& class_name, const StringName& enum_name,
-                                      const StringName& constant_name, int64_t value, bool is_bitfield = false);
+                                      const StringName& constant_name, int64_t value,
+                                      bool is_bitfield = false);
     static void bind_virtual_method(const StringName& class_name, const StringName& method,
                                     GDExtensionClassCallVirtual call);
 
@@ -84,7 +88,8 @@ private:
         internal::ClassAccess::register_virtuals<T>();
     }
 
-    static void begin_class(const StringName& name, const StringName& parent, GDExtensionClassCreationInfo4& info);
+    static void begin_class(const StringName& name, const StringName& parent,
+                            GDExtensionClassCreationInfo4& info);
     static const StringName& current_class();
     static MethodBind* add_method(const StringName& class_name, const MethodDefinition& definition,
                                   MethodBind* bind, std::vector<Variant> defaults);
@@ -99,7 +104,8 @@ private:
 #define GDREGISTER_RUNTIME_CLASS(m_class) ::godot::ClassDB::register_runtime_class<m_class>();
 
 #define ADD_GROUP(m_name, m_prefix) ::godot::ClassDB::add_property_group(get_class_static(), m_name, m_prefix)
-#define ADD_SUBGROUP(m_name, m_prefix) ::godot::ClassDB::add_property_subgroup(get_class_static(), m_name, m_prefix)
+#define ADD_SUBGROUP(m_name, m_prefix) \
+    ::godot::ClassDB::add_property_subgroup(get_class_static(), m_name, m_prefix)
 #define ADD_PROPERTY(m_property, m_setter, m_getter) \
     ::godot::ClassDB::add_property(get_class_static(), m_property, m_setter, m_getter)
 #define ADD_PROPERTYI(m_property, m_setter, m_getter, m_index) \
@@ -108,11 +114,11 @@ private:
 
 #define BIND_CONSTANT(m_constant) \
     ::godot::ClassDB::bind_integer_constant(get_class_static(), "", #m_constant, m_constant);
-#define BIND_ENUM_CONSTANT(m_constant)                                                                          \
-    ::godot::ClassDB::bind_integer_constant(get_class_static(),                                                 \
-                                            ::godot::_gde_constant_get_enum_name(m_constant, #m_constant),      \
+#define BIND_ENUM_CONSTANT(m_constant)                                                                     \
+    ::godot::ClassDB::bind_integer_constant(get_class_static(),                                            \
+                                            ::godot::_gde_constant_get_enum_name(m_constant, #m_constant), \
                                             #m_constant, static_cast<int64_t>(m_constant));
-#define BIND_BITFIELD_FLAG(m_constant)                                                                          \
-    ::godot::ClassDB::bind_integer_constant(get_class_static(),                                                 \
-                                            ::godot::_gde_constant_get_enum_name(m_constant, #m_constant),      \
+#define BIND_BITFIELD_FLAG(m_constant)                                                                     \
+    ::godot::ClassDB::bind_integer_constant(get_class_static(),                                            \
+                                            ::godot::_gde_constant_get_enum_name(m_constant, #m_constant), \
                                             #m_constant, static_cast<int64_t>(m_constant), true);

@@ -53,16 +53,36 @@ inline bool is_equal_approx(double a, double b) {
 inline bool is_equal_approx(float a, float b) {
     return is_equal_approx(static_cast<double>(a), static_cast<double>(b));
 }
-inline bool is_zero_approx(double value) { return std::abs(value) < CMP_EPSILON; }
-inline bool is_finite(double value) { return std::isfinite(value); }
-inline bool is_nan(double value) { return std::isnan(value); }
-inline bool is_inf(double value) { return std::isinf(value); }
-inline double deg_to_rad(double degrees) { return degrees * (Math_PI / 180.0); }
-inline float deg_to_rad(float degrees) { return degrees * static_cast<float>(Math_PI / 180.0); }
-inline double rad_to_deg(double radians) { return radians * (180.0 / Math_PI); }
-inline float rad_to_deg(float radians) { return radians * static_cast<float>(180.0 / Math_PI); }
-inline double lerp(double from, double to, double weight) { return from + (to - from) * weight; }
-inline float lerp(float from, float to, float weight) { return from + (to - from) * weight; }
+inline bool is_zero_approx(double value) {
+    return std::abs(value) < CMP_EPSILON;
+}
+inline bool is_finite(double value) {
+    return std::isfinite(value);
+}
+inline bool is_nan(double value) {
+    return std::isnan(value);
+}
+inline bool is_inf(double value) {
+    return std::isinf(value);
+}
+inline double deg_to_rad(double degrees) {
+    return degrees * (Math_PI / 180.0);
+}
+inline float deg_to_rad(float degrees) {
+    return degrees * static_cast<float>(Math_PI / 180.0);
+}
+inline double rad_to_deg(double radians) {
+    return radians * (180.0 / Math_PI);
+}
+inline float rad_to_deg(float radians) {
+    return radians * static_cast<float>(180.0 / Math_PI);
+}
+inline double lerp(double from, double to, double weight) {
+    return from + (to - from) * weight;
+}
+inline float lerp(float from, float to, float weight) {
+    return from + (to - from) * weight;
+}
 inline double snapped(double value, double step) {
     return step == 0.0 ? value : std::floor(value / step + 0.5) * step;
 }

@@ -44,8 +44,8 @@ void memdelete(T* object) {
 #define memnew(m_class) \
     (::godot::internal::Made<std::remove_pointer_t<decltype(new m_class)>>().finish(new m_class))
 
-#define memdelete_notnull(m_pointer)       \
-    if (m_pointer) {                       \
-        ::godot::memdelete(m_pointer);     \
-    } else                                 \
+#define memdelete_notnull(m_pointer)   \
+    if (m_pointer) {                   \
+        ::godot::memdelete(m_pointer); \
+    } else                             \
         ((void)0)

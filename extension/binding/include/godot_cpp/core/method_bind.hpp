@@ -53,7 +53,8 @@ void call_with_variants(const Invoke& invoke, const Variant* const* arguments, V
     if constexpr (std::is_void_v<R>) {
         invoke(VariantCaster<A>::cast(*arguments[I])...);
     } else {
-        *result = VariantMaker<std::remove_cvref_t<R>>::make(invoke(VariantCaster<A>::cast(*arguments[I])...));
+        *result =
+            VariantMaker<std::remove_cvref_t<R>>::make(invoke(VariantCaster<A>::cast(*arguments[I])...));
     }
 }
 

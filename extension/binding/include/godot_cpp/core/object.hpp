@@ -21,7 +21,8 @@ struct MethodInfo {
     MethodInfo() = default;
 
     template <class... A>
-    explicit MethodInfo(const StringName& p_name, const A&... p_arguments) : name(p_name), arguments{p_arguments...} {}
+    explicit MethodInfo(const StringName& p_name, const A&... p_arguments)
+        : name(p_name), arguments{p_arguments...} {}
 
     template <class... A>
     MethodInfo(const PropertyInfo& p_return, const StringName& p_name, const A&... p_arguments)

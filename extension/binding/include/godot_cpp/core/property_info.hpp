@@ -22,17 +22,22 @@ struct PropertyInfo {
     PropertyInfo(Variant::Type p_type, const StringName& p_name, PropertyHint p_hint = PROPERTY_HINT_NONE,
                  const String& p_hint_string = "", uint32_t p_usage = PROPERTY_USAGE_DEFAULT,
                  const StringName& p_class_name = "")
-        : type(p_type), name(p_name), class_name(p_class_name), hint(p_hint), hint_string(p_hint_string),
+        : type(p_type),
+          name(p_name),
+          class_name(p_class_name),
+          hint(p_hint),
+          hint_string(p_hint_string),
           usage(p_usage) {
         if (hint == PROPERTY_HINT_RESOURCE_TYPE) {
             class_name = hint_string;
         }
     }
 
-    PropertyInfo(GDExtensionVariantType p_type, const StringName& p_name, PropertyHint p_hint = PROPERTY_HINT_NONE,
-                 const String& p_hint_string = "", uint32_t p_usage = PROPERTY_USAGE_DEFAULT,
-                 const StringName& p_class_name = "")
-        : PropertyInfo(static_cast<Variant::Type>(p_type), p_name, p_hint, p_hint_string, p_usage, p_class_name) {}
+    PropertyInfo(GDExtensionVariantType p_type, const StringName& p_name,
+                 PropertyHint p_hint = PROPERTY_HINT_NONE, const String& p_hint_string = "",
+                 uint32_t p_usage = PROPERTY_USAGE_DEFAULT, const StringName& p_class_name = "")
+        : PropertyInfo(static_cast<Variant::Type>(p_type), p_name, p_hint, p_hint_string, p_usage,
+                       p_class_name) {}
 
     explicit PropertyInfo(const GDExtensionPropertyInfo* info);
 

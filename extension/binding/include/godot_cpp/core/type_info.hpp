@@ -86,14 +86,16 @@ struct GetTypeInfo<T*> : internal::PlainTypeInfo<Variant::OBJECT> {
 template <class T>
 struct GetTypeInfo<Ref<T>> : internal::PlainTypeInfo<Variant::OBJECT> {
     static PropertyInfo get_class_info() {
-        return PropertyInfo(Variant::OBJECT, StringName(), PROPERTY_HINT_RESOURCE_TYPE, T::get_class_static());
+        return PropertyInfo(Variant::OBJECT, StringName(), PROPERTY_HINT_RESOURCE_TYPE,
+                            T::get_class_static());
     }
 };
 
 template <class T>
 struct GetTypeInfo<TypedArray<T>> : internal::PlainTypeInfo<Variant::ARRAY> {
     static PropertyInfo get_class_info() {
-        return PropertyInfo(Variant::ARRAY, StringName(), PROPERTY_HINT_ARRAY_TYPE, TypedArray<T>::element_name());
+        return PropertyInfo(Variant::ARRAY, StringName(), PROPERTY_HINT_ARRAY_TYPE,
+                            TypedArray<T>::element_name());
     }
 };
 
@@ -102,8 +104,8 @@ namespace internal {
 template <uint32_t usage>
 struct EnumTypeInfo : PlainTypeInfo<Variant::INT, GDEXTENSION_METHOD_ARGUMENT_METADATA_INT_IS_INT64> {
     static PropertyInfo info(const char* qualified_name) {
-        return PropertyInfo(Variant::INT, StringName(), PROPERTY_HINT_NONE, "", PROPERTY_USAGE_DEFAULT | usage,
-                            enum_class_name(qualified_name));
+        return PropertyInfo(Variant::INT, StringName(), PROPERTY_HINT_NONE, "",
+                            PROPERTY_USAGE_DEFAULT | usage, enum_class_name(qualified_name));
     }
 };
 
@@ -117,20 +119,24 @@ StringName _gde_constant_get_enum_name(T, const char*) {
 }  // namespace godot
 
 // Stands after the class, outside every namespace.
-#define VARIANT_ENUM_CAST(m_enum)                                                                         \
-    namespace godot {                                                                                     \
-    template <>                                                                                           \
-    struct GetTypeInfo<m_enum> : internal::EnumTypeInfo<PROPERTY_USAGE_CLASS_IS_ENUM> {                   \
-        static PropertyInfo get_class_info() { return info(#m_enum); }                                    \
-    };                                                                                                    \
+#define VARIANT_ENUM_CAST(m_enum)                                                       \
+    namespace godot {                                                                   \
+    template <>                                                                         \
+    struct GetTypeInfo<m_enum> : internal::EnumTypeInfo<PROPERTY_USAGE_CLASS_IS_ENUM> { \
+        static PropertyInfo get_class_info() {                                          \
+            return info(#m_enum);                                                       \
+        }                                                                               \
+    };                                                                                  \
     }
 
-#define VARIANT_BITFIELD_CAST(m_enum)                                                                     \
-    namespace godot {                                                                                     \
-    template <>                                                                                           \
-    struct GetTypeInfo<m_enum> : internal::EnumTypeInfo<PROPERTY_USAGE_CLASS_IS_BITFIELD> {               \
-        static PropertyInfo get_class_info() { return info(#m_enum); }                                    \
-    };                                                                                                    \
-    template <>                                                                                           \
-    struct GetTypeInfo<BitField<m_enum>> : GetTypeInfo<m_enum> {};                                        \
+#define VARIANT_BITFIELD_CAST(m_enum)                                                       \
+    namespace godot {                                                                       \
+    template <>                                                                             \
+    struct GetTypeInfo<m_enum> : internal::EnumTypeInfo<PROPERTY_USAGE_CLASS_IS_BITFIELD> { \
+        static PropertyInfo get_class_info() {                                              \
+            return info(#m_enum);                                                           \
+        }                                                                                   \
+    };                                                                                      \
+    template <>                                                                             \
+    struct GetTypeInfo<BitField<m_enum>> : GetTypeInfo<m_enum> {};                          \
     }

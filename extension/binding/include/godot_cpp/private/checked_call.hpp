@@ -4,7 +4,8 @@
 
 namespace godot::internal {
 
-// Calls with Variants after filling in defaults and checking number and types; says in `error` what was wrong.
+// Calls with Variants after filling in defaults and checking number and types; says in `error` what was
+// wrong.
 void call_checked(const MethodBind& bind, Wrapped* instance, const GDExtensionConstVariantPtr* given,
                   GDExtensionInt count, GDExtensionVariantPtr result, GDExtensionCallError* error);
 

@@ -1,8 +1,9 @@
 #pragma once
 
-// Everything Godot asks of one of our classes, as plain functions made from the class. GDCLASS lets this struct see
-// the protected members a class may declare: _notification, _set, _get, _get_property_list, _validate_property, …
-// A member counts only for the class that declares it itself; classes between it and the engine class are asked too.
+// Everything Godot asks of one of our classes, as plain functions made from the class. GDCLASS lets this
+// struct see the protected members a class may declare: _notification, _set, _get, _get_property_list,
+// _validate_property, … A member counts only for the class that declares it itself; classes between it and
+// the engine class are asked too.
 
 #include <gdextension_interface.h>
 
@@ -15,7 +16,8 @@ namespace godot::internal {
 
 // What get_property_list hands to the engine, alive until free_property_list gets it back.
 const GDExtensionPropertyInfo* publish_property_list(const List<PropertyInfo>& properties, uint32_t* count);
-void release_property_list(GDExtensionClassInstancePtr instance, const GDExtensionPropertyInfo* list, uint32_t count);
+void release_property_list(GDExtensionClassInstancePtr instance, const GDExtensionPropertyInfo* list,
+                           uint32_t count);
 void write_back(const PropertyInfo& from, GDExtensionPropertyInfo* to);
 void notify_postinitialize(Wrapped* object);
 
@@ -25,7 +27,8 @@ struct ClassAccess {
         return static_cast<T*>(static_cast<Wrapped*>(instance));
     }
 
-    // -- Making and freeing ------------------------------------------------------------------------------------
+    // -- Making and freeing
+    // ------------------------------------------------------------------------------------
 
     template <class T>
     static void* create_binding(void*, void* object) {
@@ -52,7 +55,8 @@ struct ClassAccess {
     template <class T>
     static Construction construction(GodotObject* existing_object = nullptr) {
         static_assert(std::is_same_v<T, typename T::self_type>, "the class lacks GDCLASS(class, parent)");
-        return {T::is_engine_class ? nullptr : &T::get_class_static(), &binding_callbacks<T>, existing_object};
+        return {T::is_engine_class ? nullptr : &T::get_class_static(), &binding_callbacks<T>,
+                existing_object};
     }
 
     template <class T>
@@ -79,7 +83,8 @@ struct ClassAccess {
         delete from<T>(instance);
     }
 
-    // -- Who declares what -------------------------------------------------------------------------------------
+    // -- Who declares what
+    // -------------------------------------------------------------------------------------
 
     template <class T, class Declares>
     static constexpr bool any_level(const Declares& declares) {
@@ -91,8 +96,7 @@ struct ClassAccess {
     }
 
     template <class T>
-    static constexpr bool own_notification =
-        std::is_same_v<decltype(&T::_notification), void (T::*)(int)>;
+    static constexpr bool own_notification = std::is_same_v<decltype(&T::_notification), void (T::*)(int)>;
     template <class T>
     static constexpr bool own_set =
         std::is_same_v<decltype(&T::_set), bool (T::*)(const StringName&, const Variant&)>;
@@ -114,7 +118,8 @@ struct ClassAccess {
     template <class T>
     static constexpr bool own_to_string = std::is_same_v<decltype(&T::_to_string), String (T::*)() const>;
 
-    // -- Notifications: from the base up, or from the top down when the engine says "reversed" -------------------
+    // -- Notifications: from the base up, or from the top down when the engine says "reversed"
+    // -------------------
 
     template <class T>
     static void notify_levels(T* object, int what, bool reversed) {
@@ -136,7 +141,8 @@ struct ClassAccess {
         notify_levels<T>(from<T>(instance), what, reversed != 0);
     }
 
-    // -- Dynamic properties: the first level that knows the property answers -------------------------------------
+    // -- Dynamic properties: the first level that knows the property answers
+    // -------------------------------------
 
     template <class T>
     static bool set_levels(T* object, const StringName& name, const Variant& value) {
@@ -193,7 +199,8 @@ struct ClassAccess {
     }
 
     template <class T>
-    static const GDExtensionPropertyInfo* property_list(GDExtensionClassInstancePtr instance, uint32_t* count) {
+    static const GDExtensionPropertyInfo* property_list(GDExtensionClassInstancePtr instance,
+                                                        uint32_t* count) {
         List<PropertyInfo> properties;
         list_levels<T>(from<T>(instance), &properties);
         return publish_property_list(properties, count);
@@ -215,7 +222,8 @@ struct ClassAccess {
     }
 
     template <class T>
-    static GDExtensionBool can_revert(GDExtensionClassInstancePtr instance, GDExtensionConstStringNamePtr name) {
+    static GDExtensionBool can_revert(GDExtensionClassInstancePtr instance,
+                                      GDExtensionConstStringNamePtr name) {
         return can_revert_levels<T>(from<T>(instance), *static_cast<const StringName*>(name));
     }
 
@@ -235,8 +243,8 @@ struct ClassAccess {
     }
 
     template <class T>
-    static GDExtensionBool get_revert(GDExtensionClassInstancePtr instance, GDExtensionConstStringNamePtr name,
-                                      GDExtensionVariantPtr value) {
+    static GDExtensionBool get_revert(GDExtensionClassInstancePtr instance,
+                                      GDExtensionConstStringNamePtr name, GDExtensionVariantPtr value) {
         return get_revert_levels<T>(from<T>(instance), *static_cast<const StringName*>(name),
                                     *static_cast<Variant*>(value));
     }
@@ -276,7 +284,8 @@ struct ClassAccess {
         *is_valid = 1;
     }
 
-    // -- All of it, as the engine wants it -----------------------------------------------------------------------
+    // -- All of it, as the engine wants it
+    // -----------------------------------------------------------------------
 
     // What no level declares stays null, so that the engine does not even call.
     template <class T>
@@ -315,7 +324,8 @@ struct ClassAccess {
         return info;
     }
 
-    // -- Binding -------------------------------------------------------------------------------------------------
+    // -- Binding
+    // -------------------------------------------------------------------------------------------------
 
     template <class T>
     static void bind_methods() {

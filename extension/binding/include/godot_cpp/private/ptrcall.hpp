@@ -70,7 +70,9 @@ struct PtrArg<T*> {
     static GodotObject* encode(const Plain* object) { return object != nullptr ? object->_owner : nullptr; }
     static Plain* take(GodotObject* slot) { return dynamic_cast<Plain*>(get_object_instance_binding(slot)); }
     static Plain* decode(const void* memory) { return take(*static_cast<GodotObject* const*>(memory)); }
-    static void store(void* memory, const Plain* object) { *static_cast<GodotObject**>(memory) = encode(object); }
+    static void store(void* memory, const Plain* object) {
+        *static_cast<GodotObject**>(memory) = encode(object);
+    }
 };
 
 template <class T>
@@ -85,7 +87,8 @@ struct PtrArg<Ref<T>> {
     static void store(void* memory, const Ref<T>& ref) { store_in_ref(memory, encode(ref)); }
 };
 
-// Calls `invoke(arguments, result)` with the encoded arguments as the array of pointers that every ptrcall takes.
+// Calls `invoke(arguments, result)` with the encoded arguments as the array of pointers that every ptrcall
+// takes.
 template <class Invoke, class... Encoded>
 void with_pointers(const Invoke& invoke, const Encoded&... encoded) {
     const void* pointers[sizeof...(Encoded) + 1] = {static_cast<const void*>(&encoded)..., nullptr};
@@ -108,7 +111,8 @@ R call_encoded(const Invoke& invoke, const A&... arguments) {
 GDExtensionMethodBindPtr find_engine_method(const char* class_name, const char* method_name, int64_t hash);
 void ptrcall_engine_method(GDExtensionMethodBindPtr method, GodotObject* self, const void* const* arguments,
                            void* result);
-GDExtensionPtrBuiltInMethod find_builtin_method(GDExtensionVariantType type, const char* method_name, int64_t hash);
+GDExtensionPtrBuiltInMethod find_builtin_method(GDExtensionVariantType type, const char* method_name,
+                                                int64_t hash);
 GDExtensionPtrUtilityFunction find_utility_function(const char* name, int64_t hash);
 GDExtensionPtrOperatorEvaluator find_operator(GDExtensionVariantOperator op, GDExtensionVariantType left,
                                               GDExtensionVariantType right);
@@ -118,9 +122,9 @@ GodotObject* find_singleton(const char* name);
 
 template <class R, class... A>
 R call_engine_method(GDExtensionMethodBindPtr method, GodotObject* self, const A&... arguments) {
-    return call_encoded<R>(
-        [&](const void* const* pointers, void* result) { ptrcall_engine_method(method, self, pointers, result); },
-        arguments...);
+    return call_encoded<R>([&](const void* const* pointers,
+                               void* result) { ptrcall_engine_method(method, self, pointers, result); },
+                           arguments...);
 }
 
 template <class R, class... A>

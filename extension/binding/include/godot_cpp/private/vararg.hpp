@@ -27,7 +27,8 @@ R call_vararg(const Invoke& invoke, const Variant* values, size_t count) {
 }
 
 template <class R>
-R call_vararg_builtin(GDExtensionPtrBuiltInMethod method, const void* self, const Variant* values, size_t count) {
+R call_vararg_builtin(GDExtensionPtrBuiltInMethod method, const void* self, const Variant* values,
+                      size_t count) {
     return call_vararg<R>(
         [&](const void* const* pointers, void* result) {
             method(const_cast<void*>(self), pointers, result, static_cast<int32_t>(count));
@@ -37,11 +38,9 @@ R call_vararg_builtin(GDExtensionPtrBuiltInMethod method, const void* self, cons
 
 template <class R>
 R call_vararg_utility(GDExtensionPtrUtilityFunction function, const Variant* values, size_t count) {
-    return call_vararg<R>(
-        [&](const void* const* pointers, void* result) {
-            function(result, pointers, static_cast<int32_t>(count));
-        },
-        values, count);
+    return call_vararg<R>([&](const void* const* pointers,
+                              void* result) { function(result, pointers, static_cast<int32_t>(count)); },
+                          values, count);
 }
 
 }  // namespace godot::internal

@@ -14,7 +14,8 @@ struct Basis {
     constexpr Basis(const Vector3& x_axis, const Vector3& y_axis, const Vector3& z_axis)
         : rows{Vector3(x_axis.x, y_axis.x, z_axis.x), Vector3(x_axis.y, y_axis.y, z_axis.y),
                Vector3(x_axis.z, y_axis.z, z_axis.z)} {}
-    constexpr Basis(real_t xx, real_t xy, real_t xz, real_t yx, real_t yy, real_t yz, real_t zx, real_t zy, real_t zz)
+    constexpr Basis(real_t xx, real_t xy, real_t xz, real_t yx, real_t yy, real_t yz, real_t zx, real_t zy,
+                    real_t zz)
         : rows{Vector3(xx, xy, xz), Vector3(yx, yy, yz), Vector3(zx, zy, zz)} {}
     Basis(const Quaternion& q);
     Basis(const Vector3& axis, real_t angle) : Basis(Quaternion(axis.normalized(), angle)) {}
@@ -31,7 +32,9 @@ struct Basis {
     }
     void set_columns(const Vector3& x, const Vector3& y, const Vector3& z) { *this = Basis(x, y, z); }
 
-    constexpr Vector3 xform(const Vector3& v) const { return {rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)}; }
+    constexpr Vector3 xform(const Vector3& v) const {
+        return {rows[0].dot(v), rows[1].dot(v), rows[2].dot(v)};
+    }
     constexpr Vector3 xform_inv(const Vector3& v) const { return transposed().xform(v); }
     constexpr Basis transposed() const { return Basis(rows[0], rows[1], rows[2]); }
     constexpr real_t determinant() const { return get_column(0).cross(get_column(1)).dot(get_column(2)); }
@@ -76,7 +79,8 @@ struct Basis {
     Quaternion get_rotation_quaternion() const;
     Vector3 get_euler(EulerOrder order = EULER_ORDER_YXZ) const;
     static Basis from_euler(const Vector3& euler, EulerOrder order = EULER_ORDER_YXZ);
-    static Basis looking_at(const Vector3& target, const Vector3& up = Vector3(0, 1, 0), bool use_model_front = false);
+    static Basis looking_at(const Vector3& target, const Vector3& up = Vector3(0, 1, 0),
+                            bool use_model_front = false);
     Basis slerp(const Basis& to, real_t weight) const {
         return Basis(get_rotation_quaternion().slerp(to.get_rotation_quaternion(), weight));
     }
@@ -91,7 +95,9 @@ struct Basis {
     constexpr Basis operator*(const Basis& b) const {
         return Basis(xform(b.get_column(0)), xform(b.get_column(1)), xform(b.get_column(2)));
     }
-    constexpr Basis operator*(real_t s) const { return Basis(get_column(0) * s, get_column(1) * s, get_column(2) * s); }
+    constexpr Basis operator*(real_t s) const {
+        return Basis(get_column(0) * s, get_column(1) * s, get_column(2) * s);
+    }
     constexpr Basis& operator*=(const Basis& b) { return *this = *this * b; }
     constexpr bool operator==(const Basis& b) const {
         return rows[0] == b.rows[0] && rows[1] == b.rows[1] && rows[2] == b.rows[2];

@@ -1,7 +1,8 @@
 #pragma once
 
-// callable_mp(object, &Class::method): a Callable straight to a C++ method. Two of them are equal when object and
-// method are, so what was connected can be disconnected. A call after the object's end is an error, not a crash.
+// callable_mp(object, &Class::method): a Callable straight to a C++ method. Two of them are equal when object
+// and method are, so what was connected can be disconnected. A call after the object's end is an error, not a
+// crash.
 
 #include <godot_cpp/core/method_bind.hpp>
 #include <godot_cpp/core/object.hpp>

@@ -24,16 +24,19 @@ struct Color {
     float& operator[](int index) { return (&r)[index]; }
     const float& operator[](int index) const { return (&r)[index]; }
     constexpr Color lerp(const Color& to, float weight) const {
-        return {r + (to.r - r) * weight, g + (to.g - g) * weight, b + (to.b - b) * weight, a + (to.a - a) * weight};
+        return {r + (to.r - r) * weight, g + (to.g - g) * weight, b + (to.b - b) * weight,
+                a + (to.a - a) * weight};
     }
-    constexpr Color lightened(float by) const { return {r + (1 - r) * by, g + (1 - g) * by, b + (1 - b) * by, a}; }
+    constexpr Color lightened(float by) const {
+        return {r + (1 - r) * by, g + (1 - g) * by, b + (1 - b) * by, a};
+    }
     constexpr Color darkened(float by) const { return {r * (1 - by), g * (1 - by), b * (1 - by), a}; }
     constexpr Color operator+(const Color& c) const { return {r + c.r, g + c.g, b + c.b, a + c.a}; }
     constexpr Color operator*(const Color& c) const { return {r * c.r, g * c.g, b * c.b, a * c.a}; }
     constexpr Color operator*(float s) const { return {r * s, g * s, b * s, a * s}; }
     bool is_equal_approx(const Color& c) const {
-        return Math::is_equal_approx(r, c.r) && Math::is_equal_approx(g, c.g) && Math::is_equal_approx(b, c.b) &&
-               Math::is_equal_approx(a, c.a);
+        return Math::is_equal_approx(r, c.r) && Math::is_equal_approx(g, c.g) &&
+               Math::is_equal_approx(b, c.b) && Math::is_equal_approx(a, c.a);
     }
     constexpr bool operator==(const Color& c) const { return r == c.r && g == c.g && b == c.b && a == c.a; }
     constexpr bool operator!=(const Color& c) const { return !(*this == c); }

@@ -12,7 +12,8 @@ struct Plane {
     constexpr Plane() = default;
     constexpr Plane(real_t a, real_t b, real_t c, real_t p_d) : normal(a, b, c), d(p_d) {}
     constexpr Plane(const Vector3& p_normal, real_t p_d = 0) : normal(p_normal), d(p_d) {}
-    constexpr Plane(const Vector3& p_normal, const Vector3& point) : normal(p_normal), d(p_normal.dot(point)) {}
+    constexpr Plane(const Vector3& p_normal, const Vector3& point)
+        : normal(p_normal), d(p_normal.dot(point)) {}
     operator String() const;
 
     constexpr Vector3 get_center() const { return normal * d; }

@@ -12,8 +12,9 @@ struct Projection {
     constexpr Projection() = default;
     constexpr Projection(const Vector4& x, const Vector4& y, const Vector4& z, const Vector4& w)
         : columns{x, y, z, w} {}
-    constexpr Projection(real_t xx, real_t xy, real_t xz, real_t xw, real_t yx, real_t yy, real_t yz, real_t yw,
-                         real_t zx, real_t zy, real_t zz, real_t zw, real_t wx, real_t wy, real_t wz, real_t ww)
+    constexpr Projection(real_t xx, real_t xy, real_t xz, real_t xw, real_t yx, real_t yy, real_t yz,
+                         real_t yw, real_t zx, real_t zy, real_t zz, real_t zw, real_t wx, real_t wy,
+                         real_t wz, real_t ww)
         : columns{Vector4(xx, xy, xz, xw), Vector4(yx, yy, yz, yw), Vector4(zx, zy, zz, zw),
                   Vector4(wx, wy, wz, ww)} {}
     operator String() const;

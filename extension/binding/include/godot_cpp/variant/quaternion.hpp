@@ -16,7 +16,8 @@ struct Quaternion {
     Quaternion(const Vector3& axis, real_t angle) {
         const real_t length = axis.length();
         const real_t s = length == 0 ? 0 : std::sin(angle * real_t(0.5)) / length;
-        *this = Quaternion(axis.x * s, axis.y * s, axis.z * s, length == 0 ? 0 : std::cos(angle * real_t(0.5)));
+        *this =
+            Quaternion(axis.x * s, axis.y * s, axis.z * s, length == 0 ? 0 : std::cos(angle * real_t(0.5)));
     }
     operator String() const;
 
@@ -31,10 +32,12 @@ struct Quaternion {
     bool is_normalized() const { return std::abs(length_squared() - real_t(1)) < real_t(UNIT_EPSILON); }
     constexpr Quaternion inverse() const { return {-x, -y, -z, w}; }
     bool is_equal_approx(const Quaternion& q) const {
-        return Math::is_equal_approx(x, q.x) && Math::is_equal_approx(y, q.y) && Math::is_equal_approx(z, q.z) &&
-               Math::is_equal_approx(w, q.w);
+        return Math::is_equal_approx(x, q.x) && Math::is_equal_approx(y, q.y) &&
+               Math::is_equal_approx(z, q.z) && Math::is_equal_approx(w, q.w);
     }
-    bool is_finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && std::isfinite(w); }
+    bool is_finite() const {
+        return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && std::isfinite(w);
+    }
     real_t get_angle() const { return 2 * std::acos(CLAMP(w, real_t(-1), real_t(1))); }
     Vector3 get_axis() const {
         const Vector3 v(x, y, z);
@@ -76,7 +79,9 @@ struct Quaternion {
     constexpr Quaternion operator*(real_t s) const { return {x * s, y * s, z * s, w * s}; }
     constexpr Quaternion operator/(real_t s) const { return {x / s, y / s, z / s, w / s}; }
     constexpr Quaternion& operator*=(const Quaternion& q) { return *this = *this * q; }
-    constexpr bool operator==(const Quaternion& q) const { return x == q.x && y == q.y && z == q.z && w == q.w; }
+    constexpr bool operator==(const Quaternion& q) const {
+        return x == q.x && y == q.y && z == q.z && w == q.w;
+    }
     constexpr bool operator!=(const Quaternion& q) const { return !(*this == q); }
 };
 

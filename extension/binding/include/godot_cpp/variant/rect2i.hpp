@@ -9,8 +9,10 @@ struct Rect2i {
     Vector2i size;
 
     constexpr Rect2i() = default;
-    constexpr Rect2i(const Vector2i& p_position, const Vector2i& p_size) : position(p_position), size(p_size) {}
-    constexpr Rect2i(int32_t x, int32_t y, int32_t width, int32_t height) : position(x, y), size(width, height) {}
+    constexpr Rect2i(const Vector2i& p_position, const Vector2i& p_size)
+        : position(p_position), size(p_size) {}
+    constexpr Rect2i(int32_t x, int32_t y, int32_t width, int32_t height)
+        : position(x, y), size(width, height) {}
     operator String() const;
 
     constexpr Vector2i get_end() const { return position + size; }

@@ -10,11 +10,13 @@ struct Transform2D {
     Vector2 columns[3] = {Vector2(1, 0), Vector2(0, 1), Vector2(0, 0)};
 
     constexpr Transform2D() = default;
-    constexpr Transform2D(const Vector2& x, const Vector2& y, const Vector2& origin) : columns{x, y, origin} {}
+    constexpr Transform2D(const Vector2& x, const Vector2& y, const Vector2& origin)
+        : columns{x, y, origin} {}
     constexpr Transform2D(real_t xx, real_t xy, real_t yx, real_t yy, real_t ox, real_t oy)
         : columns{Vector2(xx, xy), Vector2(yx, yy), Vector2(ox, oy)} {}
     Transform2D(real_t angle, const Vector2& origin)
-        : columns{Vector2(std::cos(angle), std::sin(angle)), Vector2(-std::sin(angle), std::cos(angle)), origin} {}
+        : columns{Vector2(std::cos(angle), std::sin(angle)), Vector2(-std::sin(angle), std::cos(angle)),
+                  origin} {}
     operator String() const;
 
     Vector2& operator[](int column) { return columns[column]; }

@@ -16,8 +16,8 @@ struct Transform3D {
         : basis(p_basis), origin(p_origin) {}
     constexpr Transform3D(const Vector3& x, const Vector3& y, const Vector3& z, const Vector3& p_origin)
         : basis(x, y, z), origin(p_origin) {}
-    constexpr Transform3D(real_t xx, real_t xy, real_t xz, real_t yx, real_t yy, real_t yz, real_t zx, real_t zy,
-                          real_t zz, real_t ox, real_t oy, real_t oz)
+    constexpr Transform3D(real_t xx, real_t xy, real_t xz, real_t yx, real_t yy, real_t yz, real_t zx,
+                          real_t zy, real_t zz, real_t ox, real_t oy, real_t oz)
         : basis(xx, xy, xz, yx, yy, yz, zx, zy, zz), origin(ox, oy, oz) {}
     operator String() const;
 
@@ -40,7 +40,9 @@ struct Transform3D {
         return Transform3D(basis * Basis(axis, angle), origin);
     }
     constexpr Transform3D scaled(const Vector3& s) const { return Transform3D(basis.scaled(s), origin * s); }
-    constexpr Transform3D scaled_local(const Vector3& s) const { return Transform3D(basis.scaled_local(s), origin); }
+    constexpr Transform3D scaled_local(const Vector3& s) const {
+        return Transform3D(basis.scaled_local(s), origin);
+    }
     constexpr Transform3D translated(const Vector3& by) const { return Transform3D(basis, origin + by); }
     constexpr Transform3D translated_local(const Vector3& by) const {
         return Transform3D(basis, origin + basis.xform(by));

@@ -219,7 +219,8 @@ public:
         return result;
     }
 
-    static void evaluate(const Operator& op, const Variant& a, const Variant& b, Variant& result, bool& valid);
+    static void evaluate(const Operator& op, const Variant& a, const Variant& b, Variant& result,
+                         bool& valid);
     bool operator==(const Variant& other) const;
     bool operator!=(const Variant& other) const { return !(*this == other); }
     bool operator<(const Variant& other) const;
@@ -249,10 +250,10 @@ constexpr Variant::Type variant_type_of() {
     return Variant::NIL;
 }
 
-#define GODOT_BINDING_VARIANT_TYPE(m_class, m_type)     \
-    template <>                                         \
+#define GODOT_BINDING_VARIANT_TYPE(m_class, m_type)      \
+    template <>                                          \
     constexpr Variant::Type variant_type_of<m_class>() { \
-        return Variant::m_type;                         \
+        return Variant::m_type;                          \
     }
 
 GODOT_BINDING_VARIANT_TYPE(String, STRING)

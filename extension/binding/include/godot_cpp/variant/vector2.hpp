@@ -70,7 +70,9 @@ struct Vector2 {
     }
     Vector2 move_toward(const Vector2& to, real_t delta) const {
         const real_t distance = distance_to(to);
-        return distance <= delta || distance < real_t(CMP_EPSILON) ? to : *this + (to - *this) * (delta / distance);
+        return distance <= delta || distance < real_t(CMP_EPSILON)
+                   ? to
+                   : *this + (to - *this) * (delta / distance);
     }
     constexpr Vector2 lerp(const Vector2& to, real_t weight) const { return *this + (to - *this) * weight; }
     constexpr Vector2 inverse() const { return {1 / x, 1 / y}; }

@@ -20,8 +20,11 @@ struct Vector3 {
 
     constexpr Vector3() = default;
     constexpr Vector3(real_t p_x, real_t p_y, real_t p_z) : x(p_x), y(p_y), z(p_z) {}
-    constexpr Vector3(const Vector3i& v) : x(static_cast<real_t>(v.x)), y(static_cast<real_t>(v.y)), z(static_cast<real_t>(v.z)) {}
-    operator Vector3i() const { return Vector3i(static_cast<int32_t>(x), static_cast<int32_t>(y), static_cast<int32_t>(z)); }
+    constexpr Vector3(const Vector3i& v)
+        : x(static_cast<real_t>(v.x)), y(static_cast<real_t>(v.y)), z(static_cast<real_t>(v.z)) {}
+    operator Vector3i() const {
+        return Vector3i(static_cast<int32_t>(x), static_cast<int32_t>(y), static_cast<int32_t>(z));
+    }
     operator String() const;
 
     real_t& operator[](int axis) { return (&x)[axis]; }
@@ -42,7 +45,9 @@ struct Vector3 {
     constexpr Vector3& operator/=(real_t s) { return *this = *this / s; }
     constexpr bool operator==(const Vector3& v) const { return x == v.x && y == v.y && z == v.z; }
     constexpr bool operator!=(const Vector3& v) const { return !(*this == v); }
-    constexpr bool operator<(const Vector3& v) const { return x != v.x ? x < v.x : (y != v.y ? y < v.y : z < v.z); }
+    constexpr bool operator<(const Vector3& v) const {
+        return x != v.x ? x < v.x : (y != v.y ? y < v.y : z < v.z);
+    }
 
     Vector3 abs() const { return {ABS(x), ABS(y), ABS(z)}; }
     Vector3 sign() const { return {SIGN(x), SIGN(y), SIGN(z)}; }
@@ -74,7 +79,9 @@ struct Vector3 {
     }
     Vector3 move_toward(const Vector3& to, real_t delta) const {
         const real_t distance = distance_to(to);
-        return distance <= delta || distance < real_t(CMP_EPSILON) ? to : *this + (to - *this) * (delta / distance);
+        return distance <= delta || distance < real_t(CMP_EPSILON)
+                   ? to
+                   : *this + (to - *this) * (delta / distance);
     }
     constexpr Vector3 lerp(const Vector3& to, real_t weight) const { return *this + (to - *this) * weight; }
     constexpr Vector3 inverse() const { return {1 / x, 1 / y, 1 / z}; }
@@ -82,9 +89,12 @@ struct Vector3 {
     Vector3 ceil() const { return {std::ceil(x), std::ceil(y), std::ceil(z)}; }
     Vector3 round() const { return {std::round(x), std::round(y), std::round(z)}; }
     bool is_equal_approx(const Vector3& v) const {
-        return Math::is_equal_approx(x, v.x) && Math::is_equal_approx(y, v.y) && Math::is_equal_approx(z, v.z);
+        return Math::is_equal_approx(x, v.x) && Math::is_equal_approx(y, v.y) &&
+               Math::is_equal_approx(z, v.z);
     }
-    bool is_zero_approx() const { return Math::is_zero_approx(x) && Math::is_zero_approx(y) && Math::is_zero_approx(z); }
+    bool is_zero_approx() const {
+        return Math::is_zero_approx(x) && Math::is_zero_approx(y) && Math::is_zero_approx(z);
+    }
     bool is_finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(z); }
     real_t angle_to(const Vector3& to) const { return std::atan2(cross(to).length(), dot(to)); }
     real_t signed_angle_to(const Vector3& to, const Vector3& axis) const {

@@ -41,14 +41,18 @@ struct Vector3i {
     constexpr Vector3i& operator/=(int32_t s) { return *this = *this / s; }
     constexpr bool operator==(const Vector3i& v) const { return x == v.x && y == v.y && z == v.z; }
     constexpr bool operator!=(const Vector3i& v) const { return !(*this == v); }
-    constexpr bool operator<(const Vector3i& v) const { return x != v.x ? x < v.x : (y != v.y ? y < v.y : z < v.z); }
+    constexpr bool operator<(const Vector3i& v) const {
+        return x != v.x ? x < v.x : (y != v.y ? y < v.y : z < v.z);
+    }
 
     Vector3i abs() const { return {ABS(x), ABS(y), ABS(z)}; }
     Vector3i sign() const { return {SIGN(x), SIGN(y), SIGN(z)}; }
     constexpr Vector3i min(const Vector3i& v) const { return {MIN(x, v.x), MIN(y, v.y), MIN(z, v.z)}; }
     constexpr Vector3i max(const Vector3i& v) const { return {MAX(x, v.x), MAX(y, v.y), MAX(z, v.z)}; }
     constexpr Vector3i clamp(const Vector3i& low, const Vector3i& high) const { return max(low).min(high); }
-    int64_t length_squared() const { return static_cast<int64_t>(x) * x + static_cast<int64_t>(y) * y + static_cast<int64_t>(z) * z; }
+    int64_t length_squared() const {
+        return static_cast<int64_t>(x) * x + static_cast<int64_t>(y) * y + static_cast<int64_t>(z) * z;
+    }
     double length() const { return std::sqrt(static_cast<double>(length_squared())); }
 };
 

@@ -41,16 +41,27 @@ struct Vector4i {
     constexpr Vector4i& operator/=(const Vector4i& v) { return *this = *this / v; }
     constexpr Vector4i& operator*=(int32_t s) { return *this = *this * s; }
     constexpr Vector4i& operator/=(int32_t s) { return *this = *this / s; }
-    constexpr bool operator==(const Vector4i& v) const { return x == v.x && y == v.y && z == v.z && w == v.w; }
+    constexpr bool operator==(const Vector4i& v) const {
+        return x == v.x && y == v.y && z == v.z && w == v.w;
+    }
     constexpr bool operator!=(const Vector4i& v) const { return !(*this == v); }
-    constexpr bool operator<(const Vector4i& v) const { return x != v.x ? x < v.x : (y != v.y ? y < v.y : (z != v.z ? z < v.z : w < v.w)); }
+    constexpr bool operator<(const Vector4i& v) const {
+        return x != v.x ? x < v.x : (y != v.y ? y < v.y : (z != v.z ? z < v.z : w < v.w));
+    }
 
     Vector4i abs() const { return {ABS(x), ABS(y), ABS(z), ABS(w)}; }
     Vector4i sign() const { return {SIGN(x), SIGN(y), SIGN(z), SIGN(w)}; }
-    constexpr Vector4i min(const Vector4i& v) const { return {MIN(x, v.x), MIN(y, v.y), MIN(z, v.z), MIN(w, v.w)}; }
-    constexpr Vector4i max(const Vector4i& v) const { return {MAX(x, v.x), MAX(y, v.y), MAX(z, v.z), MAX(w, v.w)}; }
+    constexpr Vector4i min(const Vector4i& v) const {
+        return {MIN(x, v.x), MIN(y, v.y), MIN(z, v.z), MIN(w, v.w)};
+    }
+    constexpr Vector4i max(const Vector4i& v) const {
+        return {MAX(x, v.x), MAX(y, v.y), MAX(z, v.z), MAX(w, v.w)};
+    }
     constexpr Vector4i clamp(const Vector4i& low, const Vector4i& high) const { return max(low).min(high); }
-    int64_t length_squared() const { return static_cast<int64_t>(x) * x + static_cast<int64_t>(y) * y + static_cast<int64_t>(z) * z + static_cast<int64_t>(w) * w; }
+    int64_t length_squared() const {
+        return static_cast<int64_t>(x) * x + static_cast<int64_t>(y) * y + static_cast<int64_t>(z) * z +
+               static_cast<int64_t>(w) * w;
+    }
     double length() const { return std::sqrt(static_cast<double>(length_squared())); }
 };
 

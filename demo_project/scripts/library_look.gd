@@ -1,0 +1,8 @@
+@tool
+extends MeshInstance3D
+## Shows a mesh of the library, as it is touched.
+
+@export var library_mesh := "":
+	set(value):
+		library_mesh = value
+		mesh = null if library_mesh.is_empty() else HapticMesh.create_library_mesh(library_mesh)

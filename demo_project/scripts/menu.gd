@@ -1,0 +1,61 @@
+extends Control
+## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it away or pull it
+## closer; Tab changes between the mouse and the scripted path, Escape goes back.
+
+const SCENES := {
+	"Static: a sphere on the thesis's path": "res://static_testbed.tscn",
+	"Dynamic: a box that can be pushed": "res://dynamic_testbed.tscn",
+	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
+}
+
+@onready var _choices: VBoxContainer = %Choices
+@onready var _hint: Label = %Hint
+var _scene: Node
+
+
+func _ready() -> void:
+	for title: String in SCENES:
+		var button := Button.new()
+		button.text = title
+		button.pressed.connect(open.bind(SCENES[title]))
+		_choices.add_child(button)
+	_show_menu(true)
+	(_choices.get_child(0) as Button).grab_focus()
+	var asked := OS.get_cmdline_user_args()
+	if not asked.is_empty() and asked[0] in SCENES.values():
+		open(asked[0])
+
+
+func open(path: String) -> void:
+	close()
+	_scene = (load(path) as PackedScene).instantiate()
+	_device().driver = HapticDevice.DRIVER_MOUSE
+	add_child(_scene)
+	_show_menu(false)
+
+
+func close() -> void:
+	if _scene != null:
+		_scene.queue_free()
+		_scene = null
+	_show_menu(true)
+
+
+func _device() -> HapticDevice:
+	return _scene.find_children("*", "HapticDevice", true, false)[0]
+
+
+func _show_menu(shown: bool) -> void:
+	%Menu.visible = shown
+	_hint.visible = not shown
+
+
+func _unhandled_key_input(event: InputEvent) -> void:
+	if _scene == null or not event.is_pressed() or event.is_echo():
+		return
+	if event.is_action("ui_cancel"):
+		close()
+	elif event is InputEventKey and event.keycode == KEY_TAB:
+		var device := _device()
+		var by_mouse := device.driver == HapticDevice.DRIVER_MOUSE
+		device.driver = HapticDevice.DRIVER_PATH if by_mouse else HapticDevice.DRIVER_MOUSE

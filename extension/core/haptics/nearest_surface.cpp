@@ -1,0 +1,51 @@
+#include "core/haptics/nearest_surface.hpp"
+
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+// Direction from the triangles nearest to the point, which are known to be `distance` away.
+Vec3 normal_of_nearest(const TriangleTree& tree, const Vec3& point, double distance) {
+    std::array<NearPack, 1> nearest;
+    const double reach = distance * (1.0 + 1e-12);
+    if (tree.collect(point, reach, reach, nearest).count == 0) {
+        return {0.0, 1.0, 0.0};
+    }
+    const PackOffset offset = offset_from_triangles(tree.pack(nearest[0].pack), splat(point));
+    int best = 0;
+    for (int i = 1; i < lane_count; ++i) {
+        best = offset.squared[i] < offset.squared[best] ? i : best;
+    }
+    const Vec3 away = lane(offset.offset, best);
+    const double length = glm::length(away);
+    return length > 0.0 ? away / length : Vec3(0.0, 1.0, 0.0);
+}
+
+}  // namespace
+
+NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& point, double far) {
+    NearestSurface nearest{far, {0.0, 1.0, 0.0}};
+    const TouchBody& body = scene.body(index);
+    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+        const ScenePart& placed = scene.parts()[body.first_part + i];
+        const Vec3 local = to_local(placed.pose, point);
+        if (glm::length(local - placed.part->center) - placed.part->radius >= nearest.distance) {
+            continue;
+        }
+        if (const TriangleTree* const tree = placed.part->tree()) {
+            const double distance = tree->collect(local, 0.0, nearest.distance, {}).nearest;
+            if (distance < nearest.distance) {
+                nearest = {distance, direction_to_parent(placed.pose, normal_of_nearest(*tree, local, distance))};
+            }
+        } else if (const SolidDistance at = distance_to_solid(placed.part->solid(), local);
+                   at.distance < nearest.distance) {
+            nearest = {at.distance, direction_to_parent(placed.pose, at.normal)};
+        }
+    }
+    return nearest;
+}
+
+}  // namespace tactus

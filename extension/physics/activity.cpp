@@ -1,0 +1,90 @@
+#include "physics/activity.hpp"
+
+#include "physics/jolt.hpp"
+
+#include <Jolt/Physics/PhysicsSystem.h>
+
+#include <algorithm>
+
+#include "physics/body_record.hpp"
+#include "physics/collision_layers.hpp"
+#include "physics/memory_recorder.hpp"
+
+namespace tactus {
+
+TreeKeeper::TreeKeeper(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& records)
+    : system_(system), records_(records) {
+    waiting_.reserve(records.size());
+}
+
+void TreeKeeper::may_differ(JPH::BodyID id) {
+    BodyRecord* record = records_[id.GetIndex()];
+    if (record == nullptr || record->tree_may_differ)
+        return;
+    record->tree_may_differ = true;
+    waiting_.push_back(id);
+}
+
+void TreeKeeper::forget(JPH::BodyID id) {
+    BodyRecord& record = *records_[id.GetIndex()];
+    if (!record.tree_may_differ)
+        return;
+    record.tree_may_differ = false;
+    *std::find(waiting_.begin(), waiting_.end(), id) = waiting_.back();
+    waiting_.pop_back();
+}
+
+void TreeKeeper::tidy_some() {
+    constexpr int most = 16;
+    for (int i = 0; i < most && !waiting_.empty(); ++i) {
+        const JPH::BodyID id = waiting_.back();
+        waiting_.pop_back();
+        BodyRecord& record = *records_[id.GetIndex()];
+        record.tree_may_differ = false;
+        const JPH::Body& body = *system_.GetBodyLockInterfaceNoLock().TryGetBody(id);
+        const Tree tree = body.IsActive() ? Tree::Awake : Tree::Resting;
+        system_.GetBodyInterfaceNoLock().SetObjectLayer(id, object_layer(record.layer_pair, tree));
+    }
+}
+
+WakeJournal::WakeJournal(JPH::PhysicsSystem& system, std::size_t capacity)
+    : system_(system), entries_(capacity) {}
+
+void WakeJournal::note(const JPH::Body& body) {
+    if (!entries_.empty()) {
+        Entry& entry = entries_[next_ % entries_.size()];
+        entry.id = body.GetID();
+        MemoryWriter writer(entry.state);
+        constexpr bool active = false;  // as it was until now
+        writer.Write(active);
+        body.SaveState(writer);
+        known_ = std::min<std::uint64_t>(known_ + 1, entries_.size());
+    }
+    ++next_;
+}
+
+void WakeJournal::rewind(std::uint64_t serial) {
+    while (next_ > serial) {
+        --next_;
+        --known_;
+        const Entry& entry = entries_[next_ % entries_.size()];
+        MemoryReader reader(entry.state);
+        system_.RestoreBodyState(*system_.GetBodyLockInterfaceNoLock().TryGetBody(entry.id), reader);
+    }
+}
+
+void WakeJournal::restart(std::uint64_t serial) {
+    next_ = serial;
+    known_ = 0;
+}
+
+void ActivityListener::OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) {
+    journal_.note(*reinterpret_cast<const JPH::Body*>(body));
+    trees_.may_differ(id);
+}
+
+void ActivityListener::OnBodyDeactivated(const JPH::BodyID& id, JPH::uint64) {
+    trees_.may_differ(id);
+}
+
+}  // namespace tactus

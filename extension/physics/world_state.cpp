@@ -1,0 +1,97 @@
+#include "physics/world_state.hpp"
+
+#include <algorithm>
+
+#include "physics/jolt_units.hpp"
+#include "physics/world_settings.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr std::size_t mebibyte = std::size_t{1} << 20;
+
+// The broad phase takes up to four tree nodes of 128 bytes a body while it rebuilds, in pages rounded up to
+// powers of two; saving and restoring takes a few words a body.
+std::size_t loop_memory_size(std::uint32_t max_bodies) {
+    return 8 * mebibyte + std::size_t{2048} * max_bodies;
+}
+
+// Scratch of a single step: the contact constraints, the bodies' and contacts' links to islands, the pairs
+// found.
+JPH::uint step_memory_size(const PhysicsSettings& settings) {
+    constexpr std::size_t per_contact = 1024;
+    constexpr std::size_t per_body = 64;
+    return static_cast<JPH::uint>(4 * mebibyte + per_contact * settings.max_contacts +
+                                  per_body * settings.max_bodies);
+}
+
+// Far more jobs than the single-threaded system holds at any time.
+constexpr JPH::uint jobs_per_sub_step = 64;
+
+PhysicsSettings within_range(PhysicsSettings settings) {
+    settings.max_bodies = std::clamp(settings.max_bodies, 1u, 65536u);
+    settings.max_touching_pairs = std::clamp(settings.max_touching_pairs, 16u, 65536u);
+    settings.max_contacts = std::clamp(settings.max_contacts, 16u, 65536u);
+    settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
+    return settings;
+}
+
+// Only what can move can be asleep.
+class MovingOnly final : public JPH::BroadPhaseLayerFilter {
+public:
+    bool ShouldCollide(JPH::BroadPhaseLayer layer) const override {
+        return layer != broad_phase_layer(Tree::Still);
+    }
+};
+
+}  // namespace
+
+PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
+    : settings(within_range(wanted)),
+      memory(loop_memory_size(settings.max_bodies)),
+      layers(settings.max_bodies),
+      one_sided(layers),
+      step_memory(step_memory_size(settings)),
+      records(settings.max_bodies),
+      trees(system, records),
+      journal(system, settings.remembered_wakings),
+      activity(trees, journal) {
+    jobs.Init(jobs_per_sub_step * static_cast<JPH::uint>(settings.sub_steps));
+    constexpr JPH::uint one_mutex = 1;
+    system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
+                layer_interface, broad_phase_filter, layers);
+    system.SetPhysicsSettings(jolt_settings(settings));
+    system.SetCombineFriction(combined_friction);
+    system.SetCombineRestitution(combined_restitution);
+    system.SetGravity(units::vector(settings.gravity));
+    system.SetBodyActivationListener(&activity);
+}
+
+PhysicsWorld::Impl::~Impl() {
+    system.SetBodyActivationListener(nullptr);
+    for (const BodyRecord* record : records)
+        delete record;
+}
+
+JPH::Body* PhysicsWorld::Impl::find(BodyId id) const {
+    return id.valid() ? system.GetBodyLockInterfaceNoLock().TryGetBody(JPH::BodyID(id.value)) : nullptr;
+}
+
+void PhysicsWorld::Impl::wake(JPH::Body& body) {
+    if (!body.IsStatic())
+        bodies().ActivateBody(body.GetID());
+}
+
+void PhysicsWorld::Impl::wake_around(const JPH::Body& body) {
+    constexpr double reach = 2e-3;  // (unit: meters)
+    JPH::AABox box = body.GetWorldSpaceBounds();
+    box.ExpandBy(JPH::Vec3::sReplicate(units::length(reach)));
+    bodies().ActivateBodiesInAABox(box, MovingOnly(), JPH::ObjectLayerFilter());
+}
+
+void PhysicsWorld::Impl::listen_if_needed() {
+    system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr);
+}
+
+}  // namespace tactus

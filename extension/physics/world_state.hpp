@@ -1,0 +1,62 @@
+// The inside of a PhysicsWorld: private to physics/.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "physics/activity.hpp"
+#include "physics/body_record.hpp"
+#include "physics/collision_layers.hpp"
+#include "physics/contact_rules.hpp"
+#include "physics/jolt.hpp"
+#include "physics/loop_memory.hpp"
+#include "physics/physics_world.hpp"
+
+#include <Jolt/Core/JobSystemSingleThreaded.h>
+#include <Jolt/Core/TempAllocator.h>
+#include <Jolt/Physics/PhysicsSystem.h>
+
+namespace tactus {
+
+struct PhysicsWorld::Impl {
+    explicit Impl(const PhysicsSettings& wanted);
+    ~Impl();
+
+    // Nobody else is in the world, so Jolt's per-body locks have nothing to protect.
+    JPH::BodyInterface& bodies() { return system.GetBodyInterfaceNoLock(); }
+
+    // Null when it is not in the world.
+    JPH::Body* find(BodyId id) const;
+
+    BodyRecord& record(const JPH::Body& body) { return *records[body.GetID().GetIndex()]; }
+
+    // Before anything about a resting body changes, so that the journal sees it as it rested.
+    void wake(JPH::Body& body);
+
+    // Whatever rests on, leans on or is about to touch a body that changes.
+    void wake_around(const JPH::Body& body);
+
+    void listen_if_needed();
+
+    PhysicsSettings settings;
+    LoopMemory memory;
+    LayerInterface layer_interface;
+    BroadPhaseFilter broad_phase_filter;
+    CollisionTable layers;
+    OneSidedContacts one_sided;
+    JPH::TempAllocatorImplWithMallocFallback step_memory;
+    JPH::JobSystemSingleThreaded jobs;
+    JPH::PhysicsSystem system;
+    std::vector<BodyRecord*> records;  // by the body's index; owned
+    TreeKeeper trees;
+    WakeJournal journal;
+    ActivityListener activity;
+    std::size_t body_count = 0;
+
+    // Changes with everything a snapshot does not hold but rests on: which bodies there are, their shapes and
+    // kinds.
+    std::uint64_t structure = 0;
+};
+
+}  // namespace tactus

@@ -1,0 +1,276 @@
+extends "nodes_case.gd"
+## What cannot be touched is named once, with what to do, and the rest of the scene goes on.
+
+
+## A world with one body that is as it should be and one that is not; says what the world says of the latter.
+func _problem_beside_a_sound_floor(bad: CollisionObject3D, expected: String) -> void:
+	var world := add_world()
+	add_floor(world, 500.0)
+	bad.name = "Bad"
+	bad.position += Vector3(5, 0, 0)
+	world.add_child(bad)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
+	expect_error(expected)
+	world.advance(0.3)
+	world.advance(0.1)
+	check_near(proxy.get_force().y, 10.0, 1e-3, "force on the sound floor")
+	check_equal(world.get_problems().size(), 1, "problems %s" % [world.get_problems()])
+	if not world.get_problems().is_empty():
+		check(world.get_problems()[0].contains("Bad") and world.get_problems()[0].contains(expected),
+				world.get_problems()[0])
+	check(" ".join(world.get_warnings()).contains("'Bad'"), "no configuration warning names it")
+
+
+func _with_mesh(mesh: Mesh, library_mesh := "") -> StaticBody3D:
+	var body := StaticBody3D.new()
+	var touched := HapticMesh.new()
+	touched.mesh = mesh
+	touched.library_mesh = library_mesh
+	body.add_child(touched)
+	return body
+
+
+func _mesh_of(vertices: PackedVector3Array) -> ArrayMesh:
+	var arrays := []
+	arrays.resize(Mesh.ARRAY_MAX)
+	arrays[Mesh.ARRAY_VERTEX] = vertices
+	var mesh := ArrayMesh.new()
+	mesh.add_surface_from_arrays(Mesh.PRIMITIVE_TRIANGLES, arrays)
+	return mesh
+
+
+func test_a_mesh_without_triangles() -> void:
+	_problem_beside_a_sound_floor(_with_mesh(ArrayMesh.new()), "the mesh has no triangles")
+
+
+func test_a_mesh_with_nan_vertices() -> void:
+	var mesh := _mesh_of(PackedVector3Array([Vector3.ZERO, Vector3(NAN, 0, 0), Vector3(0, 1, 0)]))
+	_problem_beside_a_sound_floor(_with_mesh(mesh), "is not a finite number")
+
+
+func test_a_mesh_without_area() -> void:
+	var mesh := _mesh_of(PackedVector3Array([Vector3.ZERO, Vector3(1, 0, 0), Vector3(2, 0, 0)]))
+	_problem_beside_a_sound_floor(_with_mesh(mesh), "no triangle of the mesh has an area")
+
+
+func test_a_mesh_that_is_not_in_the_library() -> void:
+	_problem_beside_a_sound_floor(_with_mesh(null, "nowhere"), "no mesh 'nowhere': choose one of blob")
+
+
+func test_a_name_that_leads_out_of_the_library() -> void:
+	_problem_beside_a_sound_floor(_with_mesh(null, "../../../project"), "no mesh '../../../project'")
+
+
+func test_a_haptic_mesh_without_a_mesh() -> void:
+	_problem_beside_a_sound_floor(_with_mesh(null), "it has no mesh")
+
+
+func test_a_mesh_scaled_to_zero() -> void:
+	var body := _with_mesh(null, "cube")
+	body.get_child(0).scale = Vector3(1, 0, 1)
+	_problem_beside_a_sound_floor(body, "scaled to zero")
+
+
+func test_a_body_without_a_shape() -> void:
+	_problem_beside_a_sound_floor(StaticBody3D.new(), "it has no shape: give it a CollisionShape3D or a HapticMesh")
+
+
+func test_a_rigid_body_without_a_shape() -> void:
+	_problem_beside_a_sound_floor(RigidBody3D.new(), "it has no shape")
+
+
+func test_a_concave_shape_without_triangles() -> void:
+	_problem_beside_a_sound_floor(with_shape(StaticBody3D.new(), ConcavePolygonShape3D.new()), "no triangles")
+
+
+func test_a_convex_shape_without_volume() -> void:
+	var flat := ConvexPolygonShape3D.new()
+	flat.points = PackedVector3Array([Vector3.ZERO, Vector3(1, 0, 0), Vector3(0, 0, 1), Vector3(1, 0, 1)])
+	_problem_beside_a_sound_floor(with_shape(StaticBody3D.new(), flat), "convex shape has no volume")
+
+
+func test_a_sphere_scaled_unevenly() -> void:
+	var body := with_shape(StaticBody3D.new(), sphere(0.1))
+	body.get_child(0).scale = Vector3(1, 2, 1)
+	_problem_beside_a_sound_floor(body, "scale it evenly")
+
+
+func test_a_shape_that_is_no_surface() -> void:
+	_problem_beside_a_sound_floor(with_shape(StaticBody3D.new(), SeparationRayShape3D.new()), "cannot be touched")
+
+
+func test_a_problem_that_is_repaired_is_gone() -> void:
+	var world := add_world()
+	var body := StaticBody3D.new()
+	world.add_child(body)
+	expect_error("it has no shape")
+	world.advance(TICK)
+	with_shape(body, box(Vector3(1, 1, 1)))
+	world.advance(TICK)
+	check_equal(world.get_problems().size(), 0, "problems")
+
+
+func test_a_negative_radius_is_refused_and_the_old_one_stays() -> void:
+	var proxy := ProxyPointer.new()
+	proxy.radius = 0.02
+	for radius: float in [-0.01, 0.0, NAN, INF]:
+		expect_error("radius = ")
+		proxy.radius = radius
+		check_equal(proxy.radius, 0.02, "radius")
+	proxy.free()
+
+
+func test_setters_refuse_what_makes_no_sense() -> void:
+	var device := HapticDevice.new()
+	var world := HapticWorld.new()
+	var recorder := HapticRecorder.new()
+	var values := {
+		"stiffness": [HapticMaterial.new(), -1.0], "damping": [HapticMaterial.new(), NAN],
+		"static_friction": [HapticMaterial.new(), -0.1], "dynamic_friction": [HapticMaterial.new(), INF],
+		"force_limit": [device, -1.0], "wheel_step": [device, 0.0], "tick_rate": [world, 0],
+		"gravity": [world, Vector3(0, NAN, 0)], "most_bodies": [world, 0], "realtime_priority": [world, 100],
+		"processor": [world, -2], "trace_seconds": [recorder, 0.0],
+		"circle_radius": [HapticPath.new(), -1.0], "circle_turn_time": [HapticPath.new(), 0.0],
+	}
+	for property: String in values:
+		var object: Object = values[property][0]
+		var before: Variant = object.get(property)
+		expect_error("was refused, the old value stays")
+		object.set(property, values[property][1])
+		check_equal(object.get(property), before, property)
+	device.free()
+	world.free()
+	recorder.free()
+
+
+func test_a_proxy_whose_device_is_nowhere() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := ProxyPointer.new()
+	proxy.device = NodePath("../Nothing")
+	world.add_child(proxy)
+	expect_error("its device '../Nothing' is not a HapticDevice")
+	world.advance(0.1)
+	check(not proxy.is_touching(), "it touches")
+	check(proxy.get_warnings()[0].contains("set 'device' anew"), "no warning")
+	var device := HapticDevice.new()
+	device.name = "Nothing"
+	device.path = path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1)
+	world.add_child(device)
+	world.advance(0.3)
+	check(proxy.is_touching(), "it does not touch once the device is there")
+
+
+func test_a_device_without_a_path() -> void:
+	var world := add_world()
+	add_floor(world)
+	add_hand(world, null)
+	expect_error("set 'path' to a HapticPath")
+	world.advance(0.1)
+	var device: HapticDevice = world.get_node("Device")
+	check(device.get_warnings()[0].contains("set 'path'"), "no warning")
+	check(not device.is_device_connected(), "it says that it is connected")
+
+
+func test_a_device_whose_path_cannot_be_followed() -> void:
+	var world := add_world()
+	var way := path(Vector3.ZERO, Vector3.ONE)
+	way.points_times = PackedFloat64Array([1.0, 0.5])
+	add_hand(world, way)
+	expect_error("its path cannot be followed: keyframe 1 is not later")
+	world.advance(0.1)
+
+
+func test_a_world_in_a_world_stays_inactive_and_its_bodies_belong_to_the_outer_one() -> void:
+	var outer := add_world()
+	var inner := HapticWorld.new()
+	inner.name = "Inner"
+	expect_error("it stands inside another HapticWorld")
+	outer.add_child(inner)
+	check(not inner.is_running() and outer.is_running(), "the wrong one runs")
+	check(inner.get_warnings()[0].contains("inside another one"), "no warning")
+	add_floor(inner, 500.0)
+	var proxy := add_hand(inner, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
+	outer.advance(0.3)
+	check_near(proxy.get_force().y, 10.0, 1e-3, "force")
+
+
+func test_two_worlds_side_by_side_both_run() -> void:
+	var first := add_world()
+	var second := add_world()
+	add_floor(first, 500.0)
+	add_floor(second, 250.0)
+	var one := add_hand(first, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
+	var other := add_hand(second, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
+	first.advance(0.3)
+	second.advance(0.3)
+	check_near(one.get_force().y, 10.0, 1e-3, "force in the first")
+	check_near(other.get_force().y, 5.0, 1e-3, "force in the second")
+
+
+func test_a_world_freed_while_it_runs_in_real_time() -> void:
+	for _i in 5:
+		var world := HapticWorld.new()
+		add_child(world)
+		add_floor(world)
+		add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.05))
+		await get_tree().create_timer(0.03).timeout
+		world.free()
+	await frames(3)
+
+
+func test_a_world_freed_by_a_signal_of_its_own_proxy() -> void:
+	var world := HapticWorld.new()
+	add_child(world)
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.05))
+	var id := world.get_instance_id()
+	proxy.contact_started.connect(func(_body: Node3D) -> void: instance_from_id(id).queue_free())
+	check(await until(func() -> bool: return not is_instance_id_valid(id), 5.0), "it was not freed")
+
+
+func test_devices_proxies_and_recorders_may_go_before_their_world() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
+	world.advance(0.2)
+	world.get_node("Device").free()
+	expect_error("its device '../Device' is not a HapticDevice")
+	world.advance(0.1)
+	check_near(proxy.get_force(), Vector3.ZERO, 1e-6, "force without a device")
+	proxy.free()
+	world.advance(0.1)
+
+
+func test_a_world_leaves_the_tree_and_comes_back() -> void:
+	var world := add_world()
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), 0.1))
+	world.advance(0.3)
+	remove_child(world)
+	check(not world.is_running(), "it runs outside the tree")
+	add_child(world)
+	world.advance(0.3)
+	check_near(proxy.get_force().y, 10.0, 1e-3, "force")
+
+
+func test_advancing_where_it_cannot_is_an_error_and_nothing_else() -> void:
+	var world := HapticWorld.new()
+	expect_error("This HapticWorld does not run")
+	check_equal(world.advance(1.0), 0, "ticks")
+	add_child(world)
+	expect_error("set its clock to CLOCK_STEPPED")
+	check_equal(world.advance(1.0), 0, "ticks")
+	world.clock = HapticWorld.CLOCK_STEPPED
+	expect_error("0 or more")
+	check_equal(world.advance(-1.0), 0, "ticks")
+
+
+func test_more_bodies_than_the_world_takes() -> void:
+	var world := add_world()
+	world.most_bodies = 2
+	for i in 3:
+		world.add_child(with_shape(StaticBody3D.new(), sphere(0.1), Vector3(i, 0, 0)))
+	expect_error("limit of 2 bodies")
+	world.advance(0.01)
+	check_equal(world.get_problems().size(), 1, "problems")

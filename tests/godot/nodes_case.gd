@@ -1,0 +1,72 @@
+extends "test_case.gd"
+## What tests of the haptic nodes share: small worlds in stepped time, built by hand.
+
+const TICK := 0.001
+
+
+## A world without gravity whose ticks the test makes.
+func add_world() -> HapticWorld:
+	var world := HapticWorld.new()
+	world.clock = HapticWorld.CLOCK_STEPPED
+	world.gravity = Vector3.ZERO
+	add_child(world)
+	return world
+
+
+func material(stiffness: float) -> HapticMaterial:
+	var result := HapticMaterial.new()
+	result.stiffness = stiffness
+	return result
+
+
+func with_shape(body: CollisionObject3D, shape: Shape3D, at := Vector3.ZERO) -> CollisionObject3D:
+	var child := CollisionShape3D.new()
+	child.name = "Shape"
+	child.shape = shape
+	body.add_child(child)
+	body.position = at
+	return body
+
+
+func box(size: Vector3) -> BoxShape3D:
+	var shape := BoxShape3D.new()
+	shape.size = size
+	return shape
+
+
+func sphere(radius: float) -> SphereShape3D:
+	var shape := SphereShape3D.new()
+	shape.radius = radius
+	return shape
+
+
+## A floor whose surface is at y = 0.
+func add_floor(world: HapticWorld, stiffness := 500.0) -> StaticBody3D:
+	var body := with_shape(StaticBody3D.new(), box(Vector3(2, 0.2, 2)), Vector3(0, -0.1, 0)) as StaticBody3D
+	body.name = "Floor"
+	body.physics_material_override = material(stiffness)
+	world.add_child(body)
+	return body
+
+
+## A hand that goes from one place to another in a second and stays there.
+func path(from: Vector3, to: Vector3, seconds := 1.0) -> HapticPath:
+	var result := HapticPath.new()
+	result.form = HapticPath.FORM_POINTS
+	result.points_positions = PackedVector3Array([from, to])
+	result.points_times = PackedFloat64Array([0.0, seconds])
+	result.points_interpolation = HapticPath.INTERPOLATION_LINEAR
+	return result
+
+
+func add_hand(world: HapticWorld, way: HapticPath, radius := 0.01) -> ProxyPointer:
+	var device := HapticDevice.new()
+	device.name = "Device"
+	device.path = way
+	world.add_child(device)
+	var proxy := ProxyPointer.new()
+	proxy.name = "Proxy"
+	proxy.radius = radius
+	proxy.device = NodePath("../Device")
+	world.add_child(proxy)
+	return proxy

@@ -1,0 +1,290 @@
+extends "nodes_case.gd"
+## Touch through the nodes, in stepped time: the numbers are exact to what single precision lets through.
+
+
+func test_advance_makes_the_ticks_of_its_time_and_keeps_the_rest() -> void:
+	var world := add_world()
+	check_equal(world.advance(0.0104), 10, "ticks")
+	check_equal(world.advance(0.0006), 1, "ticks")
+	for _i in 60:
+		world.advance(1.0 / 60.0)
+	check_equal(world.get_ticks(), 1011, "ticks in all")
+
+
+func test_a_world_of_250_hertz_makes_250_ticks_a_second() -> void:
+	var world := add_world()
+	world.tick_rate = 250
+	check_equal(world.advance(1.0), 250, "ticks")
+
+
+func test_the_proxy_rests_on_the_floor_and_the_force_follows_hookes_law() -> void:
+	var world := add_world()
+	add_floor(world, 500.0)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
+	world.advance(1.5)
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.01, 0), 1e-6, "proxy")
+	check_near(proxy.get_hand_position(), Vector3(0, -0.01, 0), 1e-6, "hand")
+	check_near(proxy.get_force(), Vector3(0, 10.0, 0), 1e-3, "force")
+	check_near(proxy.global_position, proxy.get_proxy_position(), 1e-6, "the node's place")
+	check_equal(proxy.get_state_text(), "touching", "state")
+
+
+func test_a_contact_names_body_point_and_normal() -> void:
+	var world := add_world()
+	var ground := add_floor(world)
+	var proxy := add_hand(world, path(Vector3(0.1, 0.05, 0), Vector3(0.1, -0.01, 0)))
+	world.advance(1.5)
+	var contacts := proxy.get_contacts()
+	check_equal(contacts.size(), 1, "contacts")
+	check(contacts[0].body == ground, "the body is not the floor")
+	check_near(contacts[0].point, Vector3(0.1, 0, 0), 1e-6, "point")
+	check_near(contacts[0].normal, Vector3.UP, 1e-6, "normal")
+
+
+func test_contact_signals_come_once_each() -> void:
+	var world := add_world()
+	var ground := add_floor(world)
+	var way := path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0))
+	way.points_positions = PackedVector3Array([Vector3(0, 0.05, 0), Vector3(0, -0.01, 0), Vector3(0, 0.05, 0)])
+	way.points_times = PackedFloat64Array([0.0, 0.5, 1.0])
+	var proxy := add_hand(world, way)
+	var heard := []
+	proxy.contact_started.connect(func(body: Node3D) -> void: heard.append(["started", body]))
+	proxy.contact_ended.connect(func(body: Node3D) -> void: heard.append(["ended", body]))
+	for _i in 120:
+		world.advance(0.01)
+	check_equal(heard, [["started", ground], ["ended", ground]], "signals")
+
+
+func test_the_smoothed_law_ends_at_the_same_force() -> void:
+	var world := add_world()
+	add_floor(world, 400.0)
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
+	proxy.force_law = ProxyPointer.FORCE_LAW_SMOOTHED
+	world.advance(1.5)
+	check_near(proxy.get_force(), Vector3(0, 8.0, 0), 1e-3, "force")
+
+
+func test_every_shape_is_touched_where_its_surface_is() -> void:
+	var capsule := CapsuleShape3D.new()
+	capsule.radius = 0.05
+	capsule.height = 0.3
+	var cylinder := CylinderShape3D.new()
+	cylinder.radius = 0.05
+	cylinder.height = 0.3
+	var convex := ConvexPolygonShape3D.new()
+	convex.points = _corners(0.1, 0.15, 0.1)
+	var concave := ConcavePolygonShape3D.new()
+	var cube := BoxMesh.new()
+	cube.size = Vector3(0.2, 0.3, 0.2)
+	concave.set_faces(cube.get_faces())
+	var height_map := HeightMapShape3D.new()
+	height_map.map_width = 3
+	height_map.map_depth = 3
+	height_map.map_data = PackedFloat32Array([0.15, 0.15, 0.15, 0.15, 0.15, 0.15, 0.15, 0.15, 0.15])
+	var boundary := WorldBoundaryShape3D.new()
+	boundary.plane = Plane(Vector3.UP, 0.15)
+	for shape: Shape3D in [box(Vector3(0.2, 0.3, 0.2)), sphere(0.15), capsule, cylinder, convex, concave, height_map,
+			boundary]:
+		var world := add_world()
+		world.add_child(with_shape(StaticBody3D.new(), shape))
+		var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, 0.155, 0)))
+		world.advance(1.2)
+		check_near(proxy.get_proxy_position(), Vector3(0, 0.16, 0), 1e-5, shape.get_class())
+		world.free()
+
+
+func _corners(x: float, y: float, z: float) -> PackedVector3Array:
+	var corners := PackedVector3Array()
+	for i in 8:
+		corners.append(Vector3(x if i & 1 else -x, y if i & 2 else -y, z if i & 4 else -z))
+	return corners
+
+
+func test_scale_of_body_and_shape_is_touched_as_it_is_seen() -> void:
+	var world := add_world()
+	var body := with_shape(StaticBody3D.new(), box(Vector3(0.1, 0.1, 0.1)))
+	body.scale = Vector3(2, 3, 2)
+	world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, 0.155, 0)))
+	world.advance(1.2)
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.16, 0), 1e-5, "proxy")
+
+
+func test_a_turned_body_is_touched_on_its_turned_face() -> void:
+	var world := add_world()
+	var body := with_shape(StaticBody3D.new(), box(Vector3(0.2, 0.2, 0.2)))
+	body.rotation_degrees = Vector3(0, 0, 45)
+	world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0.2, 0.2, 0), Vector3(0.05, 0.05, 0)))
+	world.advance(1.2)
+	check_near(proxy.get_proxy_position(), Vector3(1, 1, 0).normalized() * 0.11, 1e-5, "proxy")
+
+
+func test_a_disabled_shape_is_not_there() -> void:
+	var world := add_world()
+	var body := with_shape(StaticBody3D.new(), sphere(0.1))
+	body.get_node("Shape").disabled = true
+	body.add_child(_shape_at(sphere(0.05), Vector3.ZERO))
+	world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, 0.055, 0)))
+	world.advance(1.2)
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.06, 0), 1e-5, "proxy")
+
+
+func _shape_at(shape: Shape3D, at: Vector3) -> CollisionShape3D:
+	var child := CollisionShape3D.new()
+	child.shape = shape
+	child.position = at
+	return child
+
+
+func test_a_collision_polygon_is_touched() -> void:
+	var world := add_world()
+	var body := StaticBody3D.new()
+	var polygon := CollisionPolygon3D.new()
+	polygon.polygon = PackedVector2Array([Vector2(-0.1, -0.1), Vector2(0.1, -0.1), Vector2(0.1, 0.1), Vector2(-0.1, 0.1)])
+	polygon.depth = 0.2
+	body.add_child(polygon)
+	world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, 0.105, 0)))
+	world.advance(1.2)
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.11, 0), 1e-5, "proxy")
+
+
+func test_a_haptic_mesh_is_touched_instead_of_the_shapes() -> void:
+	var world := add_world()
+	var body := with_shape(StaticBody3D.new(), sphere(0.2))
+	var mesh := HapticMesh.new()
+	mesh.library_mesh = "cube"
+	body.add_child(mesh)
+	world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, 0.055, 0)))
+	world.advance(1.2)
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.06, 0), 1e-5, "proxy")
+
+
+func test_a_haptic_mesh_takes_a_mesh_resource_and_is_touched_from_outside() -> void:
+	var world := add_world()
+	var body := StaticBody3D.new()
+	var mesh := HapticMesh.new()
+	var cylinder := CylinderMesh.new()
+	cylinder.height = 0.2
+	cylinder.top_radius = 0.1
+	cylinder.bottom_radius = 0.1
+	mesh.mesh = cylinder
+	body.add_child(mesh)
+	world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, 0.105, 0)))
+	world.advance(1.2)
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.11, 0), 1e-5, "proxy")
+	check_near(proxy.get_contacts()[0].normal, Vector3.UP, 1e-5, "normal")
+
+
+func test_the_library_has_masses_and_sources() -> void:
+	check("cube" in HapticMesh.get_library_names(), "there is no cube")
+	for name in HapticMesh.get_library_names():
+		var mesh := HapticMesh.new()
+		mesh.library_mesh = name
+		check(mesh.get_library_mass() > 0.01, name + " has no mass")
+		check(mesh.get_library_source() != "", name + " has no source")
+		check(HapticMesh.create_library_mesh(name).get_faces().size() > 0, name + " has no triangles")
+		mesh.free()
+
+
+func test_moving_turning_and_scaling_the_device_carries_the_hand_along() -> void:
+	var world := add_world()
+	var proxy := add_hand(world, path(Vector3(0.1, 0, 0), Vector3(0.2, 0, 0)))
+	var device: HapticDevice = world.get_node("Device")
+	device.transform = Transform3D(Basis(Vector3.UP, PI / 2).scaled(Vector3(2, 2, 2)), Vector3(1, 2, 3))
+	world.advance(1.2)
+	check_near(proxy.get_hand_position(), Vector3(1, 2, 3) + Vector3(0, 0, -0.4), 1e-5, "hand")
+	check_near(device.get_hand_position(), proxy.get_hand_position(), 1e-6, "the device's hand")
+
+
+func test_a_held_clutch_keeps_the_hand_in_place() -> void:
+	var world := add_world()
+	var proxy := add_hand(world, path(Vector3.ZERO, Vector3(0.1, 0, 0)))
+	var device: HapticDevice = world.get_node("Device")
+	world.advance(0.5)
+	device.clutch = true
+	world.advance(0.25)
+	check_near(proxy.get_hand_position().x, 0.05, 1e-3, "hand while held")
+	device.clutch = false
+	world.advance(0.5)
+	check_near(proxy.get_hand_position().x, 0.075, 1e-3, "hand after letting go")
+
+
+func test_the_device_is_given_at_most_its_limit() -> void:
+	var world := add_world()
+	add_floor(world, 1000.0)
+	add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
+	var device: HapticDevice = world.get_node("Device")
+	device.force_limit = 3.0
+	world.advance(1.5)
+	check_near(device.get_force(), Vector3(0, 3, 0), 1e-4, "force on the device")
+
+
+func test_layers_that_the_mask_leaves_out_are_not_touched() -> void:
+	var world := add_world()
+	add_floor(world).collision_layer = 2
+	var proxy := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
+	proxy.collision_mask = 1
+	world.advance(1.2)
+	check(not proxy.is_touching(), "it touches layer 2")
+
+
+func test_the_hand_pushes_a_rigid_body_and_gravity_holds_it_down() -> void:
+	var world := add_world()
+	world.gravity = Vector3(0, -9.81, 0)
+	add_floor(world)
+	var body := with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0)) as RigidBody3D
+	body.mass = 0.2
+	world.add_child(body)
+	add_hand(world, path(Vector3(-0.15, 0.05, 0), Vector3(0.05, 0.05, 0), 2.0))
+	world.advance(2.5)
+	check(body.position.x > 0.08, "it did not move: %s" % body.position)
+	check_near(body.position.y, 0.05, 2e-3, "height")
+
+
+func test_a_rigid_body_falls_as_physics_says() -> void:
+	var world := add_world()
+	world.gravity = Vector3(0, -10, 0)
+	var body := with_shape(RigidBody3D.new(), sphere(0.05), Vector3(0, 5, 0)) as RigidBody3D
+	body.linear_damp_mode = RigidBody3D.DAMP_MODE_REPLACE
+	body.linear_damp = 0.0
+	world.add_child(body)
+	world.advance(0.5)
+	check_near(body.position.y, 5.0 - 0.5 * 10.0 * 0.25, 4e-3, "height")
+	check_near(body.linear_velocity, Vector3(0, -5, 0), 0.011, "velocity")
+
+
+func test_two_proxies_may_share_a_device_and_differ() -> void:
+	var world := add_world()
+	add_floor(world, 500.0)
+	var first := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.0, 0)), 0.01)
+	var second := ProxyPointer.new()
+	second.device = NodePath("../Device")
+	second.radius = 0.02
+	world.add_child(second)
+	world.advance(1.2)
+	check_near(first.get_force().y, 5.0, 1e-3, "first")
+	check_near(second.get_force().y, 10.0, 1e-3, "second")
+
+
+func test_the_mouse_puts_the_hand_under_the_pointer() -> void:
+	var world := add_world()
+	var proxy := add_hand(world, null)
+	var device: HapticDevice = world.get_node("Device")
+	device.driver = HapticDevice.DRIVER_MOUSE
+	var camera := Camera3D.new()
+	camera.position = Vector3(0, 0, 1)
+	add_child(camera)
+	camera.make_current()
+	world.advance(TICK)
+	device.aim_mouse(camera.unproject_position(Vector3(0.1, 0.05, 0)))
+	world.advance(1.0)
+	check_near(proxy.get_hand_position(), Vector3(0.1, 0.05, 0), 1e-3, "hand")
+	device.aim_mouse(camera.unproject_position(Vector3(0.1, 0.05, 0)), 0.5)
+	world.advance(1.0)
+	check_near(proxy.get_hand_position(), Vector3(0.15, 0.075, -0.5), 2e-3, "hand after the wheel")

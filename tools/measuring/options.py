@@ -1,0 +1,28 @@
+"""What stands behind --key=value on the command line, checked against what an experiment understands."""
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import TypeVar, get_args
+
+Options = TypeVar("Options")
+
+
+def parse(kind: type[Options], given: Mapping[str, str]) -> Options:
+    """`kind` is a dataclass whose fields are bool, int, float, str or a Literal, each with its default."""
+    known = {field.name: field for field in fields(kind)}  # type: ignore[arg-type]
+    unknown = sorted(set(given) - set(known))
+    if unknown:
+        raise ValueError(f"unknown option --{unknown[0]}; there are: {', '.join(f'--{name}' for name in known)}")
+    return kind(**{name: _value(name, known[name].type, text) for name, text in given.items()})
+
+
+def _value(name: str, kind: object, text: str) -> object:
+    choices = get_args(kind)
+    if choices:
+        if text not in choices:
+            raise ValueError(f"--{name}={text} is not one of {', '.join(choices)}")
+        return text
+    try:
+        return kind(text)  # type: ignore[operator]
+    except ValueError:
+        raise ValueError(f"--{name}={text} is not a number") from None

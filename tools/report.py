@@ -1,0 +1,123 @@
+"""build/report/index.html, one file that needs no other, from what the experiments have left in build/experiments."""
+
+import json
+import sys
+from pathlib import Path
+
+import report_page as html
+from measuring import targets
+from setup import cache
+
+CASES = {"static": "Static scene: ground and a sphere", "dynamic": "Dynamic scene: ground and a box of 0.3 kg"}
+
+FIGURES = {
+    "mean_period_us": ("Period, mean", "µs"),
+    "tick_period_p50_us": ("Period, median", "µs"),
+    "tick_period_p90_us": ("Period, 90 % not longer than", "µs"),
+    "tick_period_p99_us": ("Period, 99 %", "µs"),
+    "tick_period_p999_us": ("Period, 99.9 %", "µs"),
+    "tick_period_max_us": ("Period, longest", "µs"),
+    "baseline_period_p90_us": ("Bare loop beside it, 90 %", "µs"),
+    "baseline_period_p99_us": ("Bare loop beside it, 99 %", "µs"),
+    "baseline_period_p999_us": ("Bare loop beside it, 99.9 %", "µs"),
+    "baseline_period_max_us": ("Bare loop beside it, longest", "µs"),
+    "tick_compute_p50_us": ("Work of a tick, median", "µs"),
+    "tick_compute_p99_us": ("Work of a tick, 99 %", "µs"),
+    "tick_compute_max_us": ("Work of a tick, longest", "µs"),
+    "missed_deadlines": ("Ticks that ended after the next was due", ""),
+    "measured_ticks": ("Ticks", ""),
+    "force_mean_n": ("Force, mean", "N"),
+    "force_mean_while_touching_n": ("Force, mean while touching", "N"),
+    "force_max_n": ("Force, largest", "N"),
+    "contact_time_share": ("Share of the time in contact", ""),
+    "object_travel_m": ("Where the object ends, from its start", "m"),
+    "steal_share": ("Processor time taken by the machine's host", ""),
+    "rounds": ("Rounds played", ""),
+    "round_reported": ("Round reported: the one with the least taken", ""),
+}
+
+
+def main() -> int:
+    folder = cache.clone() / "build/experiments/scenario1"
+    if not (folder / "summary.json").is_file():
+        print("nothing to report yet: ./run experiment scenario1", file=sys.stderr)
+        return 1
+    target = cache.clone() / "build/report/index.html"
+    target.parent.mkdir(parents=True, exist_ok=True)
+    target.write_text(page(folder))
+    print(target.relative_to(cache.clone()))
+    return 0
+
+
+def page(scenario1: Path) -> str:
+    summary = json.loads((scenario1 / "summary.json").read_text())
+    return html.page(
+        "Tactus: touch in Godot at 1 kHz",
+        "A scripted hand is drawn along the thesis's path through two scenes, in Godot itself. Measured on this machine.",
+        [_scenario1(summary, scenario1), _machine(summary)],
+    )
+
+
+def _scenario1(summary: targets.Summary, folder: Path) -> str:
+    cases = [case for case in CASES if f"{case}.ticks" in summary]
+    parts = []
+    if all(f"{case}.mean_period_us" in summary for case in cases):
+        verdicts = [verdict for case in cases for verdict in targets.scenario1(summary, case)]
+        rows = [(one.case, one.what, one.found, one.wanted, one.met) for one in verdicts]
+        parts.append(html.table(("Scene", "Figure", "Found", "Wanted", ""), rows, numbers_from=9))
+    parts += _pictures(folder, "periods.png", "Periods of the haptic loop and of a bare loop that sleeps beside it, on the same processor.")
+    for case in cases:
+        parts.append(html.section(CASES[case], *_case(folder, case), level=3))
+    parts.append(html.section("All figures", _figures(summary, cases), level=3))
+    return html.section("Scenario 1: a hand and a virtual world", *parts)
+
+
+def _case(folder: Path, case: str) -> list[str]:
+    return [
+        *_pictures(folder, f"{case}_scene.png", "Where the touch is firmest. Yellow: the path of the hand."),
+        *_pictures(folder, f"{case}_force.png", "The force on the hand during one turn of the path."),
+        *_pictures(folder, f"{case}_object.png", "How the hand moves the box."),
+    ]
+
+
+def _pictures(folder: Path, name: str, caption: str) -> list[str]:
+    path = folder / name
+    return [html.picture(path, caption)] if path.is_file() else []
+
+
+def _figures(summary: targets.Summary, cases: list[str]) -> str:
+    rows = []
+    for key, (name, unit) in FIGURES.items():
+        found = [summary.get(f"{case}.{key}") for case in cases]
+        if any(value is not None for value in found):
+            rows.append((name, *(_number(value, key, unit) for value in found)))
+    return html.table(("Figure", *cases), rows)
+
+
+def _number(value: float | None, key: str, unit: str) -> str:
+    if value is None:
+        return "–"
+    if key.endswith("_share"):
+        return f"{value:.2%}"
+    if isinstance(value, int) or (unit == "" and float(value).is_integer()):
+        return f"{int(value):,}"
+    return f"{value:.{ {'µs': 1, 'N': 2, 'm': 3}.get(unit, 2) }f} {unit}".strip()
+
+
+def _machine(summary: targets.Summary) -> str:
+    words = {
+        "processor": "Processor", "processors": "Processors", "memory_gib": "Memory (GiB)", "virtual": "Virtual machine",
+        "kernel": "Kernel", "system": "System",
+    }  # fmt: skip
+    rows = [(name, _plain(summary[f"machine.{key}"])) for key, name in words.items() if f"machine.{key}" in summary]
+    if "static.realtime" in summary:
+        rows.append(("The haptic thread", str(summary["static.realtime"])))
+    return html.section("The machine", html.table(("", ""), rows, numbers_from=9))
+
+
+def _plain(value: object) -> str:
+    return {True: "yes", False: "no"}[value] if isinstance(value, bool) else str(value)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
