@@ -273,5 +273,44 @@ TEST(Session, SettledBodiesAreThereAtTheFirstTick) {
     EXPECT_EQ(rig.newest().body_count, 200u);
 }
 
+// What a proxy remembered of its surroundings while its device was elsewhere must not hold afterwards.
+TEST(Session, AProxyGivenToAnotherDeviceTouchesWhatIsThere) {
+    SessionRig rig;
+    rig.add(body(BoxShape{Vec3(0.5)}, {0.0, -0.6, 0.0}, Motion::Static));
+    rig.add(body(BoxShape{Vec3(0.5)}, {50.0, -0.6, 0.0}, Motion::Static));
+    HeldDevice other;
+    other.position = {50.0, 0.1, 0.0};
+    const SessionHandle second = rig.session.add_device(other, {}).handle;
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.ticks(100);
+    ProxyDescription description;
+    description.device = second;
+    description.settings.radius = 0.01;
+    rig.session.set_proxy(rig.proxy, description);
+    rig.ticks(2);
+    other.position.y = -0.2;
+    rig.ticks(2);
+    EXPECT_NEAR(rig.proxy_state().position.y, -0.09, 1e-6);
+}
+
+TEST(Session, ADisabledProxyFindsBodiesWhereTheyWentMeanwhile) {
+    SessionRig rig;
+    const SessionHandle lift = rig.add(body(BoxShape{Vec3(0.5)}, {0.0, -20.0, 0.0}, Motion::Kinematic));
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.ticks(50);
+    ProxyDescription description;
+    description.device = rig.hand;
+    description.settings.radius = 0.01;
+    description.enabled = false;
+    rig.session.set_proxy(rig.proxy, description);
+    rig.session.move_body(lift, {{0.0, -0.5, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}, 0.2);
+    rig.ticks(250);
+    description.enabled = true;
+    rig.session.set_proxy(rig.proxy, description);
+    rig.ticks(2);
+    rig.draw({0.0, -0.1, 0.0}, 20);
+    EXPECT_NEAR(rig.proxy_state().position.y, 0.01, 1e-6);
+}
+
 }  // namespace
 }  // namespace tactus
