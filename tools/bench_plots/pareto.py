@@ -22,7 +22,7 @@ def group_of(name: str) -> str:
 
 def scatter(axes, table, metric: str) -> None:
     told = set()
-    for name, case in table.items():
+    for number, (name, case) in enumerate(table.items()):
         if case.get(metric, 0.0) <= 0.0:
             continue
         group = group_of(name)
@@ -30,20 +30,23 @@ def scatter(axes, table, metric: str) -> None:
         point = (case["contact_median_us"], case[metric])
         axes.plot(*point, mark, color=colour, markersize=6, label=None if group in told else label)
         told.add(group)
-        axes.annotate(name.removeprefix(group).strip("_") or name, point, textcoords="offset points", xytext=(5, 3), fontsize=7)
+        text = name.removeprefix(group).strip("_") or name
+        # Points lie close together: their names stand at changing heights.
+        place = (6, 4 + 9 * (number % 4))
+        axes.annotate(text, point, textcoords="offset points", xytext=place, fontsize=7, color=colour)
         if name == DEFAULT:
             axes.plot(*point, "o", markersize=15, fillstyle="none", color=style.MEASURED, label="the default")
     axes.set(yscale="log", xlabel="median of a tick in contact (µs)")
 
 
 def draw(table: dict[str, dict[str, float]], path: Path) -> None:
-    drawn, ((facets, sphere),) = style.figure(1, 2, 13.0, 5.2)
+    drawn, ((facets, sphere),) = style.figure(1, 2, 13.0, 5.8)
     scatter(facets, table, "facets_error_max")
     facets.set(title="Against exact descent on the same facets", ylabel="largest error (m)")
     scatter(sphere, table, "sphere_error_max")
     sphere.set(title="Against the smooth sphere", ylabel="largest error (m)")
-    facets.legend(fontsize=8)
-    sphere.legend(fontsize=8)
+    for axes in (facets, sphere):
+        axes.legend(fontsize=8, ncols=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))
     style.save(drawn, path)
 
 

@@ -26,7 +26,7 @@ def line(axes, rows, metric, mark, colour, label):
 
 
 def draw(table: dict[str, dict[str, float]], path: Path) -> None:
-    drawn, ((times, errors, beside),) = style.figure(1, 3, 15.0, 4.6)
+    drawn, ((times, errors, beside),) = style.figure(1, 3, 15.0, 5.4)
     for radius, rows in spheres(table).items():
         mark = MARKS.get(radius, "-")
         line(times, rows, "contact_median_us", mark, style.MEASURED, f"median, radius {radius}")
@@ -43,7 +43,7 @@ def draw(table: dict[str, dict[str, float]], path: Path) -> None:
     beside.set(title="One query elsewhere over a whole tick here", ylabel="times as long")
     for axes in (times, errors, beside):
         axes.set(xscale="log", yscale="log", xlabel="triangles of the sphere")
-        axes.legend(fontsize=8)
+        axes.legend(fontsize=8, ncols=2, loc="upper center", bbox_to_anchor=(0.5, -0.14))
     style.save(drawn, path)
 
 
