@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "core/haptics/proxy.hpp"
