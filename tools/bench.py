@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import build
 from setup import cache
@@ -10,6 +11,13 @@ from setup import cache
 
 def names() -> list[str]:
     return sorted(path.stem for path in (cache.clone() / "tests/bench").glob("*.cpp"))
+
+
+def draw(name: str, result: Path) -> None:
+    """Runs tools/bench_plots/NAME.py on the result of a bench that has one: CSV and chart beside the JSON."""
+    plot = cache.clone() / "tools/bench_plots" / f"{name}.py"
+    if plot.is_file():
+        subprocess.run([sys.executable, plot, result], check=False)
 
 
 def main(arguments: list[str]) -> int:
@@ -32,6 +40,7 @@ def main(arguments: list[str]) -> int:
             return code
         if result.is_file():
             print(f"   {result.relative_to(cache.clone())}")
+            draw(name, result)
     return 0
 
 

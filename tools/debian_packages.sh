@@ -16,6 +16,7 @@ needs g++ command -v g++
 needs cargo command -v cargo
 needs libglm-dev test -e /usr/include/glm/glm.hpp
 needs libgtest-dev test -e /usr/include/gtest/gtest.h
+needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
 
 [ ${#missing[@]} -gt 0 ] || exit 0

@@ -168,5 +168,14 @@ TEST(Solid, BoundingBallHoldsTheSolid) {
     }
 }
 
+TEST(Solid, CentresHaveADistanceAndADirection) {
+    for (const Solid& solid : solids) {
+        const SolidDistance at = distance_to_solid(solid, Vec3(0.0));
+        EXPECT_LT(at.distance, 0.0) << "shape " << solid.index();
+        EXPECT_NEAR(glm::length(at.normal), 1.0, 1e-14);
+        EXPECT_TRUE(std::isfinite(at.bend_u) && std::isfinite(at.bend_v));
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -100,5 +100,11 @@ TEST(TouchShape, ReachIsTheFarthestPointOfAnyPart) {
     EXPECT_NEAR(result.shape->reach, 2.25, 1e-12);
 }
 
+TEST(TouchShape, RefusesAHeightFieldWithASpacingThatIsNoLength) {
+    const auto heights = std::make_shared<const std::vector<float>>(std::vector<float>{0, 1, 2, 3});
+    EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(nan, 1.0, 1.0), heights}), "");
+    EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(0.0, 1.0, 1.0), heights}), "");
+}
+
 }  // namespace
 }  // namespace tactus

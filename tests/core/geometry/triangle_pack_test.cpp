@@ -212,5 +212,25 @@ TEST(TrianglePackSweep, OneHundredMetresPerSecondAgainstAPaperThinWallStops) {
     }
 }
 
+// The normal of three corners on a line is nothing but rounding. A point above the line along that very
+// normal is "inside" for the areas; it must still not seem farther than it is.
+TEST(TrianglePack, APointAboveASliverAlongItsRoundedNormalIsNotTakenFartherThanItIs) {
+    RandomValues random(16);
+    double worst = 0.0;
+    for (int i = 0; i < 200'000; ++i) {
+        const Vec3 a = random.in_ball(1.0);
+        const Vec3 b = random.in_ball(1.0);
+        const Vec3 c = a + (b - a) * random.unit() + random.in_ball(random.magnitude(1e-19, 1e-14));
+        const Vec3 normal = glm::cross(b - a, c - a);
+        if (glm::length(normal) == 0.0) {
+            continue;
+        }
+        const Corners t{a, b, c};
+        const Vec3 p = a + (c - a) * random.unit() + glm::normalize(normal) * random.magnitude(1e-3, 1.0);
+        worst = std::max(worst, distance(t, p) - static_cast<double>(shared::slow_distance(p, t)));
+    }
+    EXPECT_LT(worst, 1e-14);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -177,5 +177,20 @@ TEST(NearestInHalfSpaces, OppositePlanesThatTouchLeaveTheirPlane) {
     EXPECT_LT(glm::length(found.point - Vec3(1.0, 0.0, 3.0)), 1e-12);
 }
 
+TEST(NearestInHalfSpaces, AgreesWithEnumerationWhereAllBordersMeet) {
+    RandomValues random(61);
+    for (int i = 0; i < 20'000; ++i) {
+        const std::vector<HalfSpace> all = around_origin(random, 1 + random.below(9), 0.0);
+        const Vec3 goal = random.in_ball(2.0);
+        const NearestInHalfSpaces found = nearest_in_halfspaces(goal, all, 1e-12);
+        const Enumerated expected = enumerate(goal, all, 1e-9);
+        ASSERT_TRUE(found.feasible);
+        ASSERT_TRUE(expected.feasible);
+        ASSERT_TRUE(allowed(found.point, all, 1e-9)) << "case " << i;
+        ASSERT_NEAR(glm::length(found.point - goal), glm::length(expected.point - goal), 1e-8)
+            << "case " << i;
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -122,6 +122,18 @@ TEST_P(ProxyPushed, AStaticWallBehindHoldsAndTheSqueezeIsReported) {
     EXPECT_TRUE(squeezed);
 }
 
+TEST_P(ProxyPushed, AFastThinPlateTakesItAlongAndDoesNotPass) {
+    TouchRig rig(radius);
+    const int plate = add_box(rig, Vec3(1.0, 0.001, 1.0), at({0.0, -1.0, 0.0}));
+    const Vec3 hand(0.1, 0.0, 0.2);
+    rig.tick(hand);
+    for (int i = 1; i <= 40; ++i) {  // 60 m/s
+        const double y = -1.0 + 0.06 * i;
+        const ProxyTick tick = rig.tick(hand, plate, at({0.0, y, 0.0}));
+        ASSERT_GE(tick.position.y, std::max(0.0, y + 0.001 + radius) - 1e-9) << i;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(ClosedFormAndTriangles, ProxyPushed, ::testing::Bool());
 
 TEST(ProxyMoving, TwoBodiesClosingOnItBothPushUntilThereIsNoRoom) {

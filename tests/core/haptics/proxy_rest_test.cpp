@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
 
 #include "core/haptics/proxy.hpp"
@@ -265,6 +266,47 @@ TEST(ProxyRest, AMaskedBodyIsAir) {
     settings.mask = 1;
     rig.proxy.set_settings(settings);
     EXPECT_EQ(rig.draw({0.0, 0.3, 0.0}, {0.0, -0.3, 0.0}, 10).position, Vec3(0.0, -0.3, 0.0));
+}
+
+TEST(ProxyRest, AfterADisplacementSurfacesAreThere) {
+    TouchRig rig(radius);
+    rig.add(square(1.0), {Vec3(0.0, -20.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)});
+    for (int i = 0; i < 100; ++i) {
+        rig.tick({0.0, 0.1, 0.0});
+    }
+    rig.proxy.displace({0.0, -20.0, 0.0});
+    EXPECT_NEAR(rig.draw({0.0, -19.9, 0.0}, {0.0, -20.1, 0.0}, 10).position.y, -20.0 + radius, 1e-6);
+}
+
+TEST(ProxyRest, AfterAPauseBodiesAreWhereTheyWentMeanwhile) {
+    TouchRig rig(radius);
+    const int body = rig.add(square(1.0), {Vec3(0.0, -20.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)});
+    for (int i = 0; i < 100; ++i) {
+        rig.tick({0.0, 0.1, 0.0});
+    }
+    // The scene ticks on without this proxy, and the body comes up to it.
+    for (int i = 1; i <= 200; ++i) {
+        rig.scene.begin_tick();
+        rig.scene.set_pose(body, {Vec3(0.0, -20.0 + 0.1 * i, 0.0), Quat(1.0, 0.0, 0.0, 0.0)});
+    }
+    rig.scene.begin_tick();
+    rig.proxy.restart();
+    rig.tick({0.0, 0.1, 0.0});
+    EXPECT_NEAR(rig.draw({0.0, 0.1, 0.0}, {0.0, -0.1, 0.0}, 10).position.y, radius, 1e-6);
+}
+
+// The proxy is let go and put elsewhere (a device exchanged, a node switched off and on): what it remembered
+// of its surroundings must not hold for the new place.
+TEST(ProxyRest, AfterARestartElsewhereSurfacesAreThere) {
+    TouchRig rig(radius);
+    rig.add(square(1.0));
+    rig.add(square(1.0), {Vec3(50.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)});
+    for (int i = 0; i < 100; ++i) {
+        rig.tick({0.0, 0.1, 0.0});
+    }
+    rig.proxy.restart();
+    rig.tick({50.0, 0.1, 0.0});
+    EXPECT_NEAR(rig.draw({50.0, 0.1, 0.0}, {50.0, -0.1, 0.0}, 10).position.y, radius, 1e-6);
 }
 
 }  // namespace

@@ -1,0 +1,105 @@
+// Virtual time: the same calls with the same times give the same bits.
+#include <cstring>
+#include <vector>
+
+#include "session/session_rig.hpp"
+#include "shared/meshes.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace session_test;
+
+// FNV-1a over the numbers of a row (not over the padding between them).
+class Hash {
+public:
+    void add(double value) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        add(bits);
+    }
+    void add(const Vec3& v) {
+        add(v.x);
+        add(v.y);
+        add(v.z);
+    }
+    void add(std::uint64_t bits) {
+        for (int i = 0; i < 8; ++i) {
+            value_ = (value_ ^ ((bits >> (8 * i)) & 0xffu)) * 0x100000001b3u;
+        }
+    }
+    std::uint64_t value() const { return value_; }
+
+private:
+    std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+struct Outcome {
+    std::uint64_t hash = 0;
+    int touching = 0;
+    double box_moved = 0.0;
+};
+
+// A finger circles over a terrain and pushes a stack of boxes about.
+Outcome run(ForceLaw law) {
+    SessionRig rig;
+    BodyAddition hills = body(MeshShape{std::make_shared<const TriangleMesh>(shared::terrain(24, 2.0, 0.05))},
+                              Vec3(0.0), Motion::Static);
+    hills.touch_material = {800.0, 1.0, 0.5, 0.4};
+    rig.add(hills);
+    SessionHandle first = no_handle;
+    for (int i = 0; i < 5; ++i) {
+        BodyAddition box = body(BoxShape{Vec3(0.08)}, {0.4, 0.2 + 0.17 * i, 0.0}, Motion::Dynamic, 0.3);
+        box.touch_material = {600.0, 0.5, 0.4, 0.3};
+        const SessionHandle handle = rig.add(box);
+        first = i == 0 ? handle : first;
+    }
+    ProxyDescription description;
+    description.device = rig.hand;
+    description.settings.radius = 0.02;
+    description.force_law = law;
+    rig.session.set_proxy(rig.proxy, description);
+    RecorderRing<SessionRecord> ring(256);
+    rig.session.record(&ring, rig.proxy, first);
+    Outcome outcome;
+    Hash hash;
+    Vec3 start(0.0);
+    for (int i = 0; i < 3'000; ++i) {
+        const double a = 0.002 * i;
+        rig.device.position = {0.4 * std::cos(a), 0.1 + 0.12 * std::sin(5.0 * a), 0.4 * std::sin(a)};
+        rig.device.velocity = {-0.8 * std::sin(a), 1.2 * std::cos(5.0 * a), 0.8 * std::cos(a)};
+        hash.add(static_cast<std::uint64_t>(rig.tick()));
+        ring.drain([&](const SessionRecord& row) {
+            for (const Vec3& v : {row.hand, row.proxy_position, row.force, row.object_position}) {
+                hash.add(v);
+            }
+            for (const double w : {row.object_rotation.w, row.object_rotation.x, row.object_rotation.y,
+                                   row.object_rotation.z}) {
+                hash.add(w);
+            }
+            hash.add(static_cast<std::uint64_t>(row.time));
+            outcome.touching += row.contacts > 0;
+            start = i == 0 ? row.object_position : start;
+            outcome.box_moved = glm::length(row.object_position - start);
+        });
+    }
+    outcome.hash = hash.value();
+    return outcome;
+}
+
+TEST(SessionDeterminism, TwoRunsAreTheSameToTheLastBit) {
+    for (const ForceLaw law : {ForceLaw::spring, ForceLaw::smoothed}) {
+        const Outcome first = run(law);
+        const Outcome second = run(law);
+        EXPECT_EQ(first.hash, second.hash);
+        EXPECT_GT(first.touching, 300);
+        EXPECT_GT(first.box_moved, 0.01);
+    }
+}
+
+TEST(SessionDeterminism, TheForceLawChangesTheRun) {
+    EXPECT_NE(run(ForceLaw::spring).hash, run(ForceLaw::smoothed).hash);
+}
+
+}  // namespace
+}  // namespace tactus

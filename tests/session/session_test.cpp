@@ -1,0 +1,316 @@
+#include "session/session.hpp"
+
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "session/session_rig.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace session_test;
+
+TEST(Session, AHandPressedIntoTheGroundIsPushedBack) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.02, 0.0}, 50);
+    EXPECT_NEAR(rig.device.force.y, 500.0 * 0.03, 1e-3);
+    EXPECT_NEAR(rig.proxy_state().position.y, 0.01, 1e-6);
+    EXPECT_TRUE(rig.proxy_state().status & proxy_touching);
+}
+
+TEST(Session, WithoutADeviceAProxyRests) {
+    Session session({});
+    ProxyDescription description;
+    ASSERT_NE(session.add_proxy(description).handle, no_handle);
+    session.tick(period);
+    session.refresh();
+    EXPECT_EQ(session.snapshot().proxies[0].force, Vec3(0.0));
+}
+
+TEST(Session, ForcesAreLimitedToWhatTheDeviceMayTake) {
+    SessionRig rig;
+    rig.add(ground());
+    Workspace workspace;
+    workspace.force_limit = 3.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.05, 0.0}, 50);
+    EXPECT_NEAR(glm::length(rig.device.force), 3.0, 1e-12);
+    EXPECT_TRUE(rig.tick() & session_force_limited);
+}
+
+TEST(Session, AWorkspaceTurnsPositionsInAndForcesBack) {
+    SessionRig rig;
+    rig.add(ground());
+    Workspace workspace;
+    workspace.force_limit = 1e6;
+    workspace.pose = {{0.0, 1.0, 0.0},
+                      Quat(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5))};  // a quarter turn about z: x to y
+    workspace.scale = 2.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {-0.3, 0.0, 0.0};
+    rig.tick();
+    EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.0, 0.4, 0.0)), 1e-12);
+    rig.draw({-0.51, 0.0, 0.0}, 100);  // 0.02 below the ground in the scene
+    EXPECT_NEAR(rig.device.force.x, 500.0 * 0.03, 1e-3);
+    EXPECT_NEAR(rig.device.force.y, 0.0, 1e-9);
+}
+
+TEST(Session, AHeldClutchKeepsTheHandWhereItIs) {
+    SessionRig rig;
+    rig.device.position = {0.1, 0.2, 0.3};
+    rig.ticks(2);
+    Workspace held;
+    held.clutch = true;
+    rig.session.set_workspace(rig.hand, held);
+    rig.tick();
+    rig.draw({0.5, 0.5, 0.5}, 20);
+    EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.1, 0.2, 0.3)), 1e-12);
+    rig.session.set_workspace(rig.hand, {});
+    rig.tick();
+    rig.draw({0.6, 0.5, 0.5}, 20);
+    EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.2, 0.2, 0.3)), 1e-12);
+}
+
+TEST(Session, AFingerPushesABoxAndFeelsTheOppositeForce) {
+    SessionSettings settings;
+    SessionRig rig(settings);
+    rig.session.set_gravity(Vec3(0.0));
+    const SessionHandle box = rig.add(body(BoxShape{Vec3(0.1)}, {0.0, 0.0, 0.0}, Motion::Dynamic, 2.0));
+    rig.device.position = {-0.2, 0.0, 0.0};
+    rig.tick();
+    Vec3 given(0.0);
+    for (int i = 0; i < 400; ++i) {
+        rig.device.position.x = -0.2 + 0.0004 * i;
+        rig.tick();
+        given += -rig.device.force * 1e-3;  // what the box got from the finger (unit: newton-seconds)
+    }
+    rig.tick();
+    const BodyState* const state = rig.state_of(box);
+    ASSERT_NE(state, nullptr);
+    EXPECT_GT(given.x, 0.1);
+    // No friction, no gravity: the box has the momentum the finger gave it.
+    EXPECT_NEAR(2.0 * state->linear_velocity.x, given.x, 0.01 * given.x);
+    EXPECT_GT(state->pose.position.x, 0.0);
+    EXPECT_NEAR(state->linear_velocity.y, 0.0, 1e-6);
+}
+
+TEST(Session, ABoxPushedOffItsCentreTurns) {
+    SessionRig rig;
+    rig.session.set_gravity(Vec3(0.0));
+    const SessionHandle box = rig.add(body(BoxShape{Vec3(0.1)}, Vec3(0.0), Motion::Dynamic, 2.0));
+    rig.device.position = {-0.2, 0.0, 0.08};
+    rig.tick();
+    rig.draw({-0.05, 0.0, 0.08}, 300);
+    rig.tick();
+    // Pushed along +x at z > 0: the turn is about +y.
+    EXPECT_GT(rig.state_of(box)->angular_velocity.y, 0.01);
+}
+
+TEST(Session, AFallingBoxLiesStillOnTheGroundAndSleeps) {
+    SessionRig rig;
+    rig.add(ground());
+    const SessionHandle box = rig.add(body(BoxShape{Vec3(0.1)}, {0.5, 0.3, 0.0}, Motion::Dynamic));
+    rig.device.position = {0.0, 1.0, 0.0};
+    rig.ticks(3'000);
+    EXPECT_NEAR(rig.state_of(box)->pose.position.y, 0.1, 2e-3);
+    EXPECT_EQ(rig.newest().awake_bodies, 0u);
+}
+
+TEST(Session, AKinematicBodyMovedByItsOwnerArrivesInTime) {
+    SessionRig rig;
+    const SessionHandle door = rig.add(body(BoxShape{Vec3(0.1)}, Vec3(0.0), Motion::Kinematic));
+    rig.device.position = {0.0, 1.0, 0.0};
+    rig.tick();
+    rig.session.move_body(door, {{0.5, 0.0, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}, 0.1);
+    rig.ticks(102);
+    EXPECT_NEAR(rig.state_of(door)->pose.position.x, 0.5, 1e-9);
+    rig.ticks(50);
+    EXPECT_NEAR(rig.state_of(door)->pose.position.x, 0.5, 1e-9);
+    EXPECT_LT(glm::length(rig.state_of(door)->linear_velocity), 1e-12);
+}
+
+TEST(Session, AMovingDoorPushesTheFinger) {
+    SessionRig rig;
+    const SessionHandle door =
+        rig.add(body(BoxShape{Vec3(0.02, 0.5, 0.5)}, {-0.5, 0.0, 0.0}, Motion::Kinematic));
+    rig.device.position = {0.0, 0.0, 0.0};
+    rig.tick();
+    rig.session.move_body(door, {{0.1, 0.0, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}, 0.2);
+    rig.ticks(300);
+    EXPECT_NEAR(rig.proxy_state().position.x, 0.13, 1e-5);
+    EXPECT_NEAR(rig.device.force.x, 500.0 * 0.13, 0.05);
+}
+
+TEST(Session, ARemovedBodyIsGoneFromTouchAndPhysics) {
+    SessionRig rig;
+    const SessionHandle floor = rig.add(ground());
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.02, 0.0}, 50);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.remove_body(floor);
+    rig.ticks(2);
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+TEST(Session, HandlesComeBackOnlyAfterTheLoopHasLetGo) {
+    SessionRig rig;
+    const SessionHandle first = rig.add(ground());
+    rig.tick();
+    rig.session.remove_body(first);
+    const SessionHandle second = rig.add(ground());
+    EXPECT_NE(second, first);  // the loop has not let go yet
+    rig.tick();
+    rig.session.collect();
+    EXPECT_EQ(rig.add(ground()), first);
+}
+
+TEST(Session, AFullWorldSaysSo) {
+    SessionSettings settings;
+    settings.most_bodies = 2;
+    Session session(settings);
+    EXPECT_EQ(session.add_body(ground()).error, "");
+    EXPECT_EQ(session.add_body(ground()).error, "");
+    EXPECT_NE(session.add_body(ground()).error.find("2 bodies"), std::string::npos);
+}
+
+TEST(Session, PartsThatFindNoPlaceAreReportedAndGivenBack) {
+    SessionSettings settings;
+    settings.most_bodies = 8;
+    settings.most_parts = 1;
+    Session session(settings);
+    const SessionHandle first = session.add_body(ground()).handle;
+    const SessionHandle second = session.add_body(ground()).handle;
+    EXPECT_TRUE(session.tick(period) & session_full);
+    session.collect();
+    EXPECT_EQ(session.tick(2 * period) & session_full, 0u);
+    EXPECT_EQ(session.add_body(ground()).handle, second);  // given back
+    EXPECT_NE(first, second);
+}
+
+TEST(Session, RefusesBadMaterialsAndProxies) {
+    Session session({});
+    BodyAddition bad = ground();
+    bad.touch_material.stiffness = -1.0;
+    EXPECT_NE(session.add_body(bad).error, "");
+    bad.touch_material.stiffness = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(session.add_body(bad).error, "");
+    for (const double radius : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        ProxyDescription description;
+        description.settings.radius = radius;
+        EXPECT_NE(session.add_proxy(description).error.find("radius"), std::string::npos);
+    }
+}
+
+TEST(Session, MoreCommandsThanATickTakesWaitForTheNext) {
+    SessionSettings settings;
+    settings.commands_per_tick = 4;
+    SessionRig rig(settings);
+    for (int i = 0; i < 10; ++i) {
+        rig.add(body(SphereShape{0.1}, {1.0 + i, 0.0, 0.0}, Motion::Kinematic));
+    }
+    EXPECT_TRUE(rig.tick() & session_commands_waiting);
+    EXPECT_EQ(rig.newest().body_count, 2u);  // device, proxy, two bodies
+    rig.ticks(3);
+    EXPECT_EQ(rig.newest().body_count, 10u);
+}
+
+TEST(Session, MoreCommandsThanTheRingHoldsAreKept) {
+    SessionSettings settings;
+    settings.commands_per_tick = 64;
+    SessionRig rig(settings);
+    for (int i = 0; i < 1'500; ++i) {
+        rig.add(body(SphereShape{0.1}, {1.0 + i, 0.0, 0.0}, Motion::Kinematic));
+    }
+    EXPECT_GT(rig.session.backlog(), 0u);
+    for (int i = 0; i < 60; ++i) {
+        rig.tick();
+        rig.session.collect();
+    }
+    EXPECT_EQ(rig.session.backlog(), 0u);
+    EXPECT_EQ(rig.newest().body_count, 1'500u);
+}
+
+TEST(Session, RecordsEveryTickOldestFirstAndCountsWhatIsLost) {
+    SessionRig rig;
+    const SessionHandle box = rig.add(body(BoxShape{Vec3(0.1)}, {0.0, -0.2, 0.0}, Motion::Kinematic));
+    RecorderRing<SessionRecord> ring(64);
+    rig.session.record(&ring, rig.proxy, box);
+    rig.device.position = {0.3, 0.5, 0.1};
+    rig.ticks(40);
+    Nanoseconds expected = 0;
+    std::size_t count = ring.drain([&](const SessionRecord& row) {
+        EXPECT_EQ(row.time, expected += period);
+        EXPECT_EQ(row.hand, rig.device.position);
+        EXPECT_EQ(row.object_position, Vec3(0.0, -0.2, 0.0));
+    });
+    EXPECT_EQ(count, 40u);
+    TickStatus status = 0;
+    for (int i = 0; i < 200; ++i) {
+        status |= rig.tick();
+    }
+    EXPECT_TRUE(status & session_record_lost);
+    EXPECT_EQ(ring.take_lost(), 200u - ring.capacity());
+    rig.session.record(nullptr, no_handle, no_handle);
+    rig.tick();
+    ring.drain([](const SessionRecord&) {});
+    rig.ticks(5);
+    EXPECT_EQ(ring.drain([](const SessionRecord&) {}), 0u);
+}
+
+TEST(Session, SettledBodiesAreThereAtTheFirstTick) {
+    SessionRig rig;
+    for (int i = 0; i < 200; ++i) {
+        rig.add(body(SphereShape{0.1}, {1.0 + i, 0.0, 0.0}, Motion::Kinematic));
+    }
+    rig.session.settle();
+    rig.tick();
+    EXPECT_EQ(rig.newest().body_count, 200u);
+}
+
+// What a proxy remembered of its surroundings while its device was elsewhere must not hold afterwards.
+TEST(Session, AProxyGivenToAnotherDeviceTouchesWhatIsThere) {
+    SessionRig rig;
+    rig.add(body(BoxShape{Vec3(0.5)}, {0.0, -0.6, 0.0}, Motion::Static));
+    rig.add(body(BoxShape{Vec3(0.5)}, {50.0, -0.6, 0.0}, Motion::Static));
+    HeldDevice other;
+    other.position = {50.0, 0.1, 0.0};
+    const SessionHandle second = rig.session.add_device(other, {}).handle;
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.ticks(100);
+    ProxyDescription description;
+    description.device = second;
+    description.settings.radius = 0.01;
+    rig.session.set_proxy(rig.proxy, description);
+    rig.ticks(2);
+    other.position.y = -0.2;
+    rig.ticks(2);
+    EXPECT_NEAR(rig.proxy_state().position.y, -0.09, 1e-6);
+}
+
+TEST(Session, ADisabledProxyFindsBodiesWhereTheyWentMeanwhile) {
+    SessionRig rig;
+    const SessionHandle lift = rig.add(body(BoxShape{Vec3(0.5)}, {0.0, -20.0, 0.0}, Motion::Kinematic));
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.ticks(50);
+    ProxyDescription description;
+    description.device = rig.hand;
+    description.settings.radius = 0.01;
+    description.enabled = false;
+    rig.session.set_proxy(rig.proxy, description);
+    rig.session.move_body(lift, {{0.0, -0.5, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}, 0.2);
+    rig.ticks(250);
+    description.enabled = true;
+    rig.session.set_proxy(rig.proxy, description);
+    rig.ticks(2);
+    rig.draw({0.0, -0.1, 0.0}, 20);
+    EXPECT_NEAR(rig.proxy_state().position.y, 0.01, 1e-6);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,72 @@
+// What the benches share: options, a clock for single ticks, figures over many of them, flat reports.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/triangle_tree.hpp"
+
+namespace tactus::shared {
+
+// --key=value and --key. Every key that is asked for is known; what is left over is not.
+class Options {
+public:
+    Options(int count, char** arguments);
+
+    bool has(std::string_view key);
+    std::string text(std::string_view key, std::string fallback = {});
+    double number(std::string_view key, double fallback);
+
+    // False, with a message on stderr, where something was not understood.
+    bool understood() const;
+
+private:
+    struct Argument {
+        std::string key, value;
+        bool used = false;
+        bool sound = true;
+    };
+    Argument* find(std::string_view key);
+    std::vector<Argument> arguments_;
+};
+
+// One flat JSON object; CASE.metric keys in the order they were set.
+class Report {
+public:
+    void set(const std::string& key, double value);
+    bool write_json(const std::filesystem::path& path) const;
+
+private:
+    std::vector<std::pair<std::string, double>> values_;
+};
+
+// Where a bench writes: the file named by TACTUS_BENCH_JSON, or build/bench/NAME.json.
+std::filesystem::path result_path(std::string_view name);
+
+// Keeps this thread on the processor it runs on. False where the system does not permit it.
+bool stay_on_one_processor();
+
+// The processor's time stamp counter as a clock for spans from ten nanoseconds on.
+class SpanClock {
+public:
+    SpanClock();
+    std::uint64_t now() const;
+    // Length of the span, without the cost of taking the time (unit: nanoseconds).
+    double nanoseconds(std::uint64_t from, std::uint64_t to) const;
+
+private:
+    double per_count_ = 1.0;  // (unit: nanoseconds)
+    double cost_ = 0.0;       // (unit: counts)
+};
+
+// The value below which the share q of all lies; 0 for none. Reorders.
+double quantile(std::vector<double>& values, double q);
+
+// Two tasks at a time.
+void run_on_two_threads(std::size_t count, const std::function<void(std::size_t)>& task);
+
+}  // namespace tactus::shared

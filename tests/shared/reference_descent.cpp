@@ -1,0 +1,339 @@
+#include "shared/reference_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus::shared {
+
+namespace {
+
+using Real = long double;
+
+constexpr Real longest_step = 0.02L;   // in radii
+constexpr Real gathered_reach = 0.1L;  // in radii: triangles within this of contact are kept at hand
+constexpr std::size_t few = 4'000;     // triangles that need no grid
+constexpr int most_steps = 20'000;
+
+// Gaussian elimination with row pivoting; false where a pivot is nothing but rounding.
+template <int Most>
+bool solve(Real (&m)[Most][Most + 1], int size, Real* x) {
+    for (int column = 0; column < size; ++column) {
+        int pivot = column;
+        for (int row = column + 1; row < size; ++row) {
+            pivot = std::abs(m[row][column]) > std::abs(m[pivot][column]) ? row : pivot;
+        }
+        if (std::abs(m[pivot][column]) < 1e-13L) {
+            return false;
+        }
+        for (int k = 0; k <= size; ++k) {
+            std::swap(m[pivot][k], m[column][k]);
+        }
+        for (int row = column + 1; row < size; ++row) {
+            const Real factor = m[row][column] / m[column][column];
+            for (int k = column; k <= size; ++k) {
+                m[row][k] -= factor * m[column][k];
+            }
+        }
+    }
+    for (int row = size - 1; row >= 0; --row) {
+        x[row] = m[row][size];
+        for (int k = row + 1; k < size; ++k) {
+            x[row] -= m[row][k] * x[k];
+        }
+        x[row] /= m[row][row];
+    }
+    return true;
+}
+
+}  // namespace
+
+ReferenceDescent::ReferenceDescent(const TriangleMesh& mesh, double radius) : mesh_(mesh), radius_(radius) {
+    if (mesh.triangles.size() <= few) {
+        return;
+    }
+    low_ = Vec3(1e300);
+    Vec3 high(-1e300);
+    double extents = 0.0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Corners t = corners_of(mesh, i);
+        const Vec3 size = glm::max(t[0], glm::max(t[1], t[2])) - glm::min(t[0], glm::min(t[1], t[2]));
+        extents += std::max({size.x, size.y, size.z});
+        low_ = glm::min(low_, glm::min(t[0], glm::min(t[1], t[2])));
+        high = glm::max(high, glm::max(t[0], glm::max(t[1], t[2])));
+    }
+    cell_ = std::max(2.0 * extents / static_cast<double>(mesh.triangles.size()), 0.25 * radius);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const Corners t = corners_of(mesh, i);
+        const Vec3 first = (glm::min(t[0], glm::min(t[1], t[2])) - low_) / cell_;
+        const Vec3 last = (glm::max(t[0], glm::max(t[1], t[2])) - low_) / cell_;
+        for (auto x = static_cast<std::int64_t>(first.x); x <= static_cast<std::int64_t>(last.x); ++x) {
+            for (auto y = static_cast<std::int64_t>(first.y); y <= static_cast<std::int64_t>(last.y); ++y) {
+                for (auto z = static_cast<std::int64_t>(first.z); z <= static_cast<std::int64_t>(last.z);
+                     ++z) {
+                    cells_.push_back({cell_key(x, y, z), static_cast<std::uint32_t>(i)});
+                }
+            }
+        }
+    }
+    std::ranges::sort(cells_, {}, &Cell::key);
+}
+
+std::uint64_t ReferenceDescent::cell_key(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return (static_cast<std::uint64_t>(x) << 42) | (static_cast<std::uint64_t>(y) << 21) |
+           static_cast<std::uint64_t>(z);
+}
+
+// Every triangle that the centre could touch within gathered_reach / 2 of travel.
+void ReferenceDescent::gather(const SlowVec3& center) {
+    gathered_at_ = center;
+    near_.clear();
+    const Vec3 c(center);
+    const auto reach = static_cast<double>(radius_ * (1.0L + gathered_reach));
+    std::vector<std::uint32_t> candidates;
+    if (cell_ == 0.0) {
+        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+            candidates.push_back(static_cast<std::uint32_t>(i));
+        }
+    } else {
+        const auto index = [&](double value, int axis) {
+            return std::max<std::int64_t>(
+                0, static_cast<std::int64_t>(std::floor((value - low_[axis]) / cell_)));
+        };
+        for (std::int64_t x = index(c.x - reach, 0); x <= index(c.x + reach, 0); ++x) {
+            for (std::int64_t y = index(c.y - reach, 1); y <= index(c.y + reach, 1); ++y) {
+                for (std::int64_t z = index(c.z - reach, 2); z <= index(c.z + reach, 2); ++z) {
+                    const auto found = std::ranges::equal_range(cells_, cell_key(x, y, z), {}, &Cell::key);
+                    for (const Cell& cell : found) {
+                        candidates.push_back(cell.triangle);
+                    }
+                }
+            }
+        }
+        std::ranges::sort(candidates);
+        const auto repeated = std::ranges::unique(candidates);
+        candidates.erase(repeated.begin(), repeated.end());
+    }
+    for (const std::uint32_t triangle : candidates) {
+        const Corners t = corners_of(mesh_, triangle);
+        const double size = std::max(glm::distance(t[0], t[1]), glm::distance(t[0], t[2]));
+        if (glm::distance(c, t[0]) - size <= reach &&
+            slow_closest(center, t).distance <= static_cast<Real>(reach) * (1.0L + 1e-12L)) {
+            near_.push_back(triangle);
+        }
+    }
+}
+
+// The contact planes of everything with a gap of at most `reach`.
+void ReferenceDescent::constrain(const SlowVec3& center, Real reach) {
+    if (glm::distance(center, gathered_at_) > 0.4L * gathered_reach * radius_) {
+        gather(center);
+    }
+    constraints_.clear();
+    for (const std::uint32_t triangle : near_) {
+        const SlowClosest closest = slow_closest(center, corners_of(mesh_, triangle));
+        if (closest.distance - radius_ <= reach && closest.distance > 0.0L) {
+            constraints_.push_back({(center - closest.point) / closest.distance, closest.distance - radius_,
+                                    closest.edge, closest.distance, closest.supports});
+        }
+    }
+}
+
+// The point nearest to the pull on the borders of the chosen constraints; false where it is none of the
+// minimum's candidates: a border that pulls, or a constraint of the working set that is broken.
+bool ReferenceDescent::solve_subset(const SlowVec3& pull, const std::vector<int>& working, const int* chosen,
+                                    int count, Step& step) const {
+    Real m[3][4];
+    for (int i = 0; i < count; ++i) {
+        const Constraint& a = constraints_[static_cast<std::size_t>(chosen[i])];
+        for (int k = 0; k < count; ++k) {
+            m[i][k] = glm::dot(a.normal, constraints_[static_cast<std::size_t>(chosen[k])].normal);
+        }
+        m[i][count] = -a.gap - glm::dot(a.normal, pull);
+    }
+    Real pressure[3];
+    if (!solve<3>(m, count, pressure)) {
+        return false;
+    }
+    step = {};
+    step.motion = pull;
+    for (int i = 0; i < count; ++i) {
+        if (pressure[i] < 0.0L) {
+            return false;
+        }
+        step.motion += pressure[i] * constraints_[static_cast<std::size_t>(chosen[i])].normal;
+        step.pressing[step.count] = chosen[i];
+        step.pressure[step.count++] = pressure[i];
+    }
+    const Real rounding = 1e-15L * (glm::length(pull) + 1e-3L * radius_);
+    return std::ranges::all_of(working, [&](int i) {
+        const Constraint& c = constraints_[static_cast<std::size_t>(i)];
+        return glm::dot(c.normal, step.motion) >= -c.gap - rounding;
+    });
+}
+
+// Every subset of one, two and three.
+ReferenceDescent::Step ReferenceDescent::enumerate(const SlowVec3& pull,
+                                                   const std::vector<int>& working) const {
+    Step best;
+    best.motion = SlowVec3(0.0L);
+    Real nearest = 1e300L;
+    const auto consider = [&](std::initializer_list<int> chosen) {
+        Step step;
+        if (solve_subset(pull, working, chosen.begin(), static_cast<int>(chosen.size()), step)) {
+            const Real distance = glm::distance(step.motion, pull);
+            if (distance < nearest) {
+                nearest = distance;
+                best = step;
+            }
+        }
+    };
+    for (std::size_t i = 0; i < working.size(); ++i) {
+        consider({working[i]});
+        for (std::size_t j = i + 1; j < working.size(); ++j) {
+            consider({working[i], working[j]});
+            for (std::size_t k = j + 1; k < working.size(); ++k) {
+                consider({working[i], working[j], working[k]});
+            }
+        }
+    }
+    return best;
+}
+
+// Planes join one by one, the worst broken first, until none is broken.
+ReferenceDescent::Step ReferenceDescent::flat_step(const SlowVec3& pull) const {
+    Step step;
+    step.motion = pull;
+    std::vector<int> working;
+    for (std::size_t round = 0; round <= constraints_.size(); ++round) {
+        int worst = -1;
+        Real most = 1e-16L * (glm::length(pull) + 1e-2L * radius_);
+        for (std::size_t i = 0; i < constraints_.size(); ++i) {
+            const Real broken = -constraints_[i].gap - glm::dot(constraints_[i].normal, step.motion);
+            if (broken > most) {
+                most = broken;
+                worst = static_cast<int>(i);
+            }
+        }
+        if (worst < 0 || std::ranges::find(working, worst) != working.end()) {
+            break;
+        }
+        working.push_back(worst);
+        step = enumerate(pull, working);
+    }
+    return step;
+}
+
+// (1 - sum pressure * bend) motion - N pressure' = pull, N^T motion = -gap.
+bool ReferenceDescent::newton_step(const SlowVec3& pull, const Step& flat, SlowVec3& motion) const {
+    Real w[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    bool bends = false;
+    for (int i = 0; i < flat.count; ++i) {
+        const Constraint& c = constraints_[static_cast<std::size_t>(flat.pressing[i])];
+        if (c.supports == 3) {
+            continue;
+        }
+        bends = true;
+        for (int a = 0; a < 3; ++a) {
+            for (int b = 0; b < 3; ++b) {
+                const Real along = c.supports == 2 ? c.edge[a] * c.edge[b] : 0.0L;
+                w[a][b] -= flat.pressure[i] * ((a == b ? 1.0L : 0.0L) - c.normal[a] * c.normal[b] - along) /
+                           c.distance;
+            }
+        }
+    }
+    if (!bends || flat.count == 0) {
+        return false;
+    }
+    // A minimum only where the Lagrangian bends upwards along what the contacts leave free.
+    const SlowVec3& n = constraints_[static_cast<std::size_t>(flat.pressing[0])].normal;
+    SlowVec3 f1, f2;
+    if (flat.count == 1) {
+        f1 = glm::normalize(glm::cross(n, std::abs(n.x) < 0.6L ? SlowVec3(1, 0, 0) : SlowVec3(0, 1, 0)));
+        f2 = glm::cross(n, f1);
+    } else if (flat.count == 2) {
+        f1 = glm::cross(n, constraints_[static_cast<std::size_t>(flat.pressing[1])].normal);
+        f1 /= glm::length(f1);
+        f2 = f1;
+    }
+    const auto form = [&](const SlowVec3& a, const SlowVec3& b) {
+        Real sum = 0.0L;
+        for (int i = 0; i < 3; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                sum += a[i] * w[i][k] * b[k];
+            }
+        }
+        return sum;
+    };
+    if (flat.count < 3) {
+        const Real a = form(f1, f1);
+        const Real b = form(f2, f2);
+        const Real c = flat.count == 1 ? form(f1, f2) : 0.0L;
+        if (a <= 1e-6L || b <= 1e-6L || a * b - c * c <= 1e-12L) {
+            return false;
+        }
+    }
+    Real m[6][7] = {};
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            m[i][k] = w[i][k];
+        }
+        m[i][3 + flat.count] = pull[i];
+    }
+    for (int i = 0; i < flat.count; ++i) {
+        const Constraint& c = constraints_[static_cast<std::size_t>(flat.pressing[i])];
+        for (int k = 0; k < 3; ++k) {
+            m[k][3 + i] = -c.normal[k];
+            m[3 + i][k] = c.normal[k];
+        }
+        m[3 + i][3 + flat.count] = -c.gap;
+    }
+    Real x[6];
+    if (!solve<6>(m, 3 + flat.count, x)) {
+        return false;
+    }
+    motion = {x[0], x[1], x[2]};
+    if (glm::length(motion) > longest_step * radius_) {
+        return false;
+    }
+    for (int i = 0; i < flat.count; ++i) {
+        if (x[3 + i] < 0.0L) {
+            return false;
+        }
+    }
+    const Real rounding = 1e-17L * (glm::length(pull) + radius_);
+    return std::ranges::all_of(
+        constraints_, [&](const Constraint& c) { return glm::dot(c.normal, motion) >= -c.gap - rounding; });
+}
+
+ReferencePlace ReferenceDescent::settle(const Vec3& start, const Vec3& hand) {
+    ReferencePlace place;
+    place.position = SlowVec3(start);
+    const SlowVec3 goal(hand);
+    gather(place.position);
+    const Real longest = longest_step * radius_;
+    const Real enough = std::max(1e-15L * radius_, 8e-19L * glm::length(place.position));
+    for (place.steps = 0; place.steps < most_steps; ++place.steps) {
+        constrain(place.position, 2.0L * longest);
+        const SlowVec3 pull = goal - place.position;
+        const Step flat = flat_step(pull);
+        place.pressing = flat.count;
+        place.residual = glm::length(flat.motion);
+        if (place.residual <= enough) {
+            place.settled = true;
+            break;
+        }
+        SlowVec3 motion = flat.motion;
+        SlowVec3 polished;
+        if (newton_step(pull, flat, polished)) {
+            motion = polished;
+        }
+        const Real length = glm::length(motion);
+        if (length > longest) {
+            motion *= longest / length;
+        }
+        place.position += motion;
+    }
+    return place;
+}
+
+}  // namespace tactus::shared
