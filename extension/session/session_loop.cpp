@@ -181,7 +181,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.force = force.total;
     device.force += force.total;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
-    press_bodies(force);
+    press_bodies(force, device.hand_velocity, (tick.status & proxy_sliding) != 0);
     describe(slot, tick, force);
 }
 
@@ -219,12 +219,15 @@ void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
 }
 
 // The opposite of what the hand feels goes to what it touches, where it touches it.
-void SessionLoop::press_bodies(const HandForce& force) {
+void SessionLoop::press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding) {
     for (int i = 0; i < force.contact_count; ++i) {
         const ContactForce& part = force.contacts[i];
         const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(part.body)]];
         if (pressed.motion == Motion::Dynamic) {
-            physics_.apply_force(pressed.id, -part.on_hand, part.point);
+            const TouchMaterial& material = scene_.body(part.body).material;
+            const bool sticks = !sliding && material.static_friction > 0.0;
+            physics_.apply_spring_force(
+                pressed.id, {-part.on_hand, part.point, material.stiffness, material.damping, hand_velocity, sticks});
         }
     }
 }

@@ -89,7 +89,7 @@ private:
     Vec3 attract(const ProxySlot& slot);
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);
-    void press_bodies(const HandForce& force);
+    void press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding);
     void write_devices(Nanoseconds now);
     void step_physics();
     void publish(Nanoseconds now);
