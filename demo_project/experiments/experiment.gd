@@ -1,5 +1,5 @@
 extends Node
-## Runs one scene for a time and writes down what happened. The main scene starts it when it is called with options:
+## Runs one scene for a time and writes down what happened. The main scene starts it when called with options:
 ##
 ##     godot --headless --path demo_project -- --KEY=VALUE …
 ##     tactus.x86_64 --headless -- --KEY=VALUE …

@@ -2,8 +2,8 @@ extends Control
 ## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it away or
 ## pull it closer; Tab changes between the mouse and the scripted path, Escape goes back.
 ##
-## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead; called with a
-## scene's path, it opens that scene.
+## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead; called
+## with a scene's path, it opens that scene.
 
 const SCENES := {
 	"Static: a sphere on the thesis's path": "res://static_testbed.tscn",

@@ -50,7 +50,8 @@ std::string check_material(const TouchMaterial& m) {
         }
     }
     if (!(m.texture_size > 0.0) || !(m.magnet_range > 0.0)) {
-        return "the touch material's texture size or magnet range is not a positive length: set both above 0 m";
+        return "the touch material's texture size or magnet range is not a positive length: set both above 0 "
+               "m";
     }
     return {};
 }
@@ -58,7 +59,8 @@ std::string check_material(const TouchMaterial& m) {
 std::string check_texture(const HeightImage* image) {
     if (image && (image->columns == 0 || image->rows == 0 ||
                   image->heights.size() != std::size_t{image->columns} * image->rows)) {
-        return "the touch material's texture has no pixels, or not as many as its size says: load the image again";
+        return "the touch material's texture has no pixels, or not as many as its size says: load the image "
+               "again";
     }
     return {};
 }
@@ -131,7 +133,9 @@ struct Session::Impl {
 Session::Session(const SessionSettings& settings) : impl_(std::make_unique<Impl>(settings)) {}
 Session::~Session() = default;
 
-const SessionSettings& Session::settings() const { return impl_->settings; }
+const SessionSettings& Session::settings() const {
+    return impl_->settings;
+}
 
 AddResult Session::add_body(const BodyAddition& addition) {
     if (std::string error = check_material(addition.touch_material); !error.empty()) {
@@ -151,19 +155,24 @@ AddResult Session::add_body(const BodyAddition& addition) {
     }
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
-        return {no_handle, "the world already holds its limit of " + std::to_string(impl_->settings.most_bodies) +
+        return {no_handle, "the world already holds its limit of " +
+                               std::to_string(impl_->settings.most_bodies) +
                                " bodies: raise the limit or remove some"};
     }
     impl_->send(command::AddBody{handle, std::move(body), std::move(touch.shape),
-                                 with_texture(addition.touch_material, addition.texture.get()), addition.texture,
-                                 addition.description.collision.layer, addition.description.pose,
-                                 addition.description.motion});
+                                 with_texture(addition.touch_material, addition.texture.get()),
+                                 addition.texture, addition.description.collision.layer,
+                                 addition.description.pose, addition.description.motion});
     return {handle, {}};
 }
 
-void Session::remove_body(SessionHandle body) { impl_->send(command::RemoveBody{body}); }
+void Session::remove_body(SessionHandle body) {
+    impl_->send(command::RemoveBody{body});
+}
 
-void Session::teleport_body(SessionHandle body, const Pose& pose) { impl_->send(command::TeleportBody{body, pose}); }
+void Session::teleport_body(SessionHandle body, const Pose& pose) {
+    impl_->send(command::TeleportBody{body, pose});
+}
 
 void Session::move_body(SessionHandle body, const Pose& pose, double seconds) {
     impl_->send(command::MoveBody{body, pose, seconds});
@@ -201,7 +210,9 @@ void Session::set_body_damping(SessionHandle body, double linear, double angular
     impl_->send(command::SetBodyDamping{body, linear, angular});
 }
 
-void Session::set_gravity(const Vec3& gravity) { impl_->send(command::SetGravity{gravity}); }
+void Session::set_gravity(const Vec3& gravity) {
+    impl_->send(command::SetGravity{gravity});
+}
 
 AddResult Session::add_device(Device& device, const Workspace& workspace) {
     const SessionHandle handle = impl_->devices.take();
@@ -216,7 +227,9 @@ void Session::set_workspace(SessionHandle device, const Workspace& workspace) {
     impl_->send(command::SetWorkspace{device, workspace});
 }
 
-void Session::remove_device(SessionHandle device) { impl_->send(command::RemoveDevice{device}); }
+void Session::remove_device(SessionHandle device) {
+    impl_->send(command::RemoveDevice{device});
+}
 
 AddResult Session::add_proxy(const ProxyDescription& description) {
     if (std::string error = check_proxy(description); !error.empty()) {
@@ -226,8 +239,8 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(most_proxies) + " proxies: remove one"};
     }
-    impl_->send(command::AddProxy{handle, std::make_unique<Proxy>(impl_->settings.most_parts, description.settings),
-                                  description});
+    impl_->send(command::AddProxy{
+        handle, std::make_unique<Proxy>(impl_->settings.most_parts, description.settings), description});
     return {handle, {}};
 }
 
@@ -237,7 +250,9 @@ void Session::set_proxy(SessionHandle proxy, const ProxyDescription& description
     }
 }
 
-void Session::remove_proxy(SessionHandle proxy) { impl_->send(command::RemoveProxy{proxy}); }
+void Session::remove_proxy(SessionHandle proxy) {
+    impl_->send(command::RemoveProxy{proxy});
+}
 
 void Session::record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object) {
     impl_->send(command::Record{ring, proxy, object});
@@ -265,9 +280,15 @@ bool Session::collect() {
     return !impl_->backlog.empty() || impl_->commands.size() > 0;
 }
 
-bool Session::refresh() { return impl_->snapshots.refresh(); }
-const SessionSnapshot& Session::snapshot() const { return impl_->snapshots.front(); }
-std::size_t Session::backlog() const { return impl_->backlog.size(); }
+bool Session::refresh() {
+    return impl_->snapshots.refresh();
+}
+const SessionSnapshot& Session::snapshot() const {
+    return impl_->snapshots.front();
+}
+std::size_t Session::backlog() const {
+    return impl_->backlog.size();
+}
 
 void Session::settle() {
     do {

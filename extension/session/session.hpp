@@ -1,9 +1,10 @@
 // One scenario, wired up: bodies, proxies, devices and a recorder around the tick (design: one tick of 1 ms).
 //
-// Threads: a session has two sides. The *owner* side belongs to one thread (in Godot the main thread): it adds, changes
-// and removes, and reads snapshots. The *loop* side is tick(), called by one thread at a time: the haptic thread in
-// real time, or the owner itself in virtual time. The two meet in rings and a triple buffer only; neither ever waits
-// for the other. Objects that leave the loop come back through a ring and are destroyed on the owner side.
+// Threads: a session has two sides. The *owner* side belongs to one thread (in Godot the main thread): it
+// adds, changes and removes, and reads snapshots. The *loop* side is tick(), called by one thread at a time:
+// the haptic thread in real time, or the owner itself in virtual time. The two meet in rings and a triple
+// buffer only; neither ever waits for the other. Objects that leave the loop come back through a ring and are
+// destroyed on the owner side.
 //
 // A session reads no clock: the same calls with the same times give the same bits.
 #pragma once
@@ -32,7 +33,6 @@ struct AddResult {
     std::string error;  // what is wrong and what to do; empty where the handle is valid
 };
 
-
 class Session {
 public:
     explicit Session(const SessionSettings& settings);
@@ -42,9 +42,11 @@ public:
 
     const SessionSettings& settings() const;
 
-    // --- owner side -------------------------------------------------------------------------------------------------
+    // --- owner side
+    // -------------------------------------------------------------------------------------------------
 
-    // Builds the triangle tree and the rigid body here, then hands them to the loop. Nothing is added on an error.
+    // Builds the triangle tree and the rigid body here, then hands them to the loop. Nothing is added on an
+    // error.
     AddResult add_body(const BodyAddition& addition);
     void remove_body(SessionHandle body);
     // Where the body is from the next tick on, without a way there: nothing is pushed.
@@ -70,12 +72,12 @@ public:
     void set_proxy(SessionHandle proxy, const ProxyDescription& description);
     void remove_proxy(SessionHandle proxy);
 
-    // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner drains. One
-    // recording at a time; null stops. The ring must live until the change has been carried out.
+    // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner
+    // drains. One recording at a time; null stops. The ring must live until the change has been carried out.
     void record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object);
 
-    // Destroys what the loop has given back; call it now and then, as each of Godot's frames does. True while commands
-    // are still on their way to the loop.
+    // Destroys what the loop has given back; call it now and then, as each of Godot's frames does. True while
+    // commands are still on their way to the loop.
     bool collect();
 
     // Takes the newest snapshot; false where there is none since the last call.
@@ -88,7 +90,8 @@ public:
     // Before the loop starts, on the owner's thread: carries out everything sent so far at once.
     void settle();
 
-    // --- loop side --------------------------------------------------------------------------------------------------
+    // --- loop side
+    // --------------------------------------------------------------------------------------------------
 
     // One tick at `now`, a time that rises by the period. `trace` may be null.
     TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);

@@ -18,8 +18,8 @@ SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body, c.handle, std::move(c.body), std::move(c.shape), nullptr,
-                   std::move(c.texture)};
+        retired = {Retired::Kind::body, c.handle, std::move(c.body),
+                   std::move(c.shape),  nullptr,  std::move(c.texture)};
         return true;
     };
     const BodyId id = physics_.add(c.body);
@@ -45,7 +45,8 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
 void SessionLoop::show_state(SessionHandle handle) {
     const BodyId id = bodies_[handle].id;
     state_of_[handle] = static_cast<std::uint32_t>(states_.size());
-    states_.push_back({handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
+    states_.push_back(
+        {handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
     states_changed_at_ = tick_ + 1;
 }
 
@@ -74,8 +75,8 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
         }
         states_changed_at_ = tick_ + 1;
     }
-    retired = {Retired::Kind::body, c.handle, physics_.remove(removed->id), std::move(removed->shape), nullptr,
-               std::move(removed->texture)};
+    retired = {Retired::Kind::body,       c.handle, physics_.remove(removed->id),
+               std::move(removed->shape), nullptr,  std::move(removed->texture)};
     *removed = {};
     return true;
 }
@@ -211,8 +212,7 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
-    retired = {Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy),
-               nullptr};
+    retired = {Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr};
     proxies_[c.handle] = {};
     return true;
 }

@@ -1,4 +1,5 @@
-// What crosses from the owner of a session to its loop, and what comes back to be destroyed. Private to session/.
+// What crosses from the owner of a session to its loop, and what comes back to be destroyed. Private to
+// session/.
 #pragma once
 
 #include <memory>
@@ -97,12 +98,12 @@ struct Record {
 
 namespace tactus {
 
-using Command =
-    std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
-                 command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
-                 command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetGravity,
-                 command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy,
-                 command::SetProxy, command::RemoveProxy, command::Record>;
+using Command = std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
+                             command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
+                             command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
+                             command::SetBodyDamping, command::SetGravity, command::AddDevice,
+                             command::SetWorkspace, command::RemoveDevice, command::AddProxy,
+                             command::SetProxy, command::RemoveProxy, command::Record>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

@@ -20,7 +20,8 @@ PhysicsSettings with_room(const SessionSettings& settings) {
 // The pose that is one of `ticks` equal parts of the way on.
 Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
     const double share = 1.0 / ticks;
-    return {from.position + (to.position - from.position) * share, glm::slerp(from.rotation, to.rotation, share)};
+    return {from.position + (to.position - from.position) * share,
+            glm::slerp(from.rotation, to.rotation, share)};
 }
 
 Vec3 into_scene(const Workspace& workspace, const Vec3& point) {
@@ -110,15 +111,15 @@ void SessionLoop::follow_physics() {
     follow(awake_);
 }
 
-// Ways that the owner asked for. A kinematic body gets the velocity that takes it one tick further, so that it pushes;
-// a static one is simply put there.
+// Ways that the owner asked for. A kinematic body gets the velocity that takes it one tick further, so that
+// it pushes; a static one is simply put there.
 void SessionLoop::travel() {
     for (std::size_t i = 0; i < travelling_.size();) {
         const SessionHandle handle = travelling_[i];
         Body& moving = bodies_[handle];
-        const Pose pose = moving.ticks_left > 1
-                              ? part_of_the_way(scene_.body(moving.slot).pose, moving.target, moving.ticks_left)
-                              : moving.target;
+        const Pose pose = moving.ticks_left > 1 ? part_of_the_way(scene_.body(moving.slot).pose,
+                                                                  moving.target, moving.ticks_left)
+                                                : moving.target;
         if (moving.motion == Motion::Kinematic) {
             if (moving.ticks_left > 0) {
                 physics_.move_to(moving.id, pose, seconds_);
@@ -153,9 +154,10 @@ void SessionLoop::read_devices(Nanoseconds now) {
         }
         slot.was_held = slot.workspace.clutch;
         slot.hand = reached + slot.clutch_offset;
-        slot.hand_velocity = slot.workspace.clutch
-                                 ? Vec3(0.0)
-                                 : direction_to_parent(slot.workspace.pose, slot.sample.velocity * slot.workspace.scale);
+        slot.hand_velocity =
+            slot.workspace.clutch
+                ? Vec3(0.0)
+                : direction_to_parent(slot.workspace.pose, slot.sample.velocity * slot.workspace.scale);
         slot.force = Vec3(0.0);
     }
 }
@@ -170,10 +172,11 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     }
     DeviceSlot& device = devices_[slot.description.device];
     const ProxyTick tick = slot.proxy->move(scene_, device.hand);
-    HandForce force = contact_force(scene_, slot.proxy->touching(), tick.slide, device.hand_velocity, seconds_);
+    HandForce force =
+        contact_force(scene_, slot.proxy->touching(), tick.slide, device.hand_velocity, seconds_);
     break_surfaces(slot, force);
-    add_surface_effects(scene_, slot.proxy->touching(), {device.hand, device.hand_velocity}, now, seconds_, slot.effects,
-                        force);
+    add_surface_effects(scene_, slot.proxy->touching(), {device.hand, device.hand_velocity}, now, seconds_,
+                        slot.effects, force);
     if (slot.description.force_law == ForceLaw::smoothed) {
         smooth(force, slot.force);
     }
@@ -201,7 +204,8 @@ Vec3 SessionLoop::attract(const ProxySlot& slot) {
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
         if (magnet.motion == Motion::Dynamic) {
-            physics_.apply_force(magnet.id, -on_hand, slot.proxy->position() - nearest.normal * nearest.distance);
+            physics_.apply_force(magnet.id, -on_hand,
+                                 slot.proxy->position() - nearest.normal * nearest.distance);
         }
     }
     return pull;
@@ -226,8 +230,8 @@ void SessionLoop::press_bodies(const HandForce& force, const Vec3& hand_velocity
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
             const bool sticks = !sliding && material.static_friction > 0.0;
-            physics_.apply_spring_force(
-                pressed.id, {-part.on_hand, part.point, material.stiffness, material.damping, hand_velocity, sticks});
+            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
+                                                     material.damping, hand_velocity, sticks});
         }
     }
 }
@@ -277,7 +281,8 @@ void SessionLoop::step_physics() {
 
 void SessionLoop::publish(Nanoseconds now) {
     SessionSnapshot& out = snapshots_.back();
-    // The slot holds an older snapshot: only bodies that changed since then are written, or all where some came or went.
+    // The slot holds an older snapshot: only bodies that changed since then are written, or all where some
+    // came or went.
     const std::uint64_t known = states_changed_at_ >= out.tick ? 0 : out.tick;
     for (std::size_t i = 0; i < states_.size(); ++i) {
         if (states_[i].changed_at >= known) {

@@ -1,4 +1,5 @@
-// The loop's half of a session: the tick and everything that only the ticking thread touches. Private to session/.
+// The loop's half of a session: the tick and everything that only the ticking thread touches. Private to
+// session/.
 //
 // All memory is taken in the constructor. Nothing here allocates, locks, throws, logs or reads a clock.
 #pragma once
@@ -18,7 +19,8 @@ class SessionLoop {
 public:
     SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
 
-    // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is something.
+    // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is
+    // something.
     bool take(Command& command, Retired& retired);
 
     // After the first bodies have come in and before the first tick.
@@ -108,7 +110,7 @@ private:
     std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
     std::vector<BodyId> awake_before_;
     std::vector<BodyId> awake_;
-    std::vector<BodyState> states_;  // of all bodies that are not static, dense
+    std::vector<BodyState> states_;        // of all bodies that are not static, dense
     std::vector<std::uint32_t> state_of_;  // by handle; no_handle: none
     std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
     std::array<DeviceSlot, most_devices> devices_;

@@ -20,15 +20,15 @@ constexpr std::size_t most_devices = 8;
 constexpr std::size_t most_proxies = 16;
 
 struct SessionSettings {
-    Nanoseconds period = 1'000'000;      // of a tick, > 0
-    std::uint32_t most_bodies = 4096;    // that may be in the session at once
-    std::uint32_t most_parts = 8192;     // shapes of all of them together
+    Nanoseconds period = 1'000'000;        // of a tick, > 0
+    std::uint32_t most_bodies = 4096;      // that may be in the session at once
+    std::uint32_t most_parts = 8192;       // shapes of all of them together
     std::uint32_t commands_per_tick = 64;  // taken from the owner in one tick; the rest waits for the next
     PhysicsSettings physics;
 };
 
-// Where a device's workspace stands in the scene. A point p of the device is at pose * (scale * p). Forces are turned
-// with the pose and keep their size.
+// Where a device's workspace stands in the scene. A point p of the device is at pose * (scale * p). Forces
+// are turned with the pose and keep their size.
 struct Workspace {
     Pose pose;
     double scale = 1.0;        // > 0
@@ -45,30 +45,30 @@ struct ProxyDescription {
 
 // Bits of the TickStatus a session's tick returns (realtime/tick_status.hpp has the loop's own).
 enum SessionStatus : std::uint32_t {
-    session_step_pairs_full = 1u << 0,     // see StepStatus
+    session_step_pairs_full = 1u << 0,  // see StepStatus
     session_step_contacts_full = 1u << 1,
     session_step_memory_full = 1u << 2,
-    session_full = 1u << 3,            // a body, device or proxy found no place
-    session_force_limited = 1u << 4,   // a force was longer than its device's limit
+    session_full = 1u << 3,           // a body, device or proxy found no place
+    session_force_limited = 1u << 4,  // a force was longer than its device's limit
     session_proxy_unfinished = 1u << 5,
-    session_record_lost = 1u << 6,     // a recorder's ring was full
+    session_record_lost = 1u << 6,  // a recorder's ring was full
     session_commands_waiting = 1u << 7,
 };
 
 struct BodyState {
     SessionHandle handle = no_handle;
     Pose pose;
-    Vec3 linear_velocity{0.0};   // (unit: meters per second)
-    Vec3 angular_velocity{0.0};  // (unit: radians per second)
+    Vec3 linear_velocity{0.0};     // (unit: meters per second)
+    Vec3 angular_velocity{0.0};    // (unit: radians per second)
     std::uint64_t changed_at = 0;  // tick
 };
 
 struct ProxyState {
     SessionHandle handle = no_handle;
-    Vec3 position{0.0};  // of the proxy, in the world (unit: meters)
-    Vec3 hand{0.0};      // HIP, in the world (unit: meters)
-    Vec3 force{0.0};     // on the hand, in the world (unit: newtons)
-    double residual = 0.0;  // see ProxyTick
+    Vec3 position{0.0};        // of the proxy, in the world (unit: meters)
+    Vec3 hand{0.0};            // HIP, in the world (unit: meters)
+    Vec3 force{0.0};           // on the hand, in the world (unit: newtons)
+    double residual = 0.0;     // see ProxyTick
     std::uint32_t status = 0;  // ProxyStatus
     int contact_count = 0;
     std::array<SessionHandle, HandForce::most_contacts> bodies{no_handle, no_handle, no_handle};
@@ -103,9 +103,9 @@ struct SessionSnapshot {
 struct SessionRecord {
     Nanoseconds time = 0;  // the tick's time on the session's clock
     SessionHandle proxy = no_handle;
-    Vec3 hand{0.0};            // in the world (unit: meters)
-    Vec3 proxy_position{0.0};  // in the world (unit: meters)
-    Vec3 force{0.0};           // on the hand, in the world (unit: newtons)
+    Vec3 hand{0.0};             // in the world (unit: meters)
+    Vec3 proxy_position{0.0};   // in the world (unit: meters)
+    Vec3 force{0.0};            // on the hand, in the world (unit: newtons)
     Vec3 object_position{0.0};  // of the followed body (unit: meters); zero where none is followed
     Quat object_rotation{1.0, 0.0, 0.0, 0.0};
     std::uint32_t proxy_status = 0;

@@ -2,7 +2,7 @@
 #include <cstring>
 #include <vector>
 
-#include "session/session_rig.hpp"
+#include "session_rig.hpp"
 #include "shared/meshes.hpp"
 
 namespace tactus {

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "session/session_rig.hpp"
+#include "session_rig.hpp"
 #include "shared/meshes.hpp"
 #include "support/realtime_audit.hpp"
 

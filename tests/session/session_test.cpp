@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "session/session_rig.hpp"
+#include "session_rig.hpp"
 
 namespace tactus {
 namespace {

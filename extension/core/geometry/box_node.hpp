@@ -1,5 +1,6 @@
-// A node of the triangle tree: eight boxes tested at once. Boxes are stored in single precision, rounded outward, and
-// relative to the tree's origin; queries widen their reach by `float_slack`, so that no rounding hides a triangle.
+// A node of the triangle tree: eight boxes tested at once. Boxes are stored in single precision, rounded
+// outward, and relative to the tree's origin; queries widen their reach by `float_slack`, so that no rounding
+// hides a triangle.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@ struct alignas(32) BoxNode {
     static constexpr std::uint32_t leaf_bit = 0x8000'0000u;
     static constexpr std::uint32_t unused = 0xffff'ffffu;
 
-    FloatLanes low[3];                 // x, y, z of the lower corners (unit: meters); +infinity where unused
-    FloatLanes high[3];                // of the upper corners; -infinity where unused
+    FloatLanes low[3];                // x, y, z of the lower corners (unit: meters); +infinity where unused
+    FloatLanes high[3];               // of the upper corners; -infinity where unused
     std::uint32_t child[node_width];  // a node, or a triangle pack where leaf_bit is set, or unused
 };
 
@@ -26,7 +27,9 @@ struct FloatPoint {
     FloatLanes x, y, z;
 };
 
-inline FloatLanes splat_float(float v) { return FloatLanes{v, v, v, v, v, v, v, v}; }
+inline FloatLanes splat_float(float v) {
+    return FloatLanes{v, v, v, v, v, v, v, v};
+}
 
 inline FloatPoint to_float_point(const Vec3& p) {
     return {splat_float(static_cast<float>(p.x)), splat_float(static_cast<float>(p.y)),
@@ -34,8 +37,12 @@ inline FloatPoint to_float_point(const Vec3& p) {
 }
 
 namespace box_detail {
-inline FloatLanes least(FloatLanes a, FloatLanes b) { return a < b ? a : b; }
-inline FloatLanes most(FloatLanes a, FloatLanes b) { return a > b ? a : b; }
+inline FloatLanes least(FloatLanes a, FloatLanes b) {
+    return a < b ? a : b;
+}
+inline FloatLanes most(FloatLanes a, FloatLanes b) {
+    return a > b ? a : b;
+}
 inline FloatLanes outside(FloatLanes low, FloatLanes high, FloatLanes p) {
     return most(most(low - p, p - high), splat_float(0.0f));
 }
@@ -49,8 +56,9 @@ inline FloatLanes squared_distance_to_boxes(const BoxNode& node, const FloatPoin
     return dx * dx + dy * dy + dz * dz;
 }
 
-// Where a moving point enters each box grown by `margin` on all sides: t in [0, 1] of its segment, or infinity.
-// A motion of zero along an axis is handled by an inverse of huge size instead of infinity (0 * inf is NaN).
+// Where a moving point enters each box grown by `margin` on all sides: t in [0, 1] of its segment, or
+// infinity. A motion of zero along an axis is handled by an inverse of huge size instead of infinity (0 * inf
+// is NaN).
 struct FloatRay {
     FloatPoint origin;
     FloatPoint inverse_motion;
@@ -65,8 +73,7 @@ inline FloatLanes entry_into_boxes(const BoxNode& node, const FloatRay& ray, flo
     const FloatLanes by = (node.high[1] + grow - ray.origin.y) * ray.inverse_motion.y;
     const FloatLanes az = (node.low[2] - grow - ray.origin.z) * ray.inverse_motion.z;
     const FloatLanes bz = (node.high[2] + grow - ray.origin.z) * ray.inverse_motion.z;
-    const FloatLanes enter =
-        most(most(least(ax, bx), least(ay, by)), most(least(az, bz), splat_float(0.0f)));
+    const FloatLanes enter = most(most(least(ax, bx), least(ay, by)), most(least(az, bz), splat_float(0.0f)));
     const FloatLanes leave =
         least(least(most(ax, bx), most(ay, by)), least(most(az, bz), splat_float(limit)));
     // Unused slots have low = +inf, high = -inf: swap-proof only through this explicit test.

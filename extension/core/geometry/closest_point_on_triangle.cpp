@@ -29,7 +29,8 @@ double squared_distance(const Vec3& p, const Vec3& q) {
 }  // namespace
 
 // The same steps as in offset_from_triangles, for the same reasons.
-TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
+                                               const Vec3& c) {
     constexpr double flat_area = 1e-12;
     TriangleClosestPoint best = closest_on_segment(point, a, b);
     for (const auto& [start, end] : {std::array{b, c}, std::array{c, a}}) {

@@ -7,7 +7,8 @@ namespace tactus {
 
 namespace {
 
-constexpr double largest_coordinate = 1e9;  // (unit: meters); beyond it doubles resolve less than a tenth of a micron
+constexpr double largest_coordinate =
+    1e9;  // (unit: meters); beyond it doubles resolve less than a tenth of a micron
 
 bool is_usable(const Vec3& v) {
     return std::abs(v.x) <= largest_coordinate && std::abs(v.y) <= largest_coordinate &&
@@ -26,7 +27,8 @@ std::string check_mesh(const TriangleMesh& mesh) {
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         if (!is_usable(mesh.vertices[i])) {
             return "vertex " + std::to_string(i) +
-                   " of the mesh is not a finite number within 1e9 m: repair it where the mesh is made, or export it again";
+                   " of the mesh is not a finite number within 1e9 m: repair it where the mesh is made, or "
+                   "export it again";
         }
     }
     double largest_area = 0.0;
@@ -34,8 +36,9 @@ std::string check_mesh(const TriangleMesh& mesh) {
         const auto& [a, b, c] = mesh.triangles[i];
         const std::size_t count = mesh.vertices.size();
         if (a >= count || b >= count || c >= count) {
-            return "triangle " + std::to_string(i) + " of the mesh names a vertex that does not exist: the mesh has " +
-                   std::to_string(count) + " vertices; export it again";
+            return "triangle " + std::to_string(i) +
+                   " of the mesh names a vertex that does not exist: the mesh has " + std::to_string(count) +
+                   " vertices; export it again";
         }
         const Vec3& origin = mesh.vertices[a];
         largest_area = std::max(

@@ -1,6 +1,6 @@
-// What a body is made of: the description that touch (core/haptics) and rigid-body physics (physics/) are both
-// built from. Every shape is given in its own frame, centred and aligned like Godot's shapes (long axis along y);
-// a PlacedShape puts it into the frame of its body.
+// What a body is made of: the description that touch (core/haptics) and rigid-body physics (physics/) are
+// both built from. Every shape is given in its own frame, centred and aligned like Godot's shapes (long axis
+// along y); a PlacedShape puts it into the frame of its body.
 #pragma once
 
 #include <memory>
@@ -21,19 +21,19 @@ struct BoxShape {
 };
 
 struct CapsuleShape {
-    double radius = 0.5;       // (unit: meters), > 0
+    double radius = 0.5;        // (unit: meters), > 0
     double half_segment = 0.5;  // half the distance between the two end spheres' centres (unit: meters), >= 0
 };
 
 struct CylinderShape {
-    double radius = 0.5;      // (unit: meters), > 0
+    double radius = 0.5;       // (unit: meters), > 0
     double half_height = 1.0;  // (unit: meters), > 0
 };
 
 // The half-space below the plane is solid: normal . x <= offset.
 struct PlaneShape {
     Vec3 normal{0.0, 1.0, 0.0};  // unit length
-    double offset = 0.0;        // (unit: meters)
+    double offset = 0.0;         // (unit: meters)
 };
 
 struct ConvexHullShape {
@@ -43,21 +43,21 @@ struct ConvexHullShape {
 // Any triangles: closed or open, touched from both sides.
 struct MeshShape {
     std::shared_ptr<const TriangleMesh> mesh;
-    // Force shading: facets that meet at less than this give the force one smoothly turning direction (unit: radians,
-    // 0 to pi); 0: the force is that of the facets.
+    // Force shading: facets that meet at less than this give the force one smoothly turning direction (unit:
+    // radians, 0 to pi); 0: the force is that of the facets.
     double smooth_below = 0.0;
 };
 
 // Heights over a grid in x-z, centred on the origin, z-major: heights[row * columns + column].
 struct HeightFieldShape {
-    std::uint32_t columns = 0;      // samples along x, >= 2
-    std::uint32_t rows = 0;         // samples along z, >= 2
-    Vec3 scale{1.0};                // spacing in x and z, factor on the heights in y
+    std::uint32_t columns = 0;  // samples along x, >= 2
+    std::uint32_t rows = 0;     // samples along z, >= 2
+    Vec3 scale{1.0};            // spacing in x and z, factor on the heights in y
     std::shared_ptr<const std::vector<float>> heights;
 };
 
-using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, PlaneShape, ConvexHullShape, MeshShape,
-                           HeightFieldShape>;
+using Shape = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, PlaneShape, ConvexHullShape,
+                           MeshShape, HeightFieldShape>;
 
 struct PlacedShape {
     Shape shape;

@@ -38,7 +38,9 @@ Vec3 unit_or_zero(const Vec3& v) {
     return length > 0.0 ? v / length : Vec3(0.0);
 }
 
-double angle_between(const Vec3& u, const Vec3& v) { return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)); }
+double angle_between(const Vec3& u, const Vec3& v) {
+    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
+}
 
 }  // namespace
 
@@ -47,7 +49,8 @@ std::vector<CornerNormals> smooth_normals(const TriangleMesh& mesh, double creas
     std::unordered_map<Vec3, std::vector<Corner>, PlaceHash, SamePlace> corners_at;
     for (std::size_t t = 0; t < facets.size(); ++t) {
         const auto& triangle = mesh.triangles[t];
-        const Vec3 p[3] = {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]], mesh.vertices[triangle[2]]};
+        const Vec3 p[3] = {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]],
+                           mesh.vertices[triangle[2]]};
         facets[t] = unit_or_zero(glm::cross(p[1] - p[0], p[2] - p[0]));
         for (int k = 0; k < 3; ++k) {
             const double angle = angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
@@ -70,8 +73,8 @@ std::vector<CornerNormals> smooth_normals(const TriangleMesh& mesh, double creas
     return normals;
 }
 
-Vec3 interpolated_normal(const CornerNormals& normals, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& point,
-                         const Vec3& otherwise) {
+Vec3 interpolated_normal(const CornerNormals& normals, const Vec3& a, const Vec3& b, const Vec3& c,
+                         const Vec3& point, const Vec3& otherwise) {
     const Vec3 facet = glm::cross(b - a, c - a);
     const double at_a = glm::dot(facet, glm::cross(c - b, point - b));
     const double at_b = glm::dot(facet, glm::cross(a - c, point - c));

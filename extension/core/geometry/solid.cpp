@@ -46,7 +46,9 @@ SolidDistance from_plane(double distance, const Vec3& normal) {
     return result;
 }
 
-SolidDistance distance_to(const SphereShape& sphere, const Vec3& p) { return from_point(p, sphere.radius); }
+SolidDistance distance_to(const SphereShape& sphere, const Vec3& p) {
+    return from_point(p, sphere.radius);
+}
 
 SolidDistance distance_to(const CapsuleShape& capsule, const Vec3& p) {
     if (std::abs(p.y) <= capsule.half_segment) {
@@ -122,8 +124,8 @@ SolidDistance distance_to_solid(const Solid& solid, const Vec3& point) {
     return std::visit([&](const auto& shape) { return distance_to(shape, point); }, solid);
 }
 
-double sweep_to_solid(const Solid& solid, const Vec3& start, const Vec3& motion, double distance, double slack,
-                      double limit) {
+double sweep_to_solid(const Solid& solid, const Vec3& start, const Vec3& motion, double distance,
+                      double slack, double limit) {
     constexpr int most_iterations = 48;
     double t = 0.0;
     for (int i = 0; i < most_iterations; ++i) {

@@ -1,5 +1,6 @@
-// The shapes that need no triangles: spheres, boxes, capsules, cylinders and half-spaces have their distance in closed
-// form, and a sphere moving against them is a point moving against their inflated surface (thesis 3.2.3, 4.3).
+// The shapes that need no triangles: spheres, boxes, capsules, cylinders and half-spaces have their distance
+// in closed form, and a sphere moving against them is a point moving against their inflated surface
+// (thesis 3.2.3, 4.3).
 #pragma once
 
 #include <variant>
@@ -10,8 +11,9 @@ namespace tactus {
 
 using Solid = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, PlaneShape>;
 
-// Distance of a point from a solid's surface, and how the distance bends there. Outside, distance is a convex function
-// of the point with gradient `normal` and second derivatives bend_u along u, bend_v along cross(normal, u).
+// Distance of a point from a solid's surface, and how the distance bends there. Outside, distance is a convex
+// function of the point with gradient `normal` and second derivatives bend_u along u, bend_v along
+// cross(normal, u).
 struct SolidDistance {
     double distance = 0.0;       // negative inside (unit: meters)
     Vec3 normal{0.0, 1.0, 0.0};  // unit, away from the solid, in the solid's frame
@@ -22,10 +24,10 @@ struct SolidDistance {
 
 SolidDistance distance_to_solid(const Solid& solid, const Vec3& point);
 
-// The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of the solid, or a value
-// above `limit`. Same rules as sweep_to_triangles.
-double sweep_to_solid(const Solid& solid, const Vec3& start, const Vec3& motion, double distance, double slack,
-                      double limit);
+// The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of the solid, or
+// a value above `limit`. Same rules as sweep_to_triangles.
+double sweep_to_solid(const Solid& solid, const Vec3& start, const Vec3& motion, double distance,
+                      double slack, double limit);
 
 // Radius of the ball around the solid's own origin that holds it; infinite for a half-space.
 double bounding_radius(const Solid& solid);

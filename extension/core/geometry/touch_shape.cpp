@@ -10,7 +10,9 @@ namespace tactus {
 
 namespace {
 
-bool is_length(double value) { return value > 0.0 && value <= 1e9; }
+bool is_length(double value) {
+    return value > 0.0 && value <= 1e9;
+}
 
 // An empty text, or why the shape cannot be touched.
 struct Check {
@@ -51,7 +53,8 @@ struct Check {
         const bool sized = f.columns >= 2 && f.rows >= 2 && f.heights &&
                            f.heights->size() == std::size_t{f.columns} * f.rows;
         if (!sized) {
-            return "the height field needs at least 2 x 2 samples and as many heights as samples: set its size and data";
+            return "the height field needs at least 2 x 2 samples and as many heights as samples: set its "
+                   "size and data";
         }
         if (!is_length(f.scale.x) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
             return "the height field's spacing is not a positive length: set its scale above 0 m";
@@ -81,7 +84,9 @@ struct Compile {
         }
         return part;
     }
-    TouchPart operator()(const HeightFieldShape& f) const { return with_tree(pose, height_field_mesh(f), run); }
+    TouchPart operator()(const HeightFieldShape& f) const {
+        return with_tree(pose, height_field_mesh(f), run);
+    }
     template <class ClosedForm>
     TouchPart operator()(const ClosedForm& shape) const {
         const Solid solid = shape;
@@ -127,14 +132,15 @@ TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes, const Par
     for (const PlacedShape& placed : shapes) {
         std::string error = std::visit(Check{}, placed.shape);
         if (error.empty() && !is_sound(placed.pose)) {
-            error = "the shape's place in its body is not a finite position with a pure rotation: reset its transform";
+            error =
+                "the shape's place in its body is not a finite position with a pure rotation: reset its "
+                "transform";
         }
         if (!error.empty()) {
             return {nullptr, std::move(error)};
         }
         TouchPart part = std::visit(Compile{placed.pose, run}, placed.shape);
-        result->reach =
-            std::max(result->reach, glm::length(to_parent(part.pose, part.center)) + part.radius);
+        result->reach = std::max(result->reach, glm::length(to_parent(part.pose, part.center)) + part.radius);
         result->parts.push_back(std::move(part));
     }
     return {std::move(result), {}};

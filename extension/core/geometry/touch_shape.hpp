@@ -1,5 +1,5 @@
-// What the proxy touches: the shapes of one body, made ready for distance and sweep queries. Immutable, shared by every
-// body of the same form. Made off the haptic thread; queries allocate nothing.
+// What the proxy touches: the shapes of one body, made ready for distance and sweep queries. Immutable,
+// shared by every body of the same form. Made off the haptic thread; queries allocate nothing.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,8 @@ struct TouchPart {
     std::variant<Solid, std::shared_ptr<const TriangleTree>> surface;
     Vec3 center{0.0};     // of a ball that holds the part, in the part's frame (unit: meters)
     double radius = 0.0;  // of that ball; infinite for a half-space (unit: meters)
-    std::shared_ptr<const std::vector<CornerNormals>> smooth_normals;  // by triangle of the mesh; null: facets
+    std::shared_ptr<const std::vector<CornerNormals>>
+        smooth_normals;  // by triangle of the mesh; null: facets
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);
@@ -31,8 +32,8 @@ struct TouchPart {
 
 struct TouchShape {
     std::vector<TouchPart> parts;
-    // Largest distance of any point of the body from its origin: how far a turn of one radian moves it at most
-    // (unit: meters). Infinite with a half-space.
+    // Largest distance of any point of the body from its origin: how far a turn of one radian moves it at
+    // most (unit: meters). Infinite with a half-space.
     double reach = 0.0;
 };
 
@@ -42,7 +43,8 @@ struct TouchShapeResult {
 };
 
 // Refuses an empty list, sizes that are not positive finite numbers and meshes that check_mesh refuses.
-TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes, const ParallelRunner& run = run_serially);
+TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes,
+                                  const ParallelRunner& run = run_serially);
 
 // The surface of a height field as triangles, two a cell, counter-clockwise from above.
 TriangleMesh height_field_mesh(const HeightFieldShape& field);

@@ -10,8 +10,9 @@
 namespace tactus {
 
 struct TriangleMesh {
-    std::vector<Vec3> vertices;                          // (unit: meters)
-    std::vector<std::array<std::uint32_t, 3>> triangles;  // indices into vertices, counter-clockwise from outside
+    std::vector<Vec3> vertices;  // (unit: meters)
+    std::vector<std::array<std::uint32_t, 3>>
+        triangles;  // indices into vertices, counter-clockwise from outside
 };
 
 }  // namespace tactus

@@ -1,16 +1,18 @@
-// Four triangles side by side, and the two questions the proxy asks of them: how far is a point, and when does a
-// moving point come within a given distance.
+// Four triangles side by side, and the two questions the proxy asks of them: how far is a point, and when
+// does a moving point come within a given distance.
 //
-// A sphere of radius r moving against a triangle is a point moving against the triangle inflated by r: two faces,
-// three cylinders and three spheres (thesis 3.2.3, figure 3.8). "Distance to the triangle equals r" describes all
-// eight pieces at once, so one distance kernel answers for them together and no seam between pieces can leak.
+// A sphere of radius r moving against a triangle is a point moving against the triangle inflated by r: two
+// faces, three cylinders and three spheres (thesis 3.2.3, figure 3.8). "Distance to the triangle equals r"
+// describes all eight pieces at once, so one distance kernel answers for them together and no seam between
+// pieces can leak.
 #pragma once
 
 #include "core/math/lanes.hpp"
 
 namespace tactus {
 
-// Corners in the frame of the mesh (unit: meters). A pack with fewer than four triangles repeats its last one.
+// Corners in the frame of the mesh (unit: meters). A pack with fewer than four triangles repeats its last
+// one.
 struct alignas(32) TrianglePack {
     LanesVec3 a, b, c;
 };
@@ -37,11 +39,12 @@ inline PackOffset nearer(const PackOffset& p, const PackOffset& q) {
 
 }  // namespace pack_detail
 
-// The point is measured against the three edges, each well-conditioned by itself, and against the plane where it
-// projects inside. The height over the plane is taken from the nearest edge point: it lies in the plane too, and so the
-// plane is never called farther than the edges, however badly the normal of a sliver is known. Where rounding calls a
-// point inside that is not, the error is on the near, safe side. Below `flat_area` (the sine of the sharpest angle) the
-// normal's direction is rounding: such a triangle is its edges.
+// The point is measured against the three edges, each well-conditioned by itself, and against the plane where
+// it projects inside. The height over the plane is taken from the nearest edge point: it lies in the plane
+// too, and so the plane is never called farther than the edges, however badly the normal of a sliver is
+// known. Where rounding calls a point inside that is not, the error is on the near, safe side. Below
+// `flat_area` (the sine of the sharpest angle) the normal's direction is rounding: such a triangle is its
+// edges.
 inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& point) {
     using namespace pack_detail;
     constexpr double flat_area = 1e-12;
@@ -53,7 +56,8 @@ inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& 
     PackOffset best = nearer(offset_from_segment(ap, ab), offset_from_segment(ap, ac));
     best = nearer(best, offset_from_segment(bp, t.c - t.b));
 
-    // Twice the signed areas of (p, a, b), (p, c, a), (p, b, c) seen along the normal, each times the normal's length.
+    // Twice the signed areas of (p, a, b), (p, c, a), (p, b, c) seen along the normal, each times the
+    // normal's length.
     const LanesVec3 normal = cross(ab, ac);
     const Lanes squared_normal = dot(normal, normal);
     const Lanes area_ab = dot(normal, cross(ab, ap));
@@ -70,9 +74,9 @@ inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& 
     return {select(inside, plane.offset, best.offset), select(inside, plane.squared, best.squared)};
 }
 
-// What is known of a pack after one look: no triangle of lane i is nearer to a point x than normal_i . x + offset_i.
-// Distance to a convex set lies above its tangents, so this stays true wherever x goes, and nearly exact while x slides
-// along the surface.
+// What is known of a pack after one look: no triangle of lane i is nearer to a point x than normal_i . x +
+// offset_i. Distance to a convex set lies above its tangents, so this stays true wherever x goes, and nearly
+// exact while x slides along the surface.
 struct PackBound {
     LanesVec3 normal;
     Lanes offset;  // (unit: meters)
@@ -88,15 +92,15 @@ inline Lanes least_distances(const PackBound& bound, const LanesVec3& point) {
     return dot(bound.normal, point) + bound.offset;
 }
 
-// The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle of the
-// pack, or a value above `limit` where it does not. Starting within the distance counts at t = 0 when moving closer,
-// not when moving away.
+// The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle of
+// the pack, or a value above `limit` where it does not. Starting within the distance counts at t = 0 when
+// moving closer, not when moving away.
 //
-// Distance to a convex set is a convex function of t. Newton's iterates from the far side therefore never step past
-// the first root: the answer is conservative at every iteration, and a graze that converges slowly ends early, not
-// late.
-inline double sweep_to_triangles(const TrianglePack& triangles, const Vec3& start, const Vec3& motion, double distance,
-                                 double slack, double limit) {
+// Distance to a convex set is a convex function of t. Newton's iterates from the far side therefore never
+// step past the first root: the answer is conservative at every iteration, and a graze that converges slowly
+// ends early, not late.
+inline double sweep_to_triangles(const TrianglePack& triangles, const Vec3& start, const Vec3& motion,
+                                 double distance, double slack, double limit) {
     constexpr int most_iterations = 28;
     const LanesVec3 direction = splat(motion);
     const LanesVec3 origin = splat(start);

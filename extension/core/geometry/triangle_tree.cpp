@@ -8,7 +8,8 @@ namespace tactus {
 
 namespace {
 
-// Deep enough for every tree the builder makes: its depth is at most 24 wide levels, each leaving 7 siblings behind.
+// Deep enough for every tree the builder makes: its depth is at most 24 wide levels, each leaving 7 siblings
+// behind.
 constexpr int stack_size = 24 * (node_width - 1) + 1;
 
 struct Pending {
@@ -26,8 +27,8 @@ void fetch(const void* object, std::size_t bytes) {
 
 // Children in the order of their keys, nearest on top of the stack.
 template <class Visit>
-void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNode* nodes, const TrianglePack* packs,
-                 Pending* stack, int& depth, Visit&& leaf) {
+void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNode* nodes,
+                 const TrianglePack* packs, Pending* stack, int& depth, Visit&& leaf) {
     Pending near[node_width];
     int count = 0;
     for (int i = 0; i < node_width; ++i) {
@@ -61,7 +62,8 @@ void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNod
 
 float square_up(double value) {
     const double squared = value * value;
-    return squared > 1e38 ? std::numeric_limits<float>::infinity() : static_cast<float>(squared * (1.0 + 1e-6));
+    return squared > 1e38 ? std::numeric_limits<float>::infinity()
+                          : static_cast<float>(squared * (1.0 + 1e-6));
 }
 
 float inverse_for_slabs(double motion) {
@@ -77,14 +79,15 @@ void run_serially(std::size_t count, const std::function<void(std::size_t)>& tas
     }
 }
 
-// Rounding a coordinate difference to float errs by at most 2^-24 of its operands; three axes and the rounding of the
-// query point itself stay below four times that.
+// Rounding a coordinate difference to float errs by at most 2^-24 of its operands; three axes and the
+// rounding of the query point itself stay below four times that.
 double TriangleTree::float_slack(const Vec3& relative) const {
     const double largest = std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)});
     return 4.0 * 0x1p-23 * (largest + extent_);
 }
 
-CollectResult TriangleTree::collect(const Vec3& point, double reach, double far, std::span<NearPack> out) const {
+CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
+                                    std::span<NearPack> out) const {
     CollectResult result;
     result.nearest = far;
     const Vec3 relative = point - origin_;
@@ -121,13 +124,14 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
             continue;
         }
         const BoxNode& node = nodes_[item.node];
-        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(),
-                    stack, depth, leaf);
+        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(), stack,
+                    depth, leaf);
     }
     return result;
 }
 
-double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit) const {
+double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distance, double slack,
+                           double limit) const {
     const Vec3 relative = start - origin_;
     const Vec3 end = relative + motion * limit;
     const double rounding = std::max(float_slack(relative), float_slack(end));
@@ -160,8 +164,8 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
             continue;
         }
         const BoxNode& node = nodes_[item.node];
-        push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(),
-                    packs_.get(), stack, depth, leaf);
+        push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(), packs_.get(),
+                    stack, depth, leaf);
     }
     return found ? best : 2.0 * limit + 1.0;
 }

@@ -1,6 +1,6 @@
-// A tree over the triangles of one mesh, built for the proxy: eight boxes a node, four triangles a leaf, laid out for
-// vector instructions. Immutable once built and free of pointers to elsewhere: any number of bodies and threads share
-// one tree.
+// A tree over the triangles of one mesh, built for the proxy: eight boxes a node, four triangles a leaf, laid
+// out for vector instructions. Immutable once built and free of pointers to elsewhere: any number of bodies
+// and threads share one tree.
 //
 // All points and distances are in the mesh's own frame, in metres. Queries allocate nothing.
 #pragma once
@@ -29,9 +29,9 @@ struct NearPack {
 };
 
 struct CollectResult {
-    std::size_t count = 0;   // packs written
-    bool complete = true;    // false: there were more than fit
-    double nearest = 0.0;    // distance of the nearest triangle, or `far` where none is nearer
+    std::size_t count = 0;  // packs written
+    bool complete = true;   // false: there were more than fit
+    double nearest = 0.0;   // distance of the nearest triangle, or `far` where none is nearer
 };
 
 class TriangleTree {
@@ -39,14 +39,15 @@ public:
     // The mesh must be sound (see check_mesh in mesh_check.hpp). The result does not depend on the runner.
     static TriangleTree build(const TriangleMesh& mesh, const ParallelRunner& run = run_serially);
 
-    // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's shape.
+    // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's
+    // shape.
     void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
 
     // Every pack with a triangle within `reach` of the point, and the nearest distance up to `far` >= reach.
     CollectResult collect(const Vec3& point, double reach, double far, std::span<NearPack> out) const;
 
-    // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle; above
-    // `limit` where it does not. See sweep_to_triangles.
+    // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a
+    // triangle; above `limit` where it does not. See sweep_to_triangles.
     double sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit) const;
 
     const TrianglePack& pack(std::uint32_t index) const { return packs_[index]; }

@@ -1,6 +1,6 @@
-// Building the triangle tree: binned surface-area heuristic for large ranges, medians that fill packs for small ones,
-// eight children a node straight away. Chunks and subtrees have fixed borders, so that the tree is the same whatever
-// the number of threads.
+// Building the triangle tree: binned surface-area heuristic for large ranges, medians that fill packs for
+// small ones, eight children a node straight away. Chunks and subtrees have fixed borders, so that the tree
+// is the same whatever the number of threads.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,8 +17,12 @@ using Float4 = float __attribute__((vector_size(16)));
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-Float4 lower(Float4 a, Float4 b) { return a < b ? a : b; }
-Float4 upper(Float4 a, Float4 b) { return a > b ? a : b; }
+Float4 lower(Float4 a, Float4 b) {
+    return a < b ? a : b;
+}
+Float4 upper(Float4 a, Float4 b) {
+    return a > b ? a : b;
+}
 
 struct Box {
     Float4 low{infinity, infinity, infinity, 0.0f};
@@ -78,8 +82,8 @@ struct Range {
 
 constexpr int bin_count = 16;
 constexpr std::size_t chunk = std::size_t{1} << 16;  // triangles a task looks at when a large range is split
-constexpr std::size_t median_below = 24;             // at or below, a median that fills packs beats the heuristic
-constexpr int heuristic_levels = 8;                  // below this depth only medians: bounds the depth of the tree
+constexpr std::size_t median_below = 24;  // at or below, a median that fills packs beats the heuristic
+constexpr int heuristic_levels = 8;       // below this depth only medians: bounds the depth of the tree
 
 struct Bins {
     std::array<std::array<Box, bin_count>, 3> box;
@@ -103,7 +107,8 @@ struct BinScale {
     explicit BinScale(const Box& centers) : low(centers.low) {
         const Float4 size = centers.high - centers.low;
         for (int axis = 0; axis < 4; ++axis) {
-            factor[axis] = axis < 3 && size[axis] > 0.0f ? static_cast<float>(bin_count) * 0.9999f / size[axis] : 0.0f;
+            factor[axis] =
+                axis < 3 && size[axis] > 0.0f ? static_cast<float>(bin_count) * 0.9999f / size[axis] : 0.0f;
         }
     }
     auto bins_of(Float4 center) const {
@@ -282,7 +287,8 @@ private:
         const std::size_t packs = (range.size() + lane_count - 1) / lane_count;
         const std::size_t middle = range.begin + (packs / 2) * lane_count;
         Primitive* const first = primitives_.get();
-        std::nth_element(first + range.begin, first + middle, first + range.end, [axis](const Primitive& p, const Primitive& q) {
+        std::nth_element(first + range.begin, first + middle, first + range.end,
+                         [axis](const Primitive& p, const Primitive& q) {
                              const float a = p.doubled_center()[axis];
                              const float b = q.doubled_center()[axis];
                              return a < b || (a == b && p.id() < q.id());
@@ -305,8 +311,8 @@ private:
         Box left_centers, right_centers;
         Primitive* const first = primitives_.get();
         // A stable order is not needed, a repeatable one is: std::partition is a plain function of its input.
-        const Primitive* const middle = std::partition(
-            first + range.begin, first + range.end, [&](const Primitive& primitive) {
+        const Primitive* const middle =
+            std::partition(first + range.begin, first + range.end, [&](const Primitive& primitive) {
                 const Float4 center = primitive.doubled_center();
                 const bool goes_left = scale.bins_of(center)[best.axis] <= best.bin;
                 (goes_left ? left_centers : right_centers).grow(center);

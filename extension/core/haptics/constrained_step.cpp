@@ -13,21 +13,24 @@ namespace {
 
 using HalfSpaces = std::array<HalfSpace, ContactList::capacity>;
 
-// The step along one direction of a surface that bends there: `pull` is what is left to go in that direction, `bend`
-// the second derivative of the distance, `pressure` what the contact holds back.
+// The step along one direction of a surface that bends there: `pull` is what is left to go in that direction,
+// `bend` the second derivative of the distance, `pressure` what the contact holds back.
 //
-// The Lagrangian bends by W = 1 - pressure * bend. On a cylinder or sphere the Newton step pull / W ends exactly above
-// the nearest place: with the hand at depth d from the axis it is rho tan(angle). From 90 degrees on (W <= 0) there is
-// no resting place on this surface, only a way around it, in steps of half its radius at most.
+// The Lagrangian bends by W = 1 - pressure * bend. On a cylinder or sphere the Newton step pull / W ends
+// exactly above the nearest place: with the hand at depth d from the axis it is rho tan(angle). From 90
+// degrees on (W <= 0) there is no resting place on this surface, only a way around it, in steps of half its
+// radius at most.
 double step_along(double pull, double bend, double pressure, double stretch) {
     const double curvature = 1.0 - pressure * bend;
-    const double longest = std::max(std::abs(pull), std::min(stretch * std::abs(pull), bend > 0.0 ? 0.5 / bend : 0.0));
+    const double longest =
+        std::max(std::abs(pull), std::min(stretch * std::abs(pull), bend > 0.0 ? 0.5 / bend : 0.0));
     const double newton = curvature > 0.0 ? std::abs(pull) / curvature : longest;
     return std::copysign(std::min(newton, longest), pull);
 }
 
-// A fine mesh is round by many small edges: a Newton step that believes in the first of them would be far too long. So
-// a surface is believed for one flat step, and for twice as much each time the proxy comes down on the same one again.
+// A fine mesh is round by many small edges: a Newton step that believes in the first of them would be far too
+// long. So a surface is believed for one flat step, and for twice as much each time the proxy comes down on
+// the same one again.
 void lengthen(Stretch& stretch, const Contact& contact) {
     const Vec3 moved = contact.pivot - stretch.pivot;
     const Vec3 v = glm::cross(contact.normal, contact.u);
@@ -45,8 +48,8 @@ Vec3 bend_times(std::span<const Contact> contacts, const ConstrainedStep& step, 
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts[static_cast<std::size_t>(step.pressing[i])];
         const Vec3 w = glm::cross(contact.normal, contact.u);
-        result += step.pressure[i] * (contact.bend_u * glm::dot(contact.u, v) * contact.u +
-                                      contact.bend_v * glm::dot(w, v) * w);
+        result += step.pressure[i] *
+                  (contact.bend_u * glm::dot(contact.u, v) * contact.u + contact.bend_v * glm::dot(w, v) * w);
     }
     return result;
 }
@@ -62,17 +65,21 @@ bool bends(std::span<const Contact> contacts, const ConstrainedStep& step) {
 }
 
 // One contact: its principal directions are independent of each other.
-Vec3 step_on_surface(const Vec3& pull, const Contact& contact, double pressure, double least, double stretch) {
+Vec3 step_on_surface(const Vec3& pull, const Contact& contact, double pressure, double least,
+                     double stretch) {
     const Vec3 v = glm::cross(contact.normal, contact.u);
     const double pull_u = glm::dot(contact.u, pull);
     const double pull_v = glm::dot(v, pull);
     if (contact.bend_u == contact.bend_v) {  // a corner, a ball: any direction is principal
         const double length = std::hypot(pull_u, pull_v);
-        return length > least ? (contact.u * pull_u + v * pull_v) * (step_along(length, contact.bend_u, pressure, stretch) / length)
+        return length > least ? (contact.u * pull_u + v * pull_v) *
+                                    (step_along(length, contact.bend_u, pressure, stretch) / length)
                               : Vec3(0.0);
     }
-    const double along_u = std::abs(pull_u) > least ? step_along(pull_u, contact.bend_u, pressure, stretch) : 0.0;
-    const double along_v = std::abs(pull_v) > least ? step_along(pull_v, contact.bend_v, pressure, stretch) : 0.0;
+    const double along_u =
+        std::abs(pull_u) > least ? step_along(pull_u, contact.bend_u, pressure, stretch) : 0.0;
+    const double along_v =
+        std::abs(pull_v) > least ? step_along(pull_v, contact.bend_v, pressure, stretch) : 0.0;
     return contact.u * along_u + v * along_v;
 }
 
@@ -136,7 +143,8 @@ ConstrainedStep constrained_step(const Vec3& pull, std::span<const Contact> cont
     Vec3 curved;
     if (step.pressing_count == 1) {
         const Contact& contact = contacts[static_cast<std::size_t>(step.pressing[0])];
-        curved = p.normal * p.offset + step_on_surface(pull, contact, step.pressure[0], tolerance, stretch.factor);
+        curved =
+            p.normal * p.offset + step_on_surface(pull, contact, step.pressure[0], tolerance, stretch.factor);
     } else {
         const HalfSpace& q = planes[static_cast<std::size_t>(step.pressing[1])];
         const Vec3 across = glm::cross(p.normal, q.normal);
@@ -146,7 +154,8 @@ ConstrainedStep constrained_step(const Vec3& pull, std::span<const Contact> cont
         }
         const double cosine = glm::dot(p.normal, q.normal);
         const Vec3 base =
-            (p.normal * (p.offset - cosine * q.offset) + q.normal * (q.offset - cosine * p.offset)) / squared_sine;
+            (p.normal * (p.offset - cosine * q.offset) + q.normal * (q.offset - cosine * p.offset)) /
+            squared_sine;
         curved = base + step_on_line(pull, contacts, step, across / std::sqrt(squared_sine), base, tolerance,
                                      stretch.factor);
     }

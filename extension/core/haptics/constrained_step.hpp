@@ -8,11 +8,11 @@
 namespace tactus {
 
 struct ConstrainedStep {
-    Vec3 motion{0.0};  // the step (unit: meters)
+    Vec3 motion{0.0};                // the step (unit: meters)
     int pressing[3] = {-1, -1, -1};  // contacts that hold the proxy back
     int pressing_count = 0;
     double pressure[3] = {0.0, 0.0, 0.0};  // how much each holds back (unit: meters), > 0
-    Vec3 slide{0.0};  // what of the pull is left along the surfaces (unit: meters)
+    Vec3 slide{0.0};                       // what of the pull is left along the surfaces (unit: meters)
 };
 
 // What one step leaves for the next: which curved surface it believed in, and how far.
@@ -21,12 +21,14 @@ struct Stretch {
     double factor = 1.0;  // a curved step may be this many times as long as a flat one
 };
 
-// `pull` is hand - proxy. Every surface is convex by itself (a triangle, a box, a sphere, inflated), so the half-space
-// beyond its contact plane is free of it: the straight way along `motion` stays outside all given contacts.
+// `pull` is hand - proxy. Every surface is convex by itself (a triangle, a box, a sphere, inflated), so the
+// half-space beyond its contact plane is free of it: the straight way along `motion` stays outside all given
+// contacts.
 //
-// The step solves min |motion - pull|^2 over the contact planes, and, where surfaces that bend hold the proxy back,
-// takes their curvature in (a Newton step on the Lagrangian), which makes a resting place on an edge or in a groove of
-// edges exact in a few steps instead of many. Violations and steps up to `tolerance` are none (unit: meters).
+// The step solves min |motion - pull|^2 over the contact planes, and, where surfaces that bend hold the proxy
+// back, takes their curvature in (a Newton step on the Lagrangian), which makes a resting place on an edge or
+// in a groove of edges exact in a few steps instead of many. Violations and steps up to `tolerance` are none
+// (unit: meters).
 ConstrainedStep constrained_step(const Vec3& pull, std::span<const Contact> contacts, double tolerance,
                                  Stretch& stretch);
 

@@ -9,7 +9,8 @@ namespace tactus {
 namespace {
 
 // Speed at which the hand goes into the surface, seen from the body (unit: meters per second).
-double approach_speed(const TouchBody& body, const Contact& contact, const Vec3& hand_velocity, double seconds) {
+double approach_speed(const TouchBody& body, const Contact& contact, const Vec3& hand_velocity,
+                      double seconds) {
     const Vec3 surface_velocity = (contact.point - previous_place(body, contact.point)) / seconds;
     return -glm::dot(hand_velocity - surface_velocity, contact.normal);
 }

@@ -14,9 +14,9 @@ enum class ForceLaw {
 };
 
 struct ContactForce {
-    int body = -1;        // slot in the TouchScene
-    Vec3 point{0.0};      // in the world (unit: meters)
-    Vec3 on_hand{0.0};    // (unit: newtons); the body gets the opposite
+    int body = -1;      // slot in the TouchScene
+    Vec3 point{0.0};    // in the world (unit: meters)
+    Vec3 on_hand{0.0};  // (unit: newtons); the body gets the opposite
 };
 
 struct HandForce {
@@ -27,14 +27,15 @@ struct HandForce {
     int contact_count = 0;
 };
 
-// Each contact presses with its own material's stiffness and damping. What friction holds (`slide`, the pull left
-// along the surfaces) is shared among the contacts by how much each presses. Damping acts against the speed of the hand
-// into the surface, relative to the body, and never pulls. `seconds` is the tick (unit: seconds).
+// Each contact presses with its own material's stiffness and damping. What friction holds (`slide`, the pull
+// left along the surfaces) is shared among the contacts by how much each presses. Damping acts against the
+// speed of the hand into the surface, relative to the body, and never pulls. `seconds` is the tick (unit:
+// seconds).
 HandForce contact_force(const TouchScene& scene, std::span<const Contact> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds);
 
-// Eq. 3.3: the mean of what the hand felt before and what it would feel now. The contacts share the change by how hard
-// each pushes, so that hand and bodies still feel opposite forces.
+// Eq. 3.3: the mean of what the hand felt before and what it would feel now. The contacts share the change by
+// how hard each pushes, so that hand and bodies still feel opposite forces.
 void smooth(HandForce& force, const Vec3& before);
 
 // The force, shortened to `limit` where it is longer; zero where it is not a number.

@@ -1,4 +1,5 @@
-// The few triangles of one part that the proxy touches or nearly touches, and which of them count as contacts.
+// The few triangles of one part that the proxy touches or nearly touches, and which of them count as
+// contacts.
 #pragma once
 
 #include <array>
@@ -16,15 +17,15 @@ public:
     void clear() { count_ = 0; }
     int count() const { return count_; }
 
-    // Takes in one lane of a pack; `center` is the proxy's, in the part's frame. Triangles beyond the capacity are left
-    // out: sweeps still see them.
+    // Takes in one lane of a pack; `center` is the proxy's, in the part's frame. Triangles beyond the
+    // capacity are left out: sweeps still see them.
     void add(const TriangleTree& tree, std::uint32_t pack, int lane_index, const Vec3& center);
 
-    // An edge or corner counts only where it is nearest to the sphere on every triangle that shares it. Where another
-    // triangle contains the same point and is nearer, the surface there is flat or concave seen from the sphere: that
-    // triangle's own contact stands for it. Where several share it equally, the first owns it. Decided from the
-    // triangles at hand, it needs no adjacency, and holds for T-junctions and soups, from either side. Distances that
-    // differ by at most `same` are equal (unit: meters).
+    // An edge or corner counts only where it is nearest to the sphere on every triangle that shares it. Where
+    // another triangle contains the same point and is nearer, the surface there is flat or concave seen from
+    // the sphere: that triangle's own contact stands for it. Where several share it equally, the first owns
+    // it. Decided from the triangles at hand, it needs no adjacency, and holds for T-junctions and soups,
+    // from either side. Distances that differ by at most `same` are equal (unit: meters).
     bool is_covered(int index, double same) const;
 
     // The contact of a sphere whose centre rests at distance `rest` (unit: meters).

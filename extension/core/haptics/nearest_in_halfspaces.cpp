@@ -16,15 +16,16 @@ bool violates(const HalfSpace& h, const Vec3& point, double tolerance) {
 }
 
 // Best on the border of both first and second, subject to the half-spaces before second.
-NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace> halfspaces, int first, int second,
-                                    double tolerance) {
+NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace> halfspaces, int first,
+                                    int second, double tolerance) {
     const HalfSpace& p = halfspaces[static_cast<std::size_t>(first)];
     const HalfSpace& q = halfspaces[static_cast<std::size_t>(second)];
     const Vec3 across = glm::cross(p.normal, q.normal);
     const double squared_sine = glm::dot(across, across);
     NearestInHalfSpaces best;
     if (squared_sine < parallel) {
-        // Equal planes within rounding: the farther border stands for both. Opposite ones leave nothing between.
+        // Equal planes within rounding: the farther border stands for both. Opposite ones leave nothing
+        // between.
         best.feasible = glm::dot(p.normal, q.normal) > 0.0;
         best.point = goal + q.normal * (q.offset - glm::dot(q.normal, goal));
         best.active[0] = second;
@@ -65,8 +66,9 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace>
             high_plane = k;
         }
     }
-    // A bound along the line is a distance from its plane over the slope: what counts is by how much the plane that is
-    // met at a shallow angle would be missed at the other's bound, not how far apart the bounds are.
+    // A bound along the line is a distance from its plane over the slope: what counts is by how much the
+    // plane that is met at a shallow angle would be missed at the other's bound, not how far apart the bounds
+    // are.
     if (low > high) {
         best.feasible = best.feasible && (low - high) * std::min(low_slope, high_slope) <= tolerance;
         low = high = low_slope > high_slope ? low : high;
@@ -131,7 +133,8 @@ void find_multipliers(const Vec3& goal, std::span<const HalfSpace> halfspaces, N
 
 }  // namespace
 
-NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces, double tolerance) {
+NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces,
+                                          double tolerance) {
     NearestInHalfSpaces best;
     best.point = goal;
     for (int i = 0; i < static_cast<int>(halfspaces.size()) && best.feasible; ++i) {

@@ -21,10 +21,11 @@ struct NearestInHalfSpaces {
     bool feasible = true;  // false: the half-spaces have no common point; `point` is then meaningless
 };
 
-// Takes the half-spaces one by one (Seidel's incremental method for three dimensions): while the best point so far
-// satisfies the next one nothing changes; otherwise the new best lies on its border, a problem of one dimension less.
-// Exact up to rounding, at most cubic in their number, no iteration that could cycle. Violations up to `tolerance`
-// are none.
-NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces, double tolerance);
+// Takes the half-spaces one by one (Seidel's incremental method for three dimensions): while the best point
+// so far satisfies the next one nothing changes; otherwise the new best lies on its border, a problem of one
+// dimension less. Exact up to rounding, at most cubic in their number, no iteration that could cycle.
+// Violations up to `tolerance` are none.
+NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces,
+                                          double tolerance);
 
 }  // namespace tactus

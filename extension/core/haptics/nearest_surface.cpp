@@ -38,7 +38,8 @@ NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& p
         if (const TriangleTree* const tree = placed.part->tree()) {
             const double distance = tree->collect(local, 0.0, nearest.distance, {}).nearest;
             if (distance < nearest.distance) {
-                nearest = {distance, direction_to_parent(placed.pose, normal_of_nearest(*tree, local, distance))};
+                nearest = {distance,
+                           direction_to_parent(placed.pose, normal_of_nearest(*tree, local, distance))};
             }
         } else if (const SolidDistance at = distance_to_solid(placed.part->solid(), local);
                    at.distance < nearest.distance) {

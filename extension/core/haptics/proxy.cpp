@@ -6,11 +6,12 @@
 
 namespace tactus {
 
-Proxy::Proxy(std::size_t most_parts, const ProxySettings& settings) : settings_(settings), surroundings_(most_parts) {}
+Proxy::Proxy(std::size_t most_parts, const ProxySettings& settings)
+    : settings_(settings), surroundings_(most_parts) {}
 
-// A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins without a
-// kick. Until then it is absent and follows the hand. A hand that starts by just touching has room enough: the first
-// step lifts the sphere off by the thousandth of its radius that may be missing.
+// A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins
+// without a kick. Until then it is absent and follows the hand. A hand that starts by just touching has room
+// enough: the first step lifts the sphere off by the thousandth of its radius that may be missing.
 bool Proxy::appear(const Vec3& hand) {
     const double room = settings_.radius * (1.0 - 1e-3);
     position_ = hand;
@@ -41,8 +42,8 @@ int Proxy::carrier() const {
     return body;
 }
 
-// A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way leads
-// through anything but the body that causes it, which stands at its new place already.
+// A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
+// leads through anything but the body that causes it, which stands at its new place already.
 void Proxy::ride_along(ProxyTick& tick) {
     if (scene_->moved_bodies().empty()) {
         return;
@@ -65,8 +66,8 @@ void Proxy::ride_along(ProxyTick& tick) {
     }
 }
 
-// Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back across
-// (unit: meters, as all forces over the stiffness). Every wall of a groove counts.
+// Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
+// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts.
 double Proxy::friction_limit(const ConstrainedStep& step) const {
     double limit = 0.0;
     for (int i = 0; i < step.pressing_count; ++i) {
@@ -83,7 +84,8 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
     touching_.clear();
     for (int i = 0; i < step.pressing_count; ++i) {
         Contact contact = contacts_.items[static_cast<std::size_t>(step.pressing[i])];
-        // Where moving bodies squeeze the proxy it cannot get out of their way: what they overlap it by presses, too.
+        // Where moving bodies squeeze the proxy it cannot get out of their way: what they overlap it by
+        // presses, too.
         contact.pressure = step.pressure[i] + std::max(0.0, -contact.gap - surroundings_.tolerances().skin);
         touching_.add(contact);
     }
@@ -123,7 +125,8 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         bool free = true;
         const Vec3 before = position_;
         advance(step.motion, free);
-        // Stopped without having moved by something that is no contact: look at every edge and corner there is.
+        // Stopped without having moved by something that is no contact: look at every edge and corner there
+        // is.
         keep_all = !free && position_ == before && contacts_.count < ContactList::capacity;
         if (free && step.pressing_count == 0) {
             ++tick.steps;

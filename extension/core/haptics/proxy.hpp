@@ -1,8 +1,9 @@
 // The proxy: a sphere that goes where the hand goes and never enters a surface.
 //
-// Thesis 3.2.2 walks in three steps: towards the hand until contact, along the first plane, along the line of two
-// planes. Here the same walk goes on, collecting planes, until the proxy stands at the place nearest to the hand that
-// its surfaces allow, within a bounded number of steps a tick; what is then still missing is known (`residual`).
+// Thesis 3.2.2 walks in three steps: towards the hand until contact, along the first plane, along the line of
+// two planes. Here the same walk goes on, collecting planes, until the proxy stands at the place nearest to
+// the hand that its surfaces allow, within a bounded number of steps a tick; what is then still missing is
+// known (`residual`).
 #pragma once
 
 #include <cstdint>
@@ -21,16 +22,16 @@ struct ProxySettings {
 };
 
 enum ProxyStatus : std::uint32_t {
-    proxy_absent = 1u << 0,       // the hand is inside a body since the start: no touch until it is out
-    proxy_touching = 1u << 1,     // at least one contact holds it back
-    proxy_sliding = 1u << 2,      // dynamic friction applies
-    proxy_unfinished = 1u << 3,   // the steps of this tick did not suffice: residual is not small
-    proxy_squeezed = 1u << 4,     // moving bodies leave it no room
+    proxy_absent = 1u << 0,      // the hand is inside a body since the start: no touch until it is out
+    proxy_touching = 1u << 1,    // at least one contact holds it back
+    proxy_sliding = 1u << 2,     // dynamic friction applies
+    proxy_unfinished = 1u << 3,  // the steps of this tick did not suffice: residual is not small
+    proxy_squeezed = 1u << 4,    // moving bodies leave it no room
 };
 
 struct ProxyTick {
-    Vec3 position{0.0};  // of the sphere's centre, in the world (unit: meters)
-    Vec3 slide{0.0};     // pull along the surfaces that friction holds (unit: meters)
+    Vec3 position{0.0};     // of the sphere's centre, in the world (unit: meters)
+    Vec3 slide{0.0};        // pull along the surfaces that friction holds (unit: meters)
     double residual = 0.0;  // length of the step that would come next (unit: meters)
     std::uint32_t status = 0;
     int steps = 0;

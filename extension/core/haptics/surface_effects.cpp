@@ -9,10 +9,16 @@ namespace tactus {
 
 namespace {
 
-Vec3 along_surface(const Vec3& v, const Vec3& normal) { return v - normal * glm::dot(v, normal); }
+Vec3 along_surface(const Vec3& v, const Vec3& normal) {
+    return v - normal * glm::dot(v, normal);
+}
 
-bool has_texture(const TouchMaterial& m) { return m.texture && m.texture_depth > 0.0; }
-bool has_stick_slip(const TouchMaterial& m) { return m.stick_slip_stiffness > 0.0 && m.stick_slip_force > 0.0; }
+bool has_texture(const TouchMaterial& m) {
+    return m.texture && m.texture_depth > 0.0;
+}
+bool has_stick_slip(const TouchMaterial& m) {
+    return m.stick_slip_stiffness > 0.0 && m.stick_slip_force > 0.0;
+}
 
 double pixel(const HeightImage& image, std::int64_t column, std::int64_t row) {
     const auto wrap = [](std::int64_t i, std::uint32_t count) {
@@ -22,8 +28,8 @@ double pixel(const HeightImage& image, std::int64_t column, std::int64_t row) {
     return image.heights[wrap(row, image.rows) * image.columns + wrap(column, image.columns)];
 }
 
-// The relief stores energy like the spring it lies on: U = k (pressure + height)^2 / 2. Its slope pushes the hand
-// downhill, its height away from the surface.
+// The relief stores energy like the spring it lies on: U = k (pressure + height)^2 / 2. Its slope pushes the
+// hand downhill, its height away from the surface.
 Vec3 texture_force(const TouchBody& body, const Contact& contact) {
     const TextureSample relief = sample_texture(body.material, to_local(body.pose, contact.point),
                                                 direction_to_local(body.pose, contact.normal));
@@ -33,7 +39,8 @@ Vec3 texture_force(const TouchBody& body, const Contact& contact) {
            downhill * (stiffness * (contact.pressure + relief.height));
 }
 
-// A spring to the place where the hand stuck; when it is stretched beyond its force, the hand sticks anew where it is.
+// A spring to the place where the hand stuck; when it is stretched beyond its force, the hand sticks anew
+// where it is.
 Vec3 stick_slip_force(const TouchBody& body, const Contact& contact, const Vec3& hand, EffectMemory& memory) {
     if (memory.stuck_body != contact.body) {
         memory = {contact.body, to_local(body.pose, hand)};

@@ -1,5 +1,6 @@
-// What a surface adds to the force of its contact: texture, viscosity, vibration, stick-slip, magnet. The proxy itself
-// stays where the geometry puts it; effects change the force only. What no contact's material asks for is not computed.
+// What a surface adds to the force of its contact: texture, viscosity, vibration, stick-slip, magnet. The
+// proxy itself stays where the geometry puts it; effects change the force only. What no contact's material
+// asks for is not computed.
 #pragma once
 
 #include <span>
@@ -10,8 +11,8 @@ namespace tactus {
 
 // What effects remember of one proxy from tick to tick.
 struct EffectMemory {
-    int stuck_body = -1;    // slot of the body that stick-slip holds the hand to
-    Vec3 stuck_at{0.0};     // where, in that body's frame (unit: meters)
+    int stuck_body = -1;  // slot of the body that stick-slip holds the hand to
+    Vec3 stuck_at{0.0};   // where, in that body's frame (unit: meters)
 };
 
 struct HandMotion {
@@ -19,8 +20,8 @@ struct HandMotion {
     Vec3 velocity{0.0};  // in the world (unit: meters per second)
 };
 
-// Adds to each contact of `force` what its material's effects give, and updates the total. `force` is that of the
-// contacts in `touching`, in the same order; `now` and `seconds` are the tick's time and length.
+// Adds to each contact of `force` what its material's effects give, and updates the total. `force` is that of
+// the contacts in `touching`, in the same order; `now` and `seconds` are the tick's time and length.
 void add_surface_effects(const TouchScene& scene, std::span<const Contact> touching, const HandMotion& hand,
                          Nanoseconds now, double seconds, EffectMemory& memory, HandForce& force);
 
@@ -28,12 +29,13 @@ void add_surface_effects(const TouchScene& scene, std::span<const Contact> touch
 double magnet_pull(const TouchMaterial& material, double gap);
 
 struct TextureSample {
-    double height = 0.0;   // (unit: meters)
-    Vec3 gradient{0.0};    // of the height along the surface (dimensionless), in the body's frame
+    double height = 0.0;  // (unit: meters)
+    Vec3 gradient{0.0};   // of the height along the surface (dimensionless), in the body's frame
 };
 
-// The image is laid onto the body along the axis of its frame that the normal is nearest to, so that no mesh needs
-// texture coordinates. Bilinear between pixels.
-TextureSample sample_texture(const TouchMaterial& material, const Vec3& point_in_body, const Vec3& normal_in_body);
+// The image is laid onto the body along the axis of its frame that the normal is nearest to, so that no mesh
+// needs texture coordinates. Bilinear between pixels.
+TextureSample sample_texture(const TouchMaterial& material, const Vec3& point_in_body,
+                             const Vec3& normal_in_body);
 
 }  // namespace tactus

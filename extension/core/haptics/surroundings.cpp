@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles it remembers
 
-// A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means looking
-// at more packs in between. Chosen by the bench `proxy`.
+// A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means
+// looking at more packs in between. Chosen by the bench `proxy`.
 constexpr double ticks_remembered = 5.0;
 
 }  // namespace
@@ -31,14 +31,15 @@ void ContactList::add(const Contact& contact) {
     }
 }
 
-Surroundings::Surroundings(std::size_t most_parts) 
+Surroundings::Surroundings(std::size_t most_parts)
     : records_(most_parts), hoods_(hood_count), near_triangles_(std::make_unique<NearTriangles>()) {
     far_.reserve(2 * most_parts + 1);
     near_.reserve(most_parts);
     free_hoods_.reserve(hood_count);
 }
 
-void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask) {
+void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius,
+                              std::uint32_t mask) {
     const bool changed =
         scene_ != &scene || revision_ != scene.revision() || mask_ != mask || radius_ != radius;
     scene_ = &scene;
@@ -197,8 +198,8 @@ void Surroundings::bring_near(double length, const Vec3& center) {
     }
 }
 
-// The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of the given
-// length from there.
+// The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of
+// the given length from there.
 Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local, double way) {
     Record& record = records_[index];
     const double now = odometer_for(record);
@@ -247,7 +248,8 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     out.add(contact);
 }
 
-void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, ContactList& out, bool keep_all) {
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, ContactList& out,
+                                      bool keep_all) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = *placed.part->tree();
     const double rest = radius_ + tolerances_.skin;
@@ -328,8 +330,8 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep
     }
 }
 
-// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at. A way that
-// leads out of it is answered by gathering farther, or, where it is long, by the tree itself.
+// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at.
+// A way that leads out of it is answered by gathering farther, or, where it is long, by the tree itself.
 double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Vec3& motion, double length,
                                 double limit) {
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
@@ -369,7 +371,8 @@ double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& t
         if (!any(least <= reached)) {
             continue;
         }
-        const double t = sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
+        const double t =
+            sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
@@ -387,14 +390,16 @@ double Surroundings::sweep(const Vec3& center, const Vec3& motion, int except) {
     for (const std::uint32_t index : near_) {
         const Record& record = records_[index];
         const ScenePart& placed = scene_->parts()[index];
-        if (static_cast<int>(placed.body) == except || is_passed(placed.body) || record.clear_until > odometer_for(record) + best * length) {
+        if (static_cast<int>(placed.body) == except || is_passed(placed.body) ||
+            record.clear_until > odometer_for(record) + best * length) {
             continue;
         }
         const Vec3 start = to_local(placed.pose, center);
         const Vec3 way = direction_to_local(placed.pose, motion);
-        const double t = placed.part->tree() ? sweep_tree(index, start, way, length, best)
-                                             : sweep_to_solid(placed.part->solid(), start, way,
-                                                              radius_ + tolerances_.stop, tolerances_.arrival, best);
+        const double t = placed.part->tree()
+                             ? sweep_tree(index, start, way, length, best)
+                             : sweep_to_solid(placed.part->solid(), start, way, radius_ + tolerances_.stop,
+                                              tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
@@ -403,23 +408,25 @@ double Surroundings::sweep(const Vec3& center, const Vec3& motion, int except) {
     return found ? best : 2.0;
 }
 
-// Seen from a moving part, the proxy is what moves. Where its way in the part's frame meets a surface, the part ran
-// into the proxy there, and takes it along from that place on.
+// Seen from a moving part, the proxy is what moves. Where its way in the part's frame meets a surface, the
+// part ran into the proxy there, and takes it along from that place on.
 bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier, Push& push) {
     while (from < near_.size()) {
         const std::uint32_t index = near_[from++];
         const ScenePart& placed = scene_->parts()[index];
         const TouchBody& body = scene_->body(static_cast<int>(placed.body));
         const Record& record = records_[index];
-        if (!body.moved || static_cast<int>(placed.body) == carrier || is_passed(placed.body) || record.clear_until > odometer_for(record)) {
+        if (!body.moved || static_cast<int>(placed.body) == carrier || is_passed(placed.body) ||
+            record.clear_until > odometer_for(record)) {
             continue;
         }
         const Vec3 before = to_local(placed.previous, center);
         const Vec3 way = to_local(placed.pose, center) - before;
         const double stop = radius_ + tolerances_.stop;
-        const double t = placed.part->tree()
-                             ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0)
-                             : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
+        const double t =
+            placed.part->tree()
+                ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0)
+                : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
         if (t < 1.0) {
             push = {static_cast<int>(placed.body), to_parent(placed.pose, before + way * t) - center};
             return true;
@@ -432,7 +439,8 @@ double Surroundings::clearance(const Vec3& center, double far) const {
     double nearest = far;
     std::uint32_t looked_at = 0xffff'ffffu;
     for (const ScenePart& placed : scene_->parts()) {
-        const bool touchable = placed.part && (scene_->body(static_cast<int>(placed.body)).layer & mask_) != 0;
+        const bool touchable =
+            placed.part && (scene_->body(static_cast<int>(placed.body)).layer & mask_) != 0;
         if (touchable && placed.body != looked_at) {
             looked_at = placed.body;
             nearest = nearest_surface(*scene_, static_cast<int>(placed.body), center, nearest).distance;

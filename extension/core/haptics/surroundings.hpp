@@ -1,8 +1,10 @@
-// What one proxy knows about the scene around it: which parts could be touched soon, which not, and for how long that
-// stays true. Answers the two questions of the motion: which surfaces are in contact, and how far is the way free.
+// What one proxy knows about the scene around it: which parts could be touched soon, which not, and for how
+// long that stays true. Answers the two questions of the motion: which surfaces are in contact, and how far
+// is the way free.
 //
-// A part at distance D cannot be reached before proxy and part together have travelled D. So a far part is looked at
-// again only when the odometer says so: in free space a tick looks at no part at all, however many there are.
+// A part at distance D cannot be reached before proxy and part together have travelled D. So a far part is
+// looked at again only when the odometer says so: in free space a tick looks at no part at all, however many
+// there are.
 #pragma once
 
 #include <array>
@@ -45,25 +47,25 @@ public:
     // True where nothing can be met within `length` of the centre, as far as is already known.
     bool is_clear(double length) const;
 
-    // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and corners
-    // that another triangle covers (see NearTriangles).
+    // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and
+    // corners that another triangle covers (see NearTriangles).
     void find_contacts(const Vec3& center, ContactList& out, bool keep_all = false);
 
-    // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1: free. The
-    // body `except` is not in the way: the one that causes the motion.
+    // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1:
+    // free. The body `except` is not in the way: the one that causes the motion.
     double sweep(const Vec3& center, const Vec3& motion, int except = -1);
 
-    // The next part near the proxy, counting from `from`, that has run into it since the last tick; false where there is
-    // none. `displacement` is what keeps the proxy from being passed. The body `carrier` does not count: the proxy
-    // already moved with it.
+    // The next part near the proxy, counting from `from`, that has run into it since the last tick; false
+    // where there is none. `displacement` is what keeps the proxy from being passed. The body `carrier` does
+    // not count: the proxy already moved with it.
     struct Push {
         int body = -1;
         Vec3 displacement{0.0};
     };
     bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
 
-    // The body is no longer in the way, until the sphere is clear of its surface again. At most four at a time; false where
-    // there are four already.
+    // The body is no longer in the way, until the sphere is clear of its surface again. At most four at a
+    // time; false where there are four already.
     bool pass_through(int body);
 
     // Everything remembered is void: the proxy has been put elsewhere.
@@ -102,8 +104,8 @@ private:
     double distance_bound(std::uint32_t part, const Vec3& center) const;
     Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
-    double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start, const Vec3& motion,
-                      double limit) const;
+    double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
+                      const Vec3& motion, double limit) const;
     void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
 
@@ -124,7 +126,8 @@ private:
     std::size_t passed_count_ = 0;
     std::vector<Neighbourhood> hoods_;
     std::vector<std::int16_t> free_hoods_;
-    std::unique_ptr<NearTriangles> near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time
+    std::unique_ptr<NearTriangles>
+        near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time
 };
 
 }  // namespace tactus

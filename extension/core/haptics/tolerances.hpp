@@ -1,6 +1,6 @@
-// Every small length of the proxy, in one place. docs/tolerances.md says what each protects and what happens without it.
-// All of them follow from two lengths of the scene, the proxy's radius and the largest coordinate in play, so that a
-// scene scaled by any factor behaves the same.
+// Every small length of the proxy, in one place. docs/tolerances.md says what each protects and what happens
+// without it. All of them follow from two lengths of the scene, the proxy's radius and the largest coordinate
+// in play, so that a scene scaled by any factor behaves the same.
 #pragma once
 
 #include <algorithm>
@@ -8,16 +8,16 @@
 namespace tactus {
 
 struct Tolerances {
-    // How far above a surface the proxy rests. Protects the sign: a proxy at rest is outside by more than any rounding
-    // error (unit: meters).
+    // How far above a surface the proxy rests. Protects the sign: a proxy at rest is outside by more than any
+    // rounding error (unit: meters).
     double skin;
-    // Sweeps end this far above a surface: between rest and the surface, so that what the proxy already rests on does
-    // not stop it, and a new surface does before it is entered (unit: meters).
+    // Sweeps end this far above a surface: between rest and the surface, so that what the proxy already rests
+    // on does not stop it, and a new surface does before it is entered (unit: meters).
     double stop;
     // A sweep has arrived when it is this close to its end: what Newton's last step is worth (unit: meters).
     double arrival;
-    // Surfaces up to this gap join the contact planes. Larger finds the second wall of a groove an iteration earlier;
-    // smaller looks at fewer triangles (unit: meters).
+    // Surfaces up to this gap join the contact planes. Larger finds the second wall of a groove an iteration
+    // earlier; smaller looks at fewer triangles (unit: meters).
     double reach;
     // Steps below this end the motion: the proxy is where it should be (unit: meters).
     double step;

@@ -14,8 +14,8 @@ struct HeightImage {
 };
 
 struct TouchMaterial {
-    double stiffness = 500.0;       // force per penetration (unit: newtons per meter), >= 0
-    double damping = 0.0;           // against the speed into the surface (unit: newton-seconds per meter), >= 0
+    double stiffness = 500.0;  // force per penetration (unit: newtons per meter), >= 0
+    double damping = 0.0;      // against the speed into the surface (unit: newton-seconds per meter), >= 0
     double static_friction = 0.0;   // Coulomb coefficient at rest, >= dynamic_friction
     double dynamic_friction = 0.0;  // Coulomb coefficient while sliding, >= 0
 
@@ -26,11 +26,12 @@ struct TouchMaterial {
     double magnet_force = 0.0;             // pull towards the surface while touching it (unit: newtons), >= 0
     double magnet_range = 0.01;            // gap at which the pull has faded to nothing (unit: meters), > 0
     double viscosity = 0.0;                // drag along the surface (unit: newton-seconds per meter), >= 0
-    double stick_slip_stiffness = 0.0;     // of the spring to where the hand sticks (unit: newtons per meter), >= 0
-    double stick_slip_force = 0.0;         // at which it slips (unit: newtons), >= 0
-    double vibration_force = 0.0;          // amplitude along the normal (unit: newtons), >= 0
-    double vibration_frequency = 0.0;      // (unit: hertz), 0 to half the tick rate
-    double pop_through_force = 0.0;        // that breaks the surface; 0: nothing does (unit: newtons), >= 0
+    double stick_slip_stiffness =
+        0.0;                        // of the spring to where the hand sticks (unit: newtons per meter), >= 0
+    double stick_slip_force = 0.0;  // at which it slips (unit: newtons), >= 0
+    double vibration_force = 0.0;   // amplitude along the normal (unit: newtons), >= 0
+    double vibration_frequency = 0.0;  // (unit: hertz), 0 to half the tick rate
+    double pop_through_force = 0.0;    // that breaks the surface; 0: nothing does (unit: newtons), >= 0
 };
 
 }  // namespace tactus

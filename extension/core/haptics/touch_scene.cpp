@@ -16,11 +16,14 @@ double farthest_motion(const Pose& from, const Pose& to, double reach) {
     return glm::length(to.position - from.position) + (half_sine > 0.0 ? 2.0 * reach * half_sine : 0.0);
 }
 
-bool same_pose(const Pose& p, const Pose& q) { return p.position == q.position && p.rotation == q.rotation; }
+bool same_pose(const Pose& p, const Pose& q) {
+    return p.position == q.position && p.rotation == q.rotation;
+}
 
 }  // namespace
 
-TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts) : bodies_(most_bodies), parts_(most_parts) {
+TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts)
+    : bodies_(most_bodies), parts_(most_parts) {
     moved_.reserve(most_bodies);
 }
 
@@ -36,7 +39,8 @@ int TouchScene::find_parts(std::size_t count) const {
     return -1;
 }
 
-int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material, std::uint32_t layer) {
+int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material,
+                    std::uint32_t layer) {
     const auto slot = std::ranges::find_if(bodies_, [](const TouchBody& body) { return !body.shape; });
     const int first_part = find_parts(shape.parts.size());
     if (slot == bodies_.end() || first_part < 0) {

@@ -1,7 +1,8 @@
-// Every body that can be touched, where it is now and where it was a tick ago. Owned by one session; proxies read it.
+// Every body that can be touched, where it is now and where it was a tick ago. Owned by one session; proxies
+// read it.
 //
-// Slots are reserved at set-up: add, move and remove allocate nothing. The scene does not own the shapes: whoever adds
-// a body keeps its shape alive until the body is removed.
+// Slots are reserved at set-up: add, move and remove allocate nothing. The scene does not own the shapes:
+// whoever adds a body keeps its shape alive until the body is removed.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,8 @@ struct TouchBody {
     std::uint32_t layer = 1;  // bits; a proxy touches it where its mask has one of them
     bool moved = false;       // since the last tick
     double moved_by = 0.0;    // no point of the body moved farther since the last tick (unit: meters)
-    std::uint32_t first_part = 0;  // its parts are scene parts first_part … first_part + shape->parts.size() - 1
+    std::uint32_t first_part =
+        0;  // its parts are scene parts first_part … first_part + shape->parts.size() - 1
 };
 
 // One part of one body, placed in the world.
@@ -50,7 +52,8 @@ public:
     const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
     std::span<const ScenePart> parts() const { return parts_; }
     std::span<const int> moved_bodies() const { return moved_; }
-    // Changes whenever bodies were added, removed, teleported or changed layers: what a proxy remembers is void then.
+    // Changes whenever bodies were added, removed, teleported or changed layers: what a proxy remembers is
+    // void then.
     std::uint64_t revision() const { return revision_; }
 
 private:

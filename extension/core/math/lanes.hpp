@@ -1,4 +1,5 @@
-// Four doubles at once. Kernels over several triangles are written with these, and read like their scalar formulas.
+// Four doubles at once. Kernels over several triangles are written with these, and read like their scalar
+// formulas.
 #pragma once
 
 #if defined(__AVX__)
@@ -17,33 +18,60 @@ constexpr int lane_count = 4;
 using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = std::int64_t __attribute__((vector_size(32)));  // all bits of a lane set: true
 
-inline Lanes splat(double value) { return Lanes{value, value, value, value}; }
+inline Lanes splat(double value) {
+    return Lanes{value, value, value, value};
+}
 
 #if defined(__AVX__)
-inline Lanes lanes_min(Lanes a, Lanes b) { return _mm256_min_pd(a, b); }
-inline Lanes lanes_max(Lanes a, Lanes b) { return _mm256_max_pd(a, b); }
-inline Lanes lanes_sqrt(Lanes a) { return _mm256_sqrt_pd(a); }
+inline Lanes lanes_min(Lanes a, Lanes b) {
+    return _mm256_min_pd(a, b);
+}
+inline Lanes lanes_max(Lanes a, Lanes b) {
+    return _mm256_max_pd(a, b);
+}
+inline Lanes lanes_sqrt(Lanes a) {
+    return _mm256_sqrt_pd(a);
+}
 inline Lanes select(LaneMask mask, Lanes yes, Lanes no) {
     return _mm256_blendv_pd(no, yes, reinterpret_cast<__m256d>(mask));
 }
-inline bool any(LaneMask mask) { return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0; }
+inline bool any(LaneMask mask) {
+    return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+}
 #else
-inline Lanes lanes_min(Lanes a, Lanes b) { return a < b ? a : b; }
-inline Lanes lanes_max(Lanes a, Lanes b) { return a > b ? a : b; }
+inline Lanes lanes_min(Lanes a, Lanes b) {
+    return a < b ? a : b;
+}
+inline Lanes lanes_max(Lanes a, Lanes b) {
+    return a > b ? a : b;
+}
 inline Lanes lanes_sqrt(Lanes a) {
     return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
-inline Lanes select(LaneMask mask, Lanes yes, Lanes no) { return mask ? yes : no; }
-inline bool any(LaneMask mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+inline Lanes select(LaneMask mask, Lanes yes, Lanes no) {
+    return mask ? yes : no;
+}
+inline bool any(LaneMask mask) {
+    return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+}
 #endif
 
-// a * b + c and a * b - c, rounded once where the processor can: written out, so that every build gives the same bits.
+// a * b + c and a * b - c, rounded once where the processor can: written out, so that every build gives the
+// same bits.
 #if defined(__FMA__)
-inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return _mm256_fmadd_pd(a, b, c); }
-inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) { return _mm256_fmsub_pd(a, b, c); }
+inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    return _mm256_fmadd_pd(a, b, c);
+}
+inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) {
+    return _mm256_fmsub_pd(a, b, c);
+}
 #else
-inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return a * b + c; }
-inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) { return a * b - c; }
+inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
+    return a * b + c;
+}
+inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) {
+    return a * b - c;
+}
 #endif
 
 inline double smallest(Lanes a) {
@@ -56,10 +84,18 @@ struct LanesVec3 {
     Lanes x, y, z;
 };
 
-inline LanesVec3 splat(const Vec3& v) { return {splat(v.x), splat(v.y), splat(v.z)}; }
-inline LanesVec3 operator+(const LanesVec3& a, const LanesVec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline LanesVec3 operator-(const LanesVec3& a, const LanesVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline LanesVec3 operator*(const LanesVec3& a, Lanes s) { return {a.x * s, a.y * s, a.z * s}; }
+inline LanesVec3 splat(const Vec3& v) {
+    return {splat(v.x), splat(v.y), splat(v.z)};
+}
+inline LanesVec3 operator+(const LanesVec3& a, const LanesVec3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline LanesVec3 operator-(const LanesVec3& a, const LanesVec3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline LanesVec3 operator*(const LanesVec3& a, Lanes s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
 inline Lanes dot(const LanesVec3& a, const LanesVec3& b) {
     return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
 }
@@ -74,6 +110,8 @@ inline LanesVec3 along(const LanesVec3& p, const LanesVec3& v, Lanes t) {
 inline LanesVec3 select(LaneMask mask, const LanesVec3& yes, const LanesVec3& no) {
     return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
-inline Vec3 lane(const LanesVec3& v, int i) { return {v.x[i], v.y[i], v.z[i]}; }
+inline Vec3 lane(const LanesVec3& v, int i) {
+    return {v.x[i], v.y[i], v.z[i]};
+}
 
 }  // namespace tactus

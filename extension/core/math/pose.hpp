@@ -8,17 +8,21 @@
 namespace tactus {
 
 struct Pose {
-    Vec3 position{0.0};                // (unit: meters)
+    Vec3 position{0.0};                 // (unit: meters)
     Quat rotation{1.0, 0.0, 0.0, 0.0};  // unit quaternion, body to parent
 };
 
-inline Vec3 to_parent(const Pose& pose, const Vec3& point) { return pose.position + pose.rotation * point; }
+inline Vec3 to_parent(const Pose& pose, const Vec3& point) {
+    return pose.position + pose.rotation * point;
+}
 
 inline Vec3 to_local(const Pose& pose, const Vec3& point) {
     return glm::conjugate(pose.rotation) * (point - pose.position);
 }
 
-inline Vec3 direction_to_parent(const Pose& pose, const Vec3& direction) { return pose.rotation * direction; }
+inline Vec3 direction_to_parent(const Pose& pose, const Vec3& direction) {
+    return pose.rotation * direction;
+}
 
 inline Vec3 direction_to_local(const Pose& pose, const Vec3& direction) {
     return glm::conjugate(pose.rotation) * direction;

@@ -6,15 +6,15 @@
 namespace tactus {
 
 struct DeviceSample {
-    Vec3 position{0.0};                // of the handle, in the device's own frame (unit: meters)
+    Vec3 position{0.0};                 // of the handle, in the device's own frame (unit: meters)
     Quat rotation{1.0, 0.0, 0.0, 0.0};  // of the handle; identity where the device cannot tell
-    Vec3 velocity{0.0};                // (unit: meters per second)
+    Vec3 velocity{0.0};                 // (unit: meters per second)
     std::uint32_t buttons = 0;          // bit i: button i is held
     bool connected = false;             // false: the sample repeats the last known position
 };
 
-// Called by the haptic thread once a tick, read before write. Implementations neither allocate, lock, throw nor block
-// in read and write; what takes time (opening, homing) belongs into their own set-up, off the loop.
+// Called by the haptic thread once a tick, read before write. Implementations neither allocate, lock, throw
+// nor block in read and write; what takes time (opening, homing) belongs into their own set-up, off the loop.
 class Device {
 public:
     virtual ~Device() = default;
