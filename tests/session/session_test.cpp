@@ -83,6 +83,7 @@ TEST(Session, AFingerPushesABoxAndFeelsTheOppositeForce) {
     const SessionHandle box = rig.add(body(BoxShape{Vec3(0.1)}, {0.0, 0.0, 0.0}, Motion::Dynamic, 2.0));
     rig.device.position = {-0.2, 0.0, 0.0};
     rig.tick();
+    rig.device.velocity.x = 0.4;
     Vec3 given(0.0);
     for (int i = 0; i < 400; ++i) {
         rig.device.position.x = -0.2 + 0.0004 * i;
