@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/ports/device.hpp"
@@ -95,6 +96,12 @@ public:
 
     // One tick at `now`, a time that rises by the period. `trace` may be null.
     TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);
+
+    // Between two ticks: time travel, for a session that keeps a history (see SessionLoop::correct).
+    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth);
+    bool correcting() const;
+    std::uint64_t oldest_correctable_tick() const;
+    std::span<const CorrectedBody> corrected() const;
 
 private:
     struct Impl;
