@@ -33,12 +33,14 @@ FarIslands::FarIslands(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& rec
     constexpr std::size_t most_hands = 64;
     hands_.reserve(most_hands);
     kept_.resize(records.size());
-    for (std::vector<JPH::BodyID>& bodies : in_turn_)
-        bodies.reserve(records.size());
-    for (Contacts& contacts : contacts_of_turn_)
-        contacts.memory.resize(contact_bytes);
+    for (Turn& turn : turn_list_) {
+        turn.bodies.reserve(records.size());
+        turn.fresh.reserve(records.size());
+        turn.contacts.memory.resize(contact_bytes);
+        turn.fresh_contacts.memory.resize(contact_bytes);
+    }
     contacts_of_waiting_.memory.resize(contact_bytes);
-    for (std::vector<JPH::BodyID>* list : {&due_, &waiting_, &list_})
+    for (std::vector<JPH::BodyID>* list : {&due_, &fresh_due_, &waiting_, &leaving_, &list_})
         list->reserve(records.size());
     islands_.reserve(records.size());
     order_.reserve(records.size());
@@ -78,8 +80,7 @@ bool FarIslands::release(JPH::Body& released, bool give_velocity_back) {
         kept(released).keep == Keep::no)
         return false;
     Kept& state = kept(released);
-    std::vector<JPH::BodyID>& list = state.keep == Keep::in_turn ? in_turn_[state.turn] : waiting_;
-    list.erase(std::find(list.begin(), list.end(), released.GetID()));
+    state.list->erase(std::find(state.list->begin(), state.list->end(), released.GetID()));
     count_ -= state.keep == Keep::in_turn ? 1 : 0;
     state.keep = Keep::no;
     if (give_velocity_back) {
@@ -140,7 +141,7 @@ void FarIslands::send_away(JPH::BodyID id, Keep keep, std::vector<JPH::BodyID>& 
     const JPH::MotionProperties& motion = *sent.GetMotionProperties();
     Kept& state = kept(sent);
     state.keep = keep;
-    state.turn = static_cast<std::uint8_t>(turn_);
+    state.list = &list;
     state.linear = motion.GetLinearVelocity();
     state.angular = motion.GetAngularVelocity();
     MemoryWriter writer(state.motion);
@@ -165,70 +166,137 @@ void FarIslands::bring_back(std::vector<JPH::BodyID>& list) {
 
 // With the length of the last step, by which Jolt scales the forces it begins with. Contacts that find no
 // room begin without.
-void FarIslands::save(Contacts& contacts) const {
-    MemoryWriter writer(contacts.memory);
-    system_.SaveState(writer, JPH::EStateRecorderState::Global | JPH::EStateRecorderState::Contacts);
-    contacts.bytes = writer.IsFailed() ? 0 : writer.used();
+void FarIslands::save(Contacts& contacts, std::size_t part, const JPH::StateRecorderFilter* which) const {
+    const std::size_t begin = part == 0 ? 0 : contacts.bytes[0];
+    MemoryWriter writer(std::span(contacts.memory).subspan(begin));
+    system_.SaveState(writer, JPH::EStateRecorderState::Global | JPH::EStateRecorderState::Contacts, which);
+    contacts.bytes[part] = writer.IsFailed() ? 0 : writer.used();
 }
 
 void FarIslands::restore(const Contacts& contacts) {
-    if (contacts.bytes == 0)
-        return;
     const JPH::Vec3 gravity = system_.GetGravity();
-    MemoryReader reader(std::span(contacts.memory).first(contacts.bytes));
-    system_.RestoreState(reader);
+    std::span<const std::byte> rest(contacts.memory);
+    for (std::size_t part = 0; part < 2; ++part) {
+        if (contacts.bytes[part] == 0)
+            continue;
+        MemoryReader reader(rest.first(contacts.bytes[part]));
+        reader.SetIsLastPart(part == 1 || contacts.bytes[1] == 0);
+        system_.RestoreState(reader);
+        rest = rest.subspan(contacts.bytes[part]);
+    }
     system_.SetGravity(gravity);
 }
 
-void FarIslands::set_some_aside(std::size_t most) {
-    if (awake_count() <= full_rate_)
+class FarIslands::ContactsOfLeavers final : public JPH::StateRecorderFilter {
+public:
+    explicit ContactsOfLeavers(const FarIslands& far) : far_(far) {}
+    bool ShouldSaveContact(const JPH::BodyID& a, const JPH::BodyID& b) const override {
+        return far_.kept_[a.GetIndex()].leaves || far_.kept_[b.GetIndex()].leaves;
+    }
+
+private:
+    const FarIslands& far_;
+};
+
+void FarIslands::plan() {
+    if (full_rate_ == 0)
+        return;
+    turn_ = (turn_ + 1) % turns;
+    stage_ = Stage::begin;
+    Turn& turn = turn_list_[turn_];
+    const std::size_t share = (awake_count() + count_ + turns - 1) / turns;
+    const std::size_t here = turn.bodies.size() + turn.fresh.size();
+    if (awake_count() <= full_rate_ || here >= share)
         return;
     survey_islands();
-    choose(std::min(most, awake_count() - full_rate_));
-    list_.assign(awake().begin(), awake().end());
-    for (const JPH::BodyID id : list_)
-        if (const Island* island = island_of(id); island != nullptr && island->chosen)
-            send_away(id, Keep::in_turn, in_turn_[turn_]);
+    choose(std::min(share - here, awake_count() - full_rate_));
+    for (const JPH::BodyID id : awake())
+        if (const Island* island = island_of(id); island != nullptr && island->chosen) {
+            kept(body(id)).leaves = true;
+            leaving_.push_back(id);
+        }
 }
 
 bool FarIslands::begin_turn() {
     if (full_rate_ == 0)
         return false;
-    turn_ = (turn_ + 1) % turns;
-    due_.swap(in_turn_[turn_]);
-    exchanging_ = true;
-    // Turns of even length. What goes now is due in as many steps as a turn is long: no time is lost.
-    const std::size_t share = (awake_count() + count_ + turns - 1) / turns;
-    if (due_.size() < share)
-        set_some_aside(share - due_.size());
-    const bool turn_has_come = !due_.empty();
-    if (turn_has_come) {
-        save(contacts_of_waiting_);
+    Turn& turn = turn_list_[turn_];
+    if (stage_ == Stage::begin) {
+        if (turn.bodies.empty() && turn.fresh.empty())
+            return false;
+        exchanging_ = true;
+        save(contacts_of_waiting_, 0);
         list_.assign(awake().begin(), awake().end());
         for (const JPH::BodyID id : list_)
-            send_away(id, Keep::until_turn_ends, waiting_);
+            send_away(id, Keep::until_turns_end, waiting_);
+        due_.swap(turn.bodies);
+        fresh_due_.swap(turn.fresh);
+        for (const JPH::BodyID id : due_)
+            kept(body(id)).list = &due_;
+        for (const JPH::BodyID id : fresh_due_)
+            kept(body(id)).list = &fresh_due_;
+    }
+    exchanging_ = true;
+    if (stage_ == Stage::begin && !due_.empty()) {
+        stage_ = Stage::bodies;
+        restore(turn.contacts);
         bring_back(due_);
-        restore(contacts_of_turn_[turn_]);
+    } else if (stage_ != Stage::fresh && !fresh_due_.empty()) {
+        if (stage_ == Stage::begin)
+            turn.contacts.bytes = {0, 0};
+        stage_ = Stage::fresh;
+        restore(turn.fresh_contacts);
+        bring_back(fresh_due_);
+    } else {
+        exchanging_ = false;
+        return false;
     }
     exchanging_ = false;
-    return turn_has_come;
+    return true;
 }
 
 void FarIslands::end_turn() {
     exchanging_ = true;
-    save(contacts_of_turn_[turn_]);
+    Turn& turn = turn_list_[turn_];
+    if (stage_ == Stage::bodies)
+        turn.contacts.bytes = {0, 0};
+    save(turn.contacts, stage_ == Stage::bodies ? 0 : 1);
     survey_islands();
     const std::size_t low = full_rate_ - full_rate_ / 4;
     const bool all_return = waiting_.size() + awake_count() <= low;
     list_.assign(awake().begin(), awake().end());
     for (const JPH::BodyID id : list_) {
         const Island* island = island_of(id);
-        if (!all_return && island != nullptr && !island->stays &&
-            island->distance > squared_length(returns_within))
-            send_away(id, Keep::in_turn, in_turn_[turn_]);
+        const bool goes_on = !all_return && island != nullptr && !island->stays &&
+                             island->distance > squared_length(returns_within);
+        if (goes_on)
+            send_away(id, Keep::in_turn, turn.bodies);
+        else
+            send_away(id, Keep::until_turns_end, waiting_);
     }
-    bring_back(waiting_);
-    restore(contacts_of_waiting_);
+    exchanging_ = false;
+}
+
+// What leaves now is due in as many steps as a turn is long: no time is lost.
+void FarIslands::finish() {
+    if (full_rate_ == 0)
+        return;
+    exchanging_ = true;
+    if (stage_ != Stage::begin) {
+        bring_back(waiting_);
+        restore(contacts_of_waiting_);
+    }
+    if (!leaving_.empty()) {
+        Turn& turn = turn_list_[turn_];
+        const ContactsOfLeavers leavers(*this);
+        save(turn.fresh_contacts, 0, &leavers);
+        for (const JPH::BodyID id : leaving_) {
+            kept(body(id)).leaves = false;
+            if (body(id).IsActive())
+                send_away(id, Keep::in_turn, turn.fresh);
+        }
+        leaving_.clear();
+    }
     exchanging_ = false;
 }
 

@@ -27,7 +27,8 @@
 
 namespace JPH {
 class PhysicsSystem;
-}
+class StateRecorderFilter;
+}  // namespace JPH
 
 namespace tactus {
 
@@ -51,19 +52,26 @@ public:
     // The body woke, or is about to be changed or removed. True where it had been kept here.
     bool release(JPH::Body& body, bool give_velocity_back);
 
-    // After a step at the full rate: chooses what goes, and begins the turn that is due. True when the turn
-    // has bodies: then they, and nobody else, take a step of `turns` times the length, and end_turn()
-    // follows.
+    // After each step at the full rate:
+    //     far.plan();
+    //     while (far.begin_turn()) {
+    //         ... a step of `turns` times the length, of nobody but those whose turn it is ...
+    //         far.end_turn();
+    //     }
+    //     far.finish();
+    void plan();
     bool begin_turn();
     void end_turn();
+    void finish();
 
 private:
-    enum class Keep : std::uint8_t { no, in_turn, until_turn_ends };
+    enum class Keep : std::uint8_t { no, in_turn, until_turns_end };
 
     // What Jolt forgets of a body that sleeps. 169 bytes of state in 5.6.0 with double precision.
     struct Kept {
         Keep keep = Keep::no;
-        std::uint8_t turn = 0;
+        std::vector<JPH::BodyID>* list = nullptr;  // that names it
+        bool leaves = false;                       // with finish()
         JPH::Vec3 linear;
         JPH::Vec3 angular;
         std::array<std::byte, 192> motion;
@@ -76,10 +84,21 @@ private:
         bool chosen;
     };
 
+    // As Jolt writes them, in up to two parts.
     struct Contacts {
         std::vector<std::byte> memory;
-        std::size_t bytes = 0;
+        std::array<std::size_t, 2> bytes{0, 0};
     };
+
+    // The bodies of one turn. New ones come from steps of another length, which Jolt's contact forces are
+    // proportional to: they take their first step on their own.
+    struct Turn {
+        std::vector<JPH::BodyID> bodies, fresh;
+        Contacts contacts, fresh_contacts;
+    };
+
+    class ContactsOfLeavers;
+    enum class Stage : std::uint8_t { begin, bodies, fresh };
 
     const Kept& kept(const JPH::Body& body) const;
     Kept& kept(const JPH::Body& body);
@@ -90,10 +109,9 @@ private:
     void survey_islands();
     Island* island_of(JPH::BodyID id);
     void choose(std::size_t most);
-    void set_some_aside(std::size_t most);
     void send_away(JPH::BodyID id, Keep keep, std::vector<JPH::BodyID>& list);
     void bring_back(std::vector<JPH::BodyID>& list);
-    void save(Contacts& contacts) const;
+    void save(Contacts& contacts, std::size_t part, const JPH::StateRecorderFilter* which = nullptr) const;
     void restore(const Contacts& contacts);
 
     JPH::PhysicsSystem& system_;
@@ -104,13 +122,14 @@ private:
     bool exchanging_ = false;
     std::vector<JPH::Vec3> hands_;
     std::vector<Kept> kept_;  // by the body's index
-    std::array<std::vector<JPH::BodyID>, turns> in_turn_;
-    std::array<Contacts, turns> contacts_of_turn_;
-    std::vector<JPH::BodyID> waiting_;  // those at the full rate, while a turn lasts
+    std::array<Turn, turns> turn_list_;
+    Stage stage_ = Stage::begin;
+    std::vector<JPH::BodyID> due_, fresh_due_;  // whose turn it is
+    std::vector<JPH::BodyID> waiting_;          // all others, while turns last
     Contacts contacts_of_waiting_;
-    std::vector<JPH::BodyID> due_;  // scratch, as
-    std::vector<JPH::BodyID> list_;
-    std::vector<Island> islands_;  // by Jolt's number of the last step
+    std::vector<JPH::BodyID> leaving_;
+    std::vector<JPH::BodyID> list_;  // scratch
+    std::vector<Island> islands_;    // by Jolt's number of the last step
     std::vector<std::uint32_t> order_;
 };
 

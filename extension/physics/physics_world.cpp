@@ -355,10 +355,12 @@ std::uint32_t PhysicsWorld::step(double seconds) {
     impl_->add_pushes();
     std::uint32_t status = impl_->update(seconds);
     impl_->remove_pushes();
-    if (impl_->far.begin_turn()) {
+    impl_->far.plan();
+    while (impl_->far.begin_turn()) {
         status |= impl_->update(seconds * FarIslands::turns);
         impl_->far.end_turn();
     }
+    impl_->far.finish();
     impl_->trees.tidy_some();
     if (impl_->memory.overflows() != overflows)
         status |= step_memory_full;
