@@ -1,6 +1,6 @@
 // Things that move: what a tick with moving bodies costs, how they feel, and how right they are.
 //
-//     physics [--quick]
+//     physics [--quick] [--only=tick|crowd|feel|rollback|checks|awake]
 //
 // Writes the file that TACTUS_BENCH_JSON names (build/bench/physics.json otherwise): one flat object. Whole
 // ticks are a Session's; Jolt's bare step is Jolt's own world of the same boxes, stepped in turns with it in
@@ -27,6 +27,7 @@
 #include "physics/timeline.hpp"
 #include "realtime/clock.hpp"
 #include "session/session.hpp"
+#include "shared/bench_kit.hpp"
 
 namespace {
 
@@ -35,25 +36,14 @@ using namespace tactus;
 constexpr double tick = 1e-3;  // (unit: seconds)
 constexpr Vec3 down{0.0, -9.81, 0.0};
 
+// A report that is seen to grow.
 struct Results {
-    std::vector<std::pair<std::string, double>> values;
+    shared::Report report;
 
     void add(const std::string& key, double value) {
-        values.emplace_back(key, value);
+        report.set(key, value);
         std::printf("  %-40s %.6g\n", key.c_str(), value);
         std::fflush(stdout);
-    }
-
-    bool write(const char* path) const {
-        std::FILE* file = std::fopen(path, "w");
-        if (file == nullptr)
-            return false;
-        std::fprintf(file, "{\n");
-        for (std::size_t i = 0; i < values.size(); ++i)
-            std::fprintf(file, "  \"%s\": %.6g%s\n", values[i].first.c_str(), values[i].second,
-                         i + 1 < values.size() ? "," : "");
-        std::fprintf(file, "}\n");
-        return std::fclose(file) == 0;
     }
 };
 
@@ -683,24 +673,33 @@ void checks(Results& results) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    const bool quick = count > 1 && std::string_view(arguments[1]) == "--quick";
+    shared::Options options(count, arguments);
+    const bool quick = options.has("quick");
+    const std::string only = options.text("only");
+    if (!options.understood())
+        return 2;
     const int rounds = quick ? 5 : 60;
-    const char* path = std::getenv("TACTUS_BENCH_JSON");
     Results results;
     prepare(ground());  // starts Jolt
-    tick_over_jolt(results, "one_box", 1, rounds);
-    tick_over_jolt(results, "ten_boxes", 10, rounds);
-    idle_crowd(results, rounds);
-    idle_crowd_step(results, rounds);
-    push(results);
-    press(results, "press_20mm", 0.02);
-    press(results, "press_5mm", 0.005);
-    rollback(results, quick);
-    checks(results);
-    awake_bodies(results, quick);
-    if (!results.write(path != nullptr ? path : "build/bench/physics.json")) {
-        std::fprintf(stderr, "cannot write the results\n");
-        return 1;
+    const auto part = [&only](std::string_view name) { return only.empty() || only == name; };
+    if (part("tick")) {
+        tick_over_jolt(results, "one_box", 1, rounds);
+        tick_over_jolt(results, "ten_boxes", 10, rounds);
     }
-    return 0;
+    if (part("crowd")) {
+        idle_crowd(results, rounds);
+        idle_crowd_step(results, rounds);
+    }
+    if (part("feel")) {
+        push(results);
+        press(results, "press_20mm", 0.02);
+        press(results, "press_5mm", 0.005);
+    }
+    if (part("rollback"))
+        rollback(results, quick);
+    if (part("checks"))
+        checks(results);
+    if (part("awake"))
+        awake_bodies(results, quick);
+    return results.report.write_json(shared::result_path("physics")) ? 0 : 1;
 }
