@@ -255,8 +255,8 @@ void HapticWorld::_notification(int what) {
             stop();
             break;
         case NOTIFICATION_PAUSED:
-            if (run_ != nullptr && clock_ == CLOCK_REAL_TIME) {
-                run_->stop_loop();
+            if (run_ != nullptr) {
+                run_->pause();
             }
             break;
         case NOTIFICATION_UNPAUSED:

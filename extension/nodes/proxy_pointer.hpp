@@ -56,6 +56,7 @@ public:
     using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;
     void take_state(const ProxyState& state, const BodyIds& bodies);
     void clear_state();
+    void clear_force() { state_.force = Vec3(0.0); }
 
 protected:
     static void _bind_methods();

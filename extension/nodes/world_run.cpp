@@ -60,6 +60,7 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
 
 WorldRun::~WorldRun() {
     stop_loop();
+    session_.rest();
     for (const auto& mirror : mirrors_) {
         mirror->release(session_);
     }
@@ -89,6 +90,16 @@ void WorldRun::stop_loop() {
     }
     loop_.stop();
     drain();
+}
+
+void WorldRun::pause() {
+    stop_loop();
+    session_.rest();
+    session_.refresh();
+    show_devices(session_.snapshot());
+    for (const ProxyLink& link : proxies_) {
+        link.node->clear_force();
+    }
 }
 
 TickStatus WorldRun::tick_loop_function(void* self, Nanoseconds scheduled) {

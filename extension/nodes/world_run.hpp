@@ -41,6 +41,8 @@ public:
     // Real time only. The text is empty, or why the loop could not start.
     std::string start_loop();
     void stop_loop();
+    // Ticks stop for a while: nothing pushes the hand meanwhile.
+    void pause();
 
     // Passes on what changed in the scene tree; `seconds`: since the last call.
     void synchronise(double seconds);

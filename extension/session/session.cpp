@@ -297,6 +297,10 @@ void Session::settle() {
     impl_->loop.settle();
 }
 
+void Session::rest() {
+    impl_->loop.rest();
+}
+
 TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
     TickStatus status = 0;
     {

@@ -96,6 +96,10 @@ public:
     // One tick at `now`, a time that rises by the period. `trace` may be null.
     TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);
 
+    // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
+    // that is elsewhere when they go on begins anew there, without a kick.
+    void rest();
+
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

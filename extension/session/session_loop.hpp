@@ -28,6 +28,9 @@ public:
 
     TickStatus tick(Nanoseconds now, TickTrace* trace);
 
+    // See Session.
+    void rest();
+
 private:
     struct Body {
         BodyId id;
@@ -56,6 +59,7 @@ private:
         ProxyDescription description;
         Vec3 force{0.0};  // on the hand, in the world (unit: newtons)
         EffectMemory effects;
+        bool rested = false;  // since the last tick
         ProxyState state;
     };
 
@@ -119,6 +123,7 @@ private:
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
     std::uint64_t tick_ = 0;
+    Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;
 };
 

@@ -76,6 +76,51 @@ TEST(Session, AHeldClutchKeepsTheHandWhereItIs) {
     EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.2, 0.2, 0.3)), 1e-12);
 }
 
+TEST(Session, AtRestTheDeviceIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.rest();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    EXPECT_EQ(rig.proxy_state().force, Vec3(0.0));
+    EXPECT_EQ(rig.session.snapshot().devices[0].force, Vec3(0.0));
+}
+
+TEST(Session, AHandThatStayedGoesOnAfterARest) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    const double before = rig.device.force.y;
+    rig.session.rest();
+    rig.tick();
+    EXPECT_DOUBLE_EQ(rig.device.force.y, before);
+}
+
+TEST(Session, AHandThatWentElsewhereDuringARestIsNotKicked) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.ticks(10);
+    rig.session.rest();
+    rig.device.position = {0.0, -0.2, 0.0};
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+TEST(Session, ADeviceThatLeavesIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.remove_device(rig.hand);
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
 TEST(Session, AFingerPushesABoxAndFeelsTheOppositeForce) {
     SessionSettings settings;
     SessionRig rig(settings);
