@@ -71,6 +71,7 @@ private:
 
     godot::NodePath device_;
     double radius_ = 0.01;
+    bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;
     Law force_law_ = FORCE_LAW_SPRING;
     bool enabled_ = true;

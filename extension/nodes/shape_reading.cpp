@@ -14,6 +14,7 @@
 
 #include "core/geometry/convex_hull.hpp"
 #include "core/geometry/mesh_check.hpp"
+#include "core/geometry/touch_shape.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_reading.hpp"
 
@@ -48,12 +49,19 @@ bool same_factor(double a, double b) {
     return std::abs(a - b) <= even * std::abs(a);
 }
 
+ShapeReading failure(std::string error) {
+    return {{}, std::move(error)};
+}
+
 ShapeReading one(Shape shape, const Pose& pose) {
     return {{PlacedShape{std::move(shape), pose}}, {}};
 }
 
-ShapeReading failure(std::string error) {
-    return {{}, std::move(error)};
+// A shape without triangles is made in no time, so that what is wrong with its size shows at once.
+ShapeReading one_solid(Shape shape, const Pose& pose) {
+    ShapeReading reading = one(std::move(shape), pose);
+    std::string error = make_touch_shape(reading.shapes).error;
+    return error.empty() ? reading : failure(std::move(error));
 }
 
 ShapeReading uneven(const char* kind) {
@@ -65,7 +73,7 @@ ShapeReading placed(const godot::BoxShape3D& box, const AxisFactors& scale, cons
     if (!scale.square) {
         return uneven("box");
     }
-    return one(BoxShape{0.5 * from_godot(box.get_size()) * scale.factors}, pose);
+    return one_solid(BoxShape{0.5 * from_godot(box.get_size()) * scale.factors}, pose);
 }
 
 ShapeReading placed(const godot::SphereShape3D& sphere, const AxisFactors& scale, const Pose& pose) {
@@ -73,7 +81,7 @@ ShapeReading placed(const godot::SphereShape3D& sphere, const AxisFactors& scale
     if (!scale.square || !same_factor(f.x, f.y) || !same_factor(f.x, f.z)) {
         return uneven("sphere");
     }
-    return one(SphereShape{sphere.get_radius() * f.x}, pose);
+    return one_solid(SphereShape{sphere.get_radius() * f.x}, pose);
 }
 
 ShapeReading placed(const godot::CapsuleShape3D& capsule, const AxisFactors& scale, const Pose& pose) {
@@ -82,7 +90,8 @@ ShapeReading placed(const godot::CapsuleShape3D& capsule, const AxisFactors& sca
         return uneven("capsule");
     }
     const double radius = capsule.get_radius();
-    return one(CapsuleShape{radius * f.x, std::max(0.0, 0.5 * capsule.get_height() - radius) * f.x}, pose);
+    return one_solid(CapsuleShape{radius * f.x, std::max(0.0, 0.5 * capsule.get_height() - radius) * f.x},
+                     pose);
 }
 
 ShapeReading placed(const godot::CylinderShape3D& cylinder, const AxisFactors& scale, const Pose& pose) {
@@ -90,7 +99,7 @@ ShapeReading placed(const godot::CylinderShape3D& cylinder, const AxisFactors& s
     if (!scale.square || !same_factor(f.x, f.z)) {
         return uneven("cylinder");
     }
-    return one(CylinderShape{cylinder.get_radius() * f.x, 0.5 * cylinder.get_height() * f.y}, pose);
+    return one_solid(CylinderShape{cylinder.get_radius() * f.x, 0.5 * cylinder.get_height() * f.y}, pose);
 }
 
 ShapeReading placed(const godot::HeightMapShape3D& map, const AxisFactors& scale, const Pose& pose) {
