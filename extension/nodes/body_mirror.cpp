@@ -7,17 +7,13 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/shape_reading.hpp"
+#include "nodes/touch_values.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
 namespace {
-
-bool operator==(const TouchMaterial& a, const TouchMaterial& b) {
-    return a.stiffness == b.stiffness && a.damping == b.damping && a.static_friction == b.static_friction &&
-           a.dynamic_friction == b.dynamic_friction;
-}
 
 bool operator==(const SurfaceMaterial& a, const SurfaceMaterial& b) {
     return a.friction == b.friction && a.restitution == b.restitution && a.rough == b.rough &&
@@ -114,8 +110,8 @@ bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) 
 void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
     const BodyValues before = values_;
     values_ = read_values(*body(), defaults);
-    if (!(values_.touch == before.touch)) {
-        session.set_touch_material(handle_, values_.touch);
+    if (!same_values(values_.touch, before.touch) || values_.texture != before.texture) {
+        session.set_touch_material(handle_, values_.touch, values_.texture);
     }
     if (!(values_.surface == before.surface)) {
         session.set_body_surface(handle_, values_.surface);

@@ -37,17 +37,18 @@ Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
     return Ref<PhysicsMaterial>();
 }
 
-TouchMaterial touch_of(const Ref<PhysicsMaterial>& material, const TouchMaterial& otherwise) {
+void read_touch(const Ref<PhysicsMaterial>& material, const BodyDefaults& defaults, BodyValues& values) {
     if (const auto* haptic = Object::cast_to<HapticMaterial>(material.ptr())) {
-        return haptic->touch();
+        values.touch = haptic->touch();
+        values.texture = haptic->heights();
+        return;
     }
-    if (material.is_null()) {
-        return otherwise;
+    values.touch = defaults.touch;
+    values.texture = defaults.texture;
+    if (material.is_valid()) {
+        values.touch.static_friction = values.touch.dynamic_friction =
+            std::max(0.0, static_cast<double>(material->get_friction()));
     }
-    TouchMaterial touch = otherwise;
-    touch.static_friction = touch.dynamic_friction =
-        std::max(0.0, static_cast<double>(material->get_friction()));
-    return touch;
 }
 
 double damping_of(RigidBody3D::DampMode mode, double own, double project) {
@@ -166,7 +167,7 @@ BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaul
     BodyValues values;
     const Ref<PhysicsMaterial> material = material_of(body);
     values.motion = motion_of(body);
-    values.touch = touch_of(material, defaults.touch);
+    read_touch(material, defaults, values);
     if (material.is_valid()) {
         values.surface = {std::max(0.0, static_cast<double>(material->get_friction())),
                           std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0),
@@ -218,6 +219,7 @@ void put_into(BodyDescription& description, const BodyMakings& makings) {
 
 void put_into(BodyAddition& addition, const BodyValues& values) {
     addition.touch_material = values.touch;
+    addition.texture = values.texture;
     BodyDescription& description = addition.description;
     description.motion = values.motion;
     description.material = values.surface;

@@ -15,7 +15,8 @@ class HapticMesh;
 
 // What a world adds to each of its bodies.
 struct BodyDefaults {
-    TouchMaterial touch;           // of bodies without a physics_material_override
+    TouchMaterial touch;                         // of bodies without a physics_material_override
+    std::shared_ptr<const HeightImage> texture;  // of the same
     double linear_damping = 0.1;   // that Godot's project settings give to every rigid body (unit: 1/seconds)
     double angular_damping = 0.1;  // likewise
 };
@@ -59,6 +60,7 @@ BodyReading read_shapes(godot::CollisionObject3D& body);
 struct BodyValues {
     Motion motion = Motion::Static;
     TouchMaterial touch;
+    std::shared_ptr<const HeightImage> texture;  // null: none
     SurfaceMaterial surface;
     CollisionLayers layers;
     double gravity_scale = 1.0;

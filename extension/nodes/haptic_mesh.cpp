@@ -3,6 +3,7 @@
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/core/class_db.hpp>
+#include <numbers>
 
 #include "core/geometry/mesh_check.hpp"
 #include "nodes/conversions.hpp"
@@ -56,6 +57,17 @@ void HapticMesh::set_library_mesh(const String& name) {
     }
 }
 
+void HapticMesh::set_smoothing_angle(double angle) {
+    if (!is_at_least_zero(angle) || angle > std::numbers::pi) {
+        refuse(*this, "smoothing_angle", angle, "between 0 and pi");
+        return;
+    }
+    if (smoothing_angle_ != angle) {
+        smoothing_angle_ = angle;
+        ++change_count;
+    }
+}
+
 const HapticMesh::Triangles& HapticMesh::triangles() const {
     if (is_read_) {
         return triangles_;
@@ -91,7 +103,7 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
     const auto mesh = scaling.is_equal_approx(Basis())
                           ? source.mesh
                           : std::make_shared<const TriangleMesh>(scaled(*source.mesh, scaling));
-    return {{PlacedShape{MeshShape{mesh}, pose_of(local)}}, {}};
+    return {{PlacedShape{MeshShape{mesh, smoothing_angle_}, pose_of(local)}}, {}};
 }
 
 double HapticMesh::get_library_mass() const {
@@ -152,6 +164,8 @@ void HapticMesh::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_mesh"), &HapticMesh::get_mesh);
     ClassDB::bind_method(D_METHOD("set_library_mesh", "name"), &HapticMesh::set_library_mesh);
     ClassDB::bind_method(D_METHOD("get_library_mesh"), &HapticMesh::get_library_mesh);
+    ClassDB::bind_method(D_METHOD("set_smoothing_angle", "angle"), &HapticMesh::set_smoothing_angle);
+    ClassDB::bind_method(D_METHOD("get_smoothing_angle"), &HapticMesh::get_smoothing_angle);
     ClassDB::bind_method(D_METHOD("get_library_mass"), &HapticMesh::get_library_mass);
     ClassDB::bind_method(D_METHOD("get_library_source"), &HapticMesh::get_library_source);
     ClassDB::bind_method(D_METHOD("_resource_changed"), &HapticMesh::resource_changed);
@@ -163,6 +177,9 @@ void HapticMesh::_bind_methods() {
                  "get_mesh");
     ADD_PROPERTY(PropertyInfo(Variant::STRING, "library_mesh", PROPERTY_HINT_ENUM_SUGGESTION, ""),
                  "set_library_mesh", "get_library_mesh");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "smoothing_angle", PROPERTY_HINT_RANGE, "0,180,0.1,radians_as_degrees"),
+        "set_smoothing_angle", "get_smoothing_angle");
 }
 
 }  // namespace tactus

@@ -20,6 +20,10 @@ public:
     void set_library_mesh(const godot::String& name);
     godot::String get_library_mesh() const { return library_mesh_; }
 
+    // (unit: radians, 0 to pi)
+    void set_smoothing_angle(double angle);
+    double get_smoothing_angle() const { return smoothing_angle_; }
+
     double get_library_mass() const;
     godot::String get_library_source() const;
     static godot::PackedStringArray get_library_names();
@@ -51,6 +55,7 @@ private:
 
     godot::Ref<godot::Mesh> mesh_;
     godot::String library_mesh_;
+    double smoothing_angle_ = 0.0;
     mutable Triangles triangles_;  // read once, when somebody asks
     mutable bool is_read_ = false;
 };

@@ -166,6 +166,10 @@ TouchMaterial HapticWorld::default_touch() const {
     return default_material_.is_valid() ? default_material_->touch() : TouchMaterial{};
 }
 
+std::shared_ptr<const HeightImage> HapticWorld::default_texture() const {
+    return default_material_.is_valid() ? default_material_->heights() : nullptr;
+}
+
 // --- life
 // ------------------------------------------------------------------------------------------------------------
 

@@ -176,7 +176,7 @@ bool same(const ConvexHullShape& a, const ConvexHullShape& b) {
     return same(a.hull, b.hull);
 }
 bool same(const MeshShape& a, const MeshShape& b) {
-    return same(a.mesh, b.mesh);
+    return a.smooth_below == b.smooth_below && same(a.mesh, b.mesh);
 }
 bool same(const HeightFieldShape& a, const HeightFieldShape& b) {
     return a.columns == b.columns && a.rows == b.rows && a.scale == b.scale && *a.heights == *b.heights;

@@ -189,6 +189,7 @@ void WorldRun::synchronise_bodies(double seconds) {
     }
     MirrorContext context;
     defaults_.touch = world_.default_touch();
+    defaults_.texture = world_.default_texture();
     context.defaults = defaults_;
     context.on_shape_change = Callable(&world_, "_shape_changed");
     context.shapes_changed = std::exchange(shapes_changed_, false);
