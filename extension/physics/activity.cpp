@@ -81,6 +81,8 @@ void WakeJournal::restart(std::uint64_t serial) {
 void ActivityListener::OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) {
     journal_.note(*reinterpret_cast<const JPH::Body*>(body));
     trees_.may_differ(id);
+    if (in_step_)
+        moved_.push_back({id.GetIndexAndSequenceNumber()});
 }
 
 void ActivityListener::OnBodyDeactivated(const JPH::BodyID& id, JPH::uint64) {

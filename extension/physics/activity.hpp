@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/jolt.hpp"
+#include "physics/physics_world.hpp"
 
 #include <Jolt/Physics/Body/BodyActivationListener.h>
 #include <Jolt/Physics/Body/BodyID.h>
@@ -75,7 +76,11 @@ private:
 
 class ActivityListener final : public JPH::BodyActivationListener {
 public:
-    ActivityListener(TreeKeeper& trees, WakeJournal& journal) : trees_(trees), journal_(journal) {}
+    ActivityListener(TreeKeeper& trees, WakeJournal& journal, std::vector<BodyId>& moved)
+        : trees_(trees), journal_(journal), moved_(moved) {}
+
+    // What wakes during a step is part of what the step moved.
+    void in_step(bool begins) { in_step_ = begins; }
 
     void OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) override;
     void OnBodyDeactivated(const JPH::BodyID& id, JPH::uint64 body) override;
@@ -83,6 +88,8 @@ public:
 private:
     TreeKeeper& trees_;
     WakeJournal& journal_;
+    std::vector<BodyId>& moved_;
+    bool in_step_ = false;
 };
 
 }  // namespace tactus

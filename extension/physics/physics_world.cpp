@@ -335,14 +335,28 @@ bool PhysicsWorld::anything_awake() const {
     return awake_count() > 0;
 }
 
+std::span<const BodyId> PhysicsWorld::moved() const {
+    return impl_->moved;
+}
+
+std::uint64_t PhysicsWorld::steps() const {
+    return impl_->steps;
+}
+
 std::uint32_t PhysicsWorld::step(double seconds) {
+    impl_->moved.clear();
     if (!anything_awake() || !(seconds > 0.0))
         return step_nothing_awake;
+    ++impl_->steps;
+    impl_->moved.resize(awake_count());
+    awake_bodies(impl_->moved);
     const std::uint64_t overflows = impl_->memory.overflows();
     const LoopMemoryScope scope(impl_->memory);
     impl_->add_pushes();
+    impl_->activity.in_step(true);
     const JPH::EPhysicsUpdateError error = impl_->system.Update(
         static_cast<float>(seconds), impl_->settings.sub_steps, &impl_->step_memory, &impl_->jobs);
+    impl_->activity.in_step(false);
     impl_->remove_pushes();
     const auto has = [error](JPH::EPhysicsUpdateError bit) {
         return (error & bit) != JPH::EPhysicsUpdateError::None;

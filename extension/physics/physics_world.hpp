@@ -138,6 +138,12 @@ public:
     // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.
     std::uint32_t step(double seconds);
 
+    // The bodies that the last step moved or woke, each once; the same order on every run. Until the next
+    // one.
+    std::span<const BodyId> moved() const;
+
+    std::uint64_t steps() const;  // that were more than nothing, so far
+
     // --- going back in time
 
     // What is awake and what its motion depends on, as bytes: poses, velocities, contacts, joints, sleep

@@ -61,7 +61,7 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       records(settings.max_bodies),
       trees(system, records),
       journal(system, settings.remembered_wakings),
-      activity(trees, journal),
+      activity(trees, journal, moved),
       joints(system, settings.max_joints),
       pushes(most_pushes) {
     constexpr JPH::uint one_mutex = 1;
@@ -72,6 +72,7 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
     system.SetCombineRestitution(combined_restitution);
     system.SetGravity(units::vector(settings.gravity));
     system.SetBodyActivationListener(&activity);
+    moved.reserve(settings.max_bodies);
 }
 
 PhysicsWorld::Impl::~Impl() {

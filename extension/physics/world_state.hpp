@@ -59,11 +59,13 @@ struct PhysicsWorld::Impl {
     std::vector<BodyRecord*> records;  // by the body's index; owned
     TreeKeeper trees;
     WakeJournal journal;
+    std::vector<BodyId> moved;  // by the last step
     ActivityListener activity;
     JointTable joints;
     std::vector<SpringPush> pushes;  // the first push_count are of the next step
     std::size_t push_count = 0;
     std::size_t body_count = 0;
+    std::uint64_t steps = 0;
 
     // Changes with everything a snapshot does not hold but rests on: which bodies there are, their shapes and
     // kinds.

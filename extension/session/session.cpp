@@ -159,7 +159,8 @@ AddResult Session::add_body(const BodyAddition& addition) {
                                std::to_string(impl_->settings.most_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    impl_->send(command::AddBody{handle, std::move(body), std::move(touch.shape),
+    PreparedBody same_body = impl_->settings.history.ticks > 0 ? duplicate(body) : PreparedBody();
+    impl_->send(command::AddBody{handle, std::move(body), std::move(same_body), std::move(touch.shape),
                                  with_texture(addition.touch_material, addition.texture.get()),
                                  addition.texture, addition.description.collision.layer,
                                  addition.description.pose, addition.description.motion});
@@ -310,6 +311,19 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
         }
     }
     return status | impl_->loop.tick(now, trace);
+}
+
+bool Session::correct(std::uint64_t tick, std::span<const BodyCorrection> truth) {
+    return impl_->loop.correct(tick, truth);
+}
+bool Session::correcting() const {
+    return impl_->loop.correcting();
+}
+std::uint64_t Session::oldest_correctable_tick() const {
+    return impl_->loop.oldest_correctable_tick();
+}
+std::span<const CorrectedBody> Session::corrected() const {
+    return impl_->loop.corrected();
 }
 
 }  // namespace tactus

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/ports/device.hpp"
@@ -99,6 +100,12 @@ public:
     // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
     // that is elsewhere when they go on begins anew there, without a kick.
     void rest();
+
+    // Between two ticks: time travel, for a session that keeps a history (see SessionLoop::correct).
+    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth);
+    bool correcting() const;
+    std::uint64_t oldest_correctable_tick() const;
+    std::span<const CorrectedBody> corrected() const;
 
 private:
     struct Impl;

@@ -1,6 +1,7 @@
 // How the loop carries out each command of the owner.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "session/session_loop.hpp"
 
@@ -18,17 +19,17 @@ SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body, c.handle, std::move(c.body),
+        retired = {Retired::Kind::body, c.handle, std::move(c.body),   std::move(c.same_body),
                    std::move(c.shape),  nullptr,  std::move(c.texture)};
         return true;
     };
-    const BodyId id = physics_.add(c.body);
+    const BodyId id = timeline_.add(c.body, c.same_body);
     if (!id.valid()) {
         return give_back();
     }
     const int slot = scene_.add(*c.shape, c.pose, c.material, c.layer);
     if (slot < 0) {
-        c.body = physics_.remove(id);
+        std::tie(c.body, c.same_body) = timeline_.remove(id);
         return give_back();
     }
     bodies_[c.handle] = {id, slot, std::move(c.shape), std::move(c.texture), c.motion, {}, 0};
@@ -47,6 +48,7 @@ void SessionLoop::show_state(SessionHandle handle) {
     state_of_[handle] = static_cast<std::uint32_t>(states_.size());
     states_.push_back(
         {handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
+    note_change(state_of_[handle]);
     states_changed_at_ = tick_ + 1;
 }
 
@@ -70,13 +72,21 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     if (const std::uint32_t state = std::exchange(state_of_[c.handle], no_handle); state != no_handle) {
         states_[state] = states_.back();
         states_.pop_back();
+        state_changes_.remove(states_.size());
         if (state < states_.size()) {
             state_of_[states_[state].handle] = state;
+            note_change(state);
         }
         states_changed_at_ = tick_ + 1;
     }
-    retired = {Retired::Kind::body,       c.handle, physics_.remove(removed->id),
-               std::move(removed->shape), nullptr,  std::move(removed->texture)};
+    auto [gone, same_gone] = timeline_.remove(removed->id);
+    retired = {Retired::Kind::body,
+               c.handle,
+               std::move(gone),
+               std::move(same_gone),
+               std::move(removed->shape),
+               nullptr,
+               std::move(removed->texture)};
     *removed = {};
     return true;
 }
@@ -84,7 +94,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
 bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
     if (Body* const moved = body(c.handle)) {
         end_travel(c.handle);
-        physics_.set_pose(moved->id, c.pose);
+        timeline_.set_pose(moved->id, c.pose);
         place(c.handle, c.pose, true);
     }
     return false;
@@ -113,7 +123,7 @@ bool SessionLoop::carry_out(command::MoveBody& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_velocity(changed->id, c.linear, c.angular);
+        timeline_.set_velocity(changed->id, c.linear, c.angular);
     }
     return false;
 }
@@ -127,27 +137,27 @@ bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired& retired) {
     if (!c.texture) {
         return false;
     }
-    retired = {Retired::Kind::texture, no_handle, {}, nullptr, nullptr, std::move(c.texture)};
+    retired = {Retired::Kind::texture, no_handle, {}, {}, nullptr, nullptr, std::move(c.texture)};
     return true;
 }
 
 bool SessionLoop::carry_out(command::SetBodySurface& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_material(changed->id, c.surface);
+        timeline_.set_material(changed->id, c.surface);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyLayers& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_collision(changed->id, c.layers);
+        timeline_.set_collision(changed->id, c.layers);
         scene_.set_layer(changed->slot, c.layers.layer);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
-    if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
+    if (Body* const changed = body(c.handle); changed && timeline_.set_motion(changed->id, c.motion)) {
         end_travel(c.handle);
         changed->motion = c.motion;
         if (c.motion != Motion::Static && state_of_[c.handle] == no_handle) {
@@ -159,20 +169,20 @@ bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyGravityScale& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_gravity_scale(changed->id, c.scale);
+        timeline_.set_gravity_scale(changed->id, c.scale);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_damping(changed->id, c.linear, c.angular);
+        timeline_.set_damping(changed->id, c.linear, c.angular);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetGravity& c, Retired&) {
-    physics_.set_gravity(c.gravity);
+    timeline_.set_gravity(c.gravity);
     return false;
 }
 
@@ -193,7 +203,7 @@ bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
         devices_[c.handle].device->write(time_, Vec3(0.0));
     }
     devices_[c.handle] = {};
-    retired = {Retired::Kind::device, c.handle, {}, nullptr, nullptr, nullptr};
+    retired = {Retired::Kind::device, c.handle, {}, {}, nullptr, nullptr, nullptr};
     return true;
 }
 
@@ -215,7 +225,7 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
-    retired = {Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr};
+    retired = {Retired::Kind::proxy, c.handle, {}, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr};
     proxies_[c.handle] = {};
     return true;
 }
