@@ -32,7 +32,7 @@ public:
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
-    // out.
+    // out. Whether its triangles are sound shows when they are built.
     ShapeReading read(const godot::Basis& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
@@ -44,20 +44,16 @@ protected:
     void _validate_property(godot::PropertyInfo& property) const;
 
 private:
-    struct Triangles {
-        std::shared_ptr<const TriangleMesh> mesh;
-        std::string error;
-    };
-
-    const Triangles& triangles() const;
+    // Null where nothing is named; a source with an error where it cannot be read.
+    std::shared_ptr<MeshSource> source() const;
     void resource_changed();
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;
-    mutable Triangles triangles_;  // read once, when somebody asks
-    mutable bool is_read_ = false;
+    mutable std::shared_ptr<MeshSource> source_;  // read once, when somebody asks
+    mutable std::shared_ptr<MeshSource> former_;  // until then: the one before the mesh changed
 };
 
 }  // namespace tactus

@@ -81,7 +81,7 @@ void find_problems(const Node& node, PackedStringArray& problems) {
         Node* child = node.get_child(i);
         if (is_solid_body(child)) {
             for (const std::string& problem :
-                 read_shapes(*Object::cast_to<CollisionObject3D>(child)).problems) {
+                 problems_of(read_shapes(*Object::cast_to<CollisionObject3D>(child)))) {
                 problems.push_back("'" + String(child->get_name()) +
                                    "' cannot be touched as it should be: " + to_godot(problem) + ".");
             }
@@ -374,6 +374,7 @@ Dictionary HapticWorld::get_statistics() const {
     }
     result["ticks"] = get_ticks();
     result["bodies"] = static_cast<int64_t>(run_->body_count());
+    result["trees_building"] = static_cast<int64_t>(run_->trees_building());
     result["awake_bodies"] = static_cast<int64_t>(run_->session().snapshot().awake_bodies);
     if (clock_ != CLOCK_REAL_TIME) {
         return result;

@@ -1,5 +1,6 @@
 #include "nodes/shape_reading.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <godot_cpp/classes/box_shape3d.hpp>
 #include <godot_cpp/classes/capsule_shape3d.hpp>
@@ -10,13 +11,12 @@
 #include <godot_cpp/classes/sphere_shape3d.hpp>
 #include <godot_cpp/classes/world_boundary_shape3d.hpp>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 
 #include "core/geometry/convex_hull.hpp"
-#include "core/geometry/mesh_check.hpp"
 #include "core/geometry/touch_shape.hpp"
 #include "nodes/conversions.hpp"
-#include "nodes/mesh_reading.hpp"
 
 namespace tactus {
 
@@ -50,11 +50,11 @@ bool same_factor(double a, double b) {
 }
 
 ShapeReading failure(std::string error) {
-    return {{}, std::move(error)};
+    return {{}, {}, std::move(error)};
 }
 
 ShapeReading one(Shape shape, const Pose& pose) {
-    return {{PlacedShape{std::move(shape), pose}}, {}};
+    return {{PlacedShape{std::move(shape), pose}}, {}, {}};
 }
 
 // A shape without triangles is made in no time, so that what is wrong with its size shows at once.
@@ -141,13 +141,26 @@ ShapeReading placed(const godot::ConvexPolygonShape3D& convex, const godot::Basi
     return one(ConvexHullShape{std::make_shared<TriangleMesh>(std::move(hull))}, pose);
 }
 
+// Bodies with the same shape resource share its triangles, as long as one of them is there.
+std::shared_ptr<MeshSource> source_of(const godot::ConcavePolygonShape3D& concave) {
+    static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> sources;
+    const godot::PackedVector3Array faces = concave.get_faces();
+    std::erase_if(sources, [](const auto& entry) { return entry.second.expired(); });
+    std::weak_ptr<MeshSource>& known = sources[concave.get_instance_id()];
+    std::shared_ptr<MeshSource> source = known.lock();
+    if (source == nullptr || !source->has_faces(faces)) {
+        const auto made = std::make_shared<MeshSource>(faces);
+        if (source != nullptr) {
+            made->succeed(*source);
+        }
+        known = source = made;
+    }
+    return source;
+}
+
 ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling,
                     const Pose& pose) {
-    TriangleMesh mesh = scaled(mesh_from_faces(concave.get_faces()), scaling);
-    if (std::string error = check_mesh(mesh); !error.empty()) {
-        return failure(std::move(error));
-    }
-    return one(MeshShape{std::make_shared<TriangleMesh>(std::move(mesh))}, pose);
+    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, {}}}, {}};
 }
 
 bool is_finite(const godot::Transform3D& transform) {
@@ -235,6 +248,14 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const godot::Transform
         "a " + from_godot(shape->get_class()) +
         " cannot be touched: use a box, sphere, capsule, cylinder, convex, concave, height map or world "
         "boundary shape, or a HapticMesh");
+}
+
+bool same_meshes(const std::vector<MeshDraft>& a, const std::vector<MeshDraft>& b) {
+    return std::ranges::equal(a, b, [](const MeshDraft& left, const MeshDraft& right) {
+        return left.source == right.source && left.scaling == right.scaling &&
+               left.pose.position == right.pose.position && left.pose.rotation == right.pose.rotation &&
+               left.smooth_below == right.smooth_below;
+    });
 }
 
 bool same_shapes(const std::vector<PlacedShape>& a, const std::vector<PlacedShape>& b) {

@@ -144,6 +144,7 @@ TickStatus WorldRun::take_status() {
 // ---------------------------------------------------------------------------------------
 
 void WorldRun::synchronise(double seconds) {
+    session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_bodies(seconds);
     synchronise_devices();
     synchronise_proxies();
@@ -195,9 +196,15 @@ void WorldRun::synchronise_bodies(double seconds) {
     context.shapes_changed = std::exchange(shapes_changed_, false);
     // In real time a tick may be under way that has already taken its commands.
     context.takes_effect = ticks() + (settings_.real_time ? 2 : 1);
-    std::fill(mirror_by_handle_.begin(), mirror_by_handle_.end(), nullptr);
+    context.workers = &workers_;
     for (const auto& mirror : mirrors_) {
         mirror->synchronise(session_, context, seconds);
+    }
+    if (!settings_.real_time) {
+        finish_building(context);
+    }
+    std::fill(mirror_by_handle_.begin(), mirror_by_handle_.end(), nullptr);
+    for (const auto& mirror : mirrors_) {
         if (mirror->handle() != no_handle) {
             mirror_by_handle_[mirror->handle()] = mirror.get();
         }
@@ -208,6 +215,22 @@ void WorldRun::synchronise_bodies(double seconds) {
             }
         }
     }
+}
+
+// Stepped time waits, so that every run has the same bodies in the same ticks.
+void WorldRun::finish_building(const MirrorContext& context) {
+    if (trees_building() == 0) {
+        return;
+    }
+    workers_.wait();
+    for (const auto& mirror : mirrors_) {
+        mirror->take_ready(session_, context);
+    }
+}
+
+std::size_t WorldRun::trees_building() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(mirrors_, [](const auto& mirror) { return mirror->is_building(); }));
 }
 
 void WorldRun::drop_device(DeviceLink& link) {
