@@ -30,7 +30,7 @@
 namespace tactus {
 
 struct TimelineSettings {
-    PhysicsSettings physics;
+    PhysicsSettings physics;    // with a past, full_rate_bodies has to be 0
     std::uint32_t ticks = 512;  // how far back it reaches; 0: no past, and no memory for it
     std::uint32_t ticks_a_snapshot =
         8;  // a correction replays up to so many ticks more; a snapshot costs 3 us a body
@@ -87,6 +87,7 @@ public:
     void set_pose(BodyId id, const Pose& pose);
     void set_velocity(BodyId id, const Vec3& linear, const Vec3& angular);
 
+    void set_hands(std::span<const Vec3> hands) { present_.set_hands(hands); }
     std::uint32_t step(double seconds);  // as PhysicsWorld::step()
     std::uint64_t tick() const {
         return tick_;

@@ -9,6 +9,7 @@
 #include "physics/body_record.hpp"
 #include "physics/collision_layers.hpp"
 #include "physics/contact_rules.hpp"
+#include "physics/far_islands.hpp"
 #include "physics/joint_table.hpp"
 #include "physics/jolt.hpp"
 #include "physics/loop_jobs.hpp"
@@ -41,6 +42,9 @@ struct PhysicsWorld::Impl {
 
     void listen_if_needed();
 
+    // One step of Jolt, and what it moves added to `moved`. StepStatus bits.
+    std::uint32_t update(double seconds);
+
     // Jolt keeps constraints in order: these come last and leave again in reverse, so that joints stay where
     // they are.
     void add_pushes();
@@ -57,6 +61,7 @@ struct PhysicsWorld::Impl {
     LoopJobs jobs;
     JPH::PhysicsSystem system;
     std::vector<BodyRecord*> records;  // by the body's index; owned
+    FarIslands far;
     TreeKeeper trees;
     WakeJournal journal;
     std::vector<BodyId> moved;  // by the last step

@@ -15,6 +15,7 @@ TimelineSettings with_room(const SessionSettings& settings) {
     TimelineSettings timeline;
     timeline.physics = settings.physics;
     timeline.physics.max_bodies = settings.most_bodies;
+    timeline.physics.full_rate_bodies = settings.history.ticks > 0 ? 0 : settings.full_rate_bodies;
     timeline.ticks = settings.history.ticks;
     timeline.ticks_a_snapshot = settings.history.ticks_a_snapshot;
     timeline.snapshot_bytes = settings.history.snapshot_bytes;
@@ -50,6 +51,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     magnets_.reserve(settings.most_bodies);
     corrected_.reserve(settings.history.ticks > 0 ? settings.most_bodies : 0);
     states_.reserve(settings.most_bodies);
+    hands_.reserve(most_proxies);
 }
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
@@ -321,6 +323,13 @@ void SessionLoop::rest() {
 }
 
 void SessionLoop::step_physics() {
+    hands_.clear();
+    for (const ProxySlot& slot : proxies_) {
+        if (slot.proxy && slot.description.enabled) {
+            hands_.push_back(slot.proxy->position());
+        }
+    }
+    timeline_.set_hands(hands_);
     const std::uint32_t step = timeline_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
@@ -340,6 +349,7 @@ void SessionLoop::publish(Nanoseconds now) {
     out.tick = tick_;
     out.time = now;
     out.awake_bodies = physics_.awake_count();
+    out.slowed_bodies = physics_.slowed_count();
     out.physics_steps = physics_.steps();
     out.proxy_count = 0;
     for (std::size_t i = 0; i < proxies_.size(); ++i) {

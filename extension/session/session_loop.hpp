@@ -140,6 +140,7 @@ private:
     std::vector<SessionHandle> travelling_;
     std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
     std::vector<CorrectedBody> corrected_;
+    std::vector<Vec3> hands_;              // where the proxies are (unit: meters)
     std::vector<BodyState> states_;        // of all bodies that are not static, dense
     ChangeOrder state_changes_;            // of states_
     std::vector<std::uint32_t> state_of_;  // by handle; no_handle: none

@@ -29,9 +29,12 @@ struct HistorySettings {
 };
 
 struct SessionSettings {
-    Nanoseconds period = 1'000'000;        // of a tick, > 0
-    std::uint32_t most_bodies = 4096;      // that may be in the session at once
-    std::uint32_t most_parts = 8192;       // shapes of all of them together
+    Nanoseconds period = 1'000'000;    // of a tick, > 0
+    std::uint32_t most_bodies = 4096;  // that may be in the session at once
+    std::uint32_t most_parts = 8192;   // shapes of all of them together
+    // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings). A session
+    // with a history has no such limit.
+    std::uint32_t full_rate_bodies = 64;
     std::uint32_t commands_per_tick = 64;  // taken from the owner in one tick; the rest waits for the next
     PhysicsSettings physics;
     HistorySettings history;
@@ -107,6 +110,7 @@ struct SessionSnapshot {
     std::array<DeviceState, most_devices> devices;
     std::size_t device_count = 0;
     std::size_t awake_bodies = 0;
+    std::size_t slowed_bodies = 0;    // of those awake: far from every hand, at a sixteenth of the tick rate
     std::uint64_t physics_steps = 0;  // that physics has taken so far; a scene at rest takes none
 };
 
