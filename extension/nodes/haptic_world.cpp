@@ -375,7 +375,10 @@ Dictionary HapticWorld::get_statistics() const {
     result["ticks"] = get_ticks();
     result["bodies"] = static_cast<int64_t>(run_->body_count());
     result["trees_building"] = static_cast<int64_t>(run_->trees_building());
-    result["awake_bodies"] = static_cast<int64_t>(run_->session().snapshot().awake_bodies);
+    const SessionSnapshot& snapshot = run_->session().snapshot();
+    result["awake_bodies"] = static_cast<int64_t>(snapshot.awake_bodies);
+    result["slowed_bodies"] = static_cast<int64_t>(snapshot.slowed_bodies);
+    result["physics_steps"] = static_cast<int64_t>(snapshot.physics_steps);
     if (clock_ != CLOCK_REAL_TIME) {
         return result;
     }
