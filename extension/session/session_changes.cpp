@@ -199,13 +199,16 @@ bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
+    if (devices_[c.handle].device) {
+        devices_[c.handle].device->write(time_, Vec3(0.0));
+    }
     devices_[c.handle] = {};
     retired = {Retired::Kind::device, c.handle, {}, {}, nullptr, nullptr, nullptr};
     return true;
 }
 
 bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
-    proxies_[c.handle] = {std::move(c.proxy), c.description, Vec3(0.0), {}, {}};
+    proxies_[c.handle] = {std::move(c.proxy), c.description, Vec3(0.0), {}, false, {}};
     return false;
 }
 

@@ -56,6 +56,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     ++tick_;
+    time_ = now;
     scene_.begin_tick();
     follow_physics();
     follow_replay();
@@ -205,6 +206,11 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         return;
     }
     DeviceSlot& device = devices_[slot.description.device];
+    // A path goes on where it stopped; a real hand may be deep inside a body by now.
+    if (std::exchange(slot.rested, false) &&
+        glm::distance(device.hand, slot.state.hand) > slot.proxy->settings().radius) {
+        slot.proxy->restart();
+    }
     const ProxyTick tick = slot.proxy->move(scene_, device.hand);
     HandForce force =
         contact_force(scene_, slot.proxy->touching(), tick.slide, device.hand_velocity, seconds_);
@@ -299,6 +305,21 @@ void SessionLoop::write_devices(Nanoseconds now) {
         slot.force = limited;
         slot.device->write(now, direction_to_local(slot.workspace.pose, limited));
     }
+}
+
+void SessionLoop::rest() {
+    for (DeviceSlot& slot : devices_) {
+        if (slot.device) {
+            slot.force = Vec3(0.0);
+            slot.device->write(time_, slot.force);
+        }
+    }
+    for (ProxySlot& slot : proxies_) {
+        slot.force = Vec3(0.0);
+        slot.state.force = Vec3(0.0);
+        slot.rested = true;
+    }
+    publish(time_);
 }
 
 void SessionLoop::step_physics() {

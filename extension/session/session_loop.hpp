@@ -30,6 +30,9 @@ public:
 
     TickStatus tick(Nanoseconds now, TickTrace* trace);
 
+    // See Session.
+    void rest();
+
     // --- time travel, for sessions that keep a history (HistorySettings). All of it between ticks or in one,
     // before its step.
     //
@@ -80,6 +83,7 @@ private:
         ProxyDescription description;
         Vec3 force{0.0};  // on the hand, in the world (unit: newtons)
         EffectMemory effects;
+        bool rested = false;  // since the last tick
         ProxyState state;
     };
 
@@ -147,6 +151,7 @@ private:
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
     std::uint64_t tick_ = 0;
+    Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;
 };
 

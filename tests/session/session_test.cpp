@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <limits>
+#include <thread>
 
 #include "session_rig.hpp"
 
@@ -74,6 +75,68 @@ TEST(Session, AHeldClutchKeepsTheHandWhereItIs) {
     rig.tick();
     rig.draw({0.6, 0.5, 0.5}, 20);
     EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.2, 0.2, 0.3)), 1e-12);
+}
+
+TEST(Session, BodiesMadeElsewhereMayShareTheirTouch) {
+    SessionRig rig;
+    BodyAddition addition = body(BoxShape{Vec3(0.1)}, {0.0, -0.1, 0.0}, Motion::Static);
+    addition.touch = make_touch_shape(addition.description.shapes).shape;
+    ReadyBody first, second;
+    std::thread other([&] { first = rig.session.prepare_body(addition); });
+    other.join();
+    addition.description.pose.position.x = 1.0;
+    second = rig.session.prepare_body(addition);
+    EXPECT_NE(rig.session.add_body(std::move(first)).handle, no_handle);
+    EXPECT_NE(rig.session.add_body(std::move(second)).handle, no_handle);
+    EXPECT_GE(addition.touch.use_count(), 3);
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, 0.0, 0.0}, 100);
+    EXPECT_NEAR(rig.device.force.y, 5.0, 1e-6);
+}
+
+TEST(Session, AtRestTheDeviceIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.rest();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    EXPECT_EQ(rig.proxy_state().force, Vec3(0.0));
+    EXPECT_EQ(rig.session.snapshot().devices[0].force, Vec3(0.0));
+}
+
+TEST(Session, AHandThatStayedGoesOnAfterARest) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    const double before = rig.device.force.y;
+    rig.session.rest();
+    rig.tick();
+    EXPECT_DOUBLE_EQ(rig.device.force.y, before);
+}
+
+TEST(Session, AHandThatWentElsewhereDuringARestIsNotKicked) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.ticks(10);
+    rig.session.rest();
+    rig.device.position = {0.0, -0.2, 0.0};
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+TEST(Session, ADeviceThatLeavesIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.remove_device(rig.hand);
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
 }
 
 TEST(Session, AFingerPushesABoxAndFeelsTheOppositeForce) {
