@@ -55,9 +55,13 @@ public:
     void displace(const Vec3& offset) {
         position_ += offset;
         surroundings_.travelled(glm::length(offset));
+        contacts_hold_ = false;
     }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
-    bool pass_through(int body) { return surroundings_.pass_through(body); }
+    bool pass_through(int body) {
+        contacts_hold_ = false;
+        return surroundings_.pass_through(body);
+    }
 
     // As if just started: present again as soon as the hand is in a free place.
     void restart() {
@@ -72,6 +76,9 @@ private:
     void advance(const Vec3& motion, bool& free, int except = -1);
     int carrier() const;
     void descend(const Vec3& hand, ProxyTick& tick);
+    bool lift();
+    void brake(ConstrainedStep& step);
+    double drop_after(double length) const;
     double friction_limit(const ConstrainedStep& step) const;
     void keep_touching(const ConstrainedStep& step);
 
@@ -81,8 +88,9 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Stretch stretch_;
+    Vec3 hand_{0.0};  // the last that was a place
     ContactList contacts_;
+    bool contacts_hold_ = false;  // contacts_ are those at position_
     ContactList touching_;
 };
 

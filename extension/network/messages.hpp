@@ -1,0 +1,211 @@
+// What the two sides say to each other, as plain values, and their form on the wire (docs/wire_format.md).
+//
+// One datagram is one packet: a header and one message. Encoding and decoding allocate nothing, except where
+// an ObjectDescription is made or read: that is of any size, travels in fragments and belongs off the loop.
+//
+// Every position, velocity and force is in the frame of the HapticWorld. Times are the sender's own clock
+// (unit: nanoseconds) unless said otherwise.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/haptics/touch_material.hpp"
+#include "core/math/pose.hpp"
+#include "core/ports/link.hpp"
+#include "physics/body_description.hpp"
+
+namespace tactus {
+
+inline constexpr std::uint8_t wire_version = 1;
+
+// Given by the teleoperator; within one of its epochs an id that was removed never comes back.
+using ObjectId = std::uint32_t;
+inline constexpr ObjectId no_object = 0xffff'ffffu;
+
+// Of operator samples: counts up from 1 within an epoch of the operator.
+using SampleSequence = std::uint64_t;
+inline constexpr SampleSequence no_sample = 0;
+
+enum class Side : std::uint8_t { operator_side = 0, teleoperator_side = 1 };
+
+struct PacketHeader {
+    std::uint64_t epoch = 0;     // of the sender: another one at each start, never 0
+    std::uint64_t sequence = 0;  // of the sender's packets of all kinds, counts up from 1 within an epoch
+    Nanoseconds sent_at = 0;
+};
+
+// Repeated a few times a second: says that the sender lives, and whom it hears.
+struct Hello {
+    Side side = Side::operator_side;
+    std::uint8_t scenario = 4;       // 2 traditional, 4 model-mediated (design: 1 … 5)
+    Nanoseconds period = 1'000'000;  // of the sender's tick, > 0
+    std::uint64_t heard_epoch = 0;   // the epoch of the other side, as heard last; 0: never
+    std::uint32_t object_count = 0;  // objects that the sender has described or is about to
+    Vec3 gravity{0.0, -9.81, 0.0};   // (unit: meters per second squared)
+};
+
+// The sender stops: nothing of its epoch follows.
+struct Bye {};
+
+// Four timestamps: t0 the asking side's, t1 and t2 the answering side's, t3 the arrival of the answer.
+struct ClockRequest {
+    std::uint32_t number = 0;
+    Nanoseconds t0 = 0;
+};
+struct ClockAnswer {
+    std::uint32_t number = 0;  // of the request
+    Nanoseconds t0 = 0;        // from the request
+    Nanoseconds t1 = 0;        // arrival of the request
+    Nanoseconds t2 = 0;        // departure of this answer
+};
+
+// 128 bits of BLAKE2b over the bytes of a description: what was described, and whether all of it arrived.
+using ContentHash = std::array<std::uint8_t, 16>;
+
+// A piece of an encoded ObjectDescription. All pieces but the last are of most_fragment_bytes.
+struct DiscoveryFragment {
+    ObjectId object = no_object;
+    std::uint32_t revision = 0;  // of the object's description: the highest is the one that holds
+    ContentHash hash{};
+    std::uint32_t total_bytes = 0;     // of the whole description, 1 … most_description_bytes
+    std::uint32_t offset = 0;          // of this piece in it, a multiple of most_fragment_bytes
+    std::span<const std::byte> bytes;  // points into the datagram
+};
+inline constexpr std::size_t most_fragment_bytes = 1024;
+inline constexpr std::uint32_t most_description_bytes = 16u << 20;
+
+// The object does not exist any more. `hash`: of its last description.
+struct ObjectRemoval {
+    ObjectId object = no_object;
+    ContentHash hash{};
+};
+
+enum class DiscoveryVerdict : std::uint8_t {
+    known = 0,    // complete and in the model
+    refused = 1,  // complete, but what it says cannot be built
+    no_room = 2,  // too large, or too many
+    removed = 3,  // answers an ObjectRemoval
+};
+
+struct DiscoveryAcknowledgement {
+    ObjectId object = no_object;
+    ContentHash hash{};
+    DiscoveryVerdict verdict = DiscoveryVerdict::known;
+};
+
+struct ObjectState {
+    ObjectId object = no_object;
+    bool asleep = false;
+    Pose pose;
+    Vec3 linear_velocity{0.0};   // of the centre of mass (unit: meters per second)
+    Vec3 angular_velocity{0.0};  // (unit: radians per second)
+};
+
+// Newest wins, for each object: the one with the later `true_at`. States of more objects than one message
+// holds follow in further messages of the same times.
+struct ObjectStates {
+    static constexpr std::size_t most = 10;
+
+    Nanoseconds true_at = 0;                            // after the tick of this time
+    SampleSequence newest_operator_sample = no_sample;  // that had been applied by then
+    std::uint16_t count = 0;                            // 0 … most
+    std::array<ObjectState, most> states{};
+};
+
+// The hand at one tick of the operator.
+struct OperatorSample {
+    SampleSequence sequence = no_sample;
+    Nanoseconds time = 0;
+    std::uint16_t pointer = 0;  // which of the operator's pointers, from 0
+    bool connected = false;     // the device is there
+    std::uint32_t buttons = 0;  // bit i: button i is held
+    Vec3 position{0.0};         // of the hand (unit: meters)
+    Vec3 velocity{0.0};         // (unit: meters per second)
+    Vec3 force{0.0};            // on the hand (unit: newtons)
+    ObjectId nearest_object = no_object;
+    Vec3 position_in_object{0.0};  // of the hand, in the frame of the nearest object (unit: meters)
+};
+
+// The newest sample and, where the sender wants to survive losses, some older ones; in any order.
+struct OperatorSamples {
+    static constexpr std::size_t most = 9;
+
+    std::uint16_t count = 0;  // 1 … most
+    std::array<OperatorSample, most> samples{};
+};
+
+// The force that the far side gives back (scenarios 2 and 3).
+struct ForceSample {
+    std::uint16_t pointer = 0;
+    Nanoseconds true_at = 0;
+    SampleSequence newest_operator_sample = no_sample;  // that the force answers
+    Vec3 force{0.0};                                    // on the hand (unit: newtons)
+    Vec3 proxy{0.0};                                    // where the far side's fingertip is (unit: meters)
+    ObjectId object = no_object;                        // that is touched
+};
+
+using Message = std::variant<Hello, Bye, ClockRequest, ClockAnswer, DiscoveryFragment, ObjectRemoval,
+                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSample>;
+
+struct Packet {
+    PacketHeader header;
+    Message message;
+};
+
+// Why a datagram was not believed.
+enum class Refusal : std::uint8_t {
+    none,
+    truncated,    // shorter than what it says it is
+    oversized,    // longer than what it says it is, or than a message may be
+    wrong_magic,  // not one of ours
+    sealed,       // encrypted, and this side has no key
+    wrong_version,
+    unknown_type,
+    not_finite,    // a NaN or an infinity
+    out_of_range,  // a number outside its documented range
+    count
+};
+
+// Counts by reason. Belongs to one thread; publish a copy.
+struct RefusalCounts {
+    std::array<std::uint64_t, static_cast<std::size_t>(Refusal::count)> by_reason{};
+
+    void add(Refusal refusal) { ++by_reason[static_cast<std::size_t>(refusal)]; }
+    std::uint64_t of(Refusal refusal) const { return by_reason[static_cast<std::size_t>(refusal)]; }
+    std::uint64_t total() const;  // without `none`
+};
+
+// The bytes written, at most most_message_bytes; 0 where `into` is too short or the message breaks a range
+// that is documented above (a NaN from a broken device must not travel).
+std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into);
+
+// `packet` is valid only where the result is none. A DiscoveryFragment points into `datagram`.
+Refusal decode(std::span<const std::byte> datagram, Packet& packet);
+
+// Everything the far side needs to build an object of its own.
+struct ObjectDescription {
+    ObjectId object = no_object;
+    std::string name;  // UTF-8, at most most_name_bytes: the node's path below its HapticWorld
+    BodyDescription body;
+    TouchMaterial touch;  // its texture, if any, points to `texture`
+    std::shared_ptr<const HeightImage> texture;
+};
+inline constexpr std::size_t most_name_bytes = 1024;
+
+// Off the loop. Empty where the description breaks a range (see docs/wire_format.md) or would be longer than
+// most_description_bytes.
+std::vector<std::byte> encode_description(const ObjectDescription& description);
+
+// Off the loop. `description` is valid only where the result is none.
+Refusal decode_description(std::span<const std::byte> bytes, ObjectDescription& description);
+
+ContentHash content_hash(std::span<const std::byte> bytes);
+
+}  // namespace tactus
