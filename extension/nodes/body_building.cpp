@@ -5,6 +5,7 @@
 
 #include "core/geometry/smooth_normals.hpp"
 #include "nodes/conversions.hpp"
+#include "physics/solid_properties.hpp"
 
 namespace tactus {
 
@@ -52,6 +53,27 @@ std::vector<BuiltDraft> build_drafts(const std::vector<MeshDraft>& drafts, const
         }
     }
     return built;
+}
+
+// Centre of mass and inertia of the touched meshes filled evenly, where the node does not give them. An open
+// mesh has none: there it is that of the shapes.
+void take_solid_of(const std::vector<BuiltDraft>& meshes, BodyDescription& description) {
+    std::vector<SolidProperties> parts;
+    for (const BuiltDraft& mesh : meshes) {
+        if (const auto solid = solid_properties(mesh.shape.shape)) {
+            parts.push_back(placed(*solid, mesh.shape.pose));
+        }
+    }
+    if (parts.empty()) {
+        return;
+    }
+    const SolidProperties whole = combined(parts);
+    description.center_of_mass = description.center_of_mass.value_or(whole.centroid);
+    if (!description.inertia) {
+        const Mat3 inertia = inertia_about(whole, *description.center_of_mass);
+        description.inertia =
+            Vec3(inertia[0][0], inertia[1][1], inertia[2][2]) * (description.mass / whole.volume);
+    }
 }
 
 }  // namespace
@@ -105,6 +127,9 @@ BuiltBody build_body(const Session& session, const BodyPlan& plan, const Paralle
     addition.touch = std::move(touch);
     put_into(addition, plan.values);
     put_into(description, plan.makings);
+    if (plan.makings.solid_of_mesh) {
+        take_solid_of(touched, description);
+    }
     description.pose = pose_of(plan.place);
     description.may_move = plan.may_move;
     description.linear_velocity = from_godot(plan.linear_velocity);

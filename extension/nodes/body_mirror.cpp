@@ -132,6 +132,10 @@ void BodyMirror::catch_up(Session& session, const BodyPlan& plan) {
     CollisionObject3D& node = *body();
     hold_still_in_godot(node);
     remember_place(node);
+    if (plan.values.constant_force != Vector3() || plan.values.constant_torque != Vector3()) {
+        session.set_body_push(handle_, from_godot(plan.values.constant_force),
+                              from_godot(plan.values.constant_torque));
+    }
     if (!(place_ == plan.place)) {
         session.teleport_body(handle_, pose_of(place_));
     }
@@ -168,6 +172,11 @@ void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
     }
     if (values_.gravity_scale != before.gravity_scale) {
         session.set_body_gravity_scale(handle_, values_.gravity_scale);
+    }
+    if (values_.constant_force != before.constant_force ||
+        values_.constant_torque != before.constant_torque) {
+        session.set_body_push(handle_, from_godot(values_.constant_force),
+                              from_godot(values_.constant_torque));
     }
     if (values_.linear_damping != before.linear_damping ||
         values_.angular_damping != before.angular_damping) {

@@ -198,6 +198,8 @@ BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaul
                      static_cast<std::uint32_t>(body.get_collision_mask())};
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
         values.gravity_scale = rigid->get_gravity_scale();
+        values.constant_force = rigid->get_constant_force();
+        values.constant_torque = rigid->get_constant_torque();
         values.linear_damping =
             damping_of(rigid->get_linear_damp_mode(), rigid->get_linear_damp(), defaults.linear_damping);
         values.angular_damping =
@@ -214,6 +216,12 @@ BodyMakings read_makings(const CollisionObject3D& body) {
     }
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
         makings.mass = rigid->get_mass();
+        const HapticMesh* mesh = haptic_mesh_of(body);
+        if (mesh != nullptr && mesh->is_giving_mass()) {
+            makings.mass =
+                mesh->library_mass(without_rounding(scaling_of(body.get_global_transform().basis)));
+            makings.solid_of_mesh = true;
+        }
         makings.inertia = rigid->get_inertia();
         if (rigid->get_center_of_mass_mode() == RigidBody3D::CENTER_OF_MASS_MODE_CUSTOM) {
             makings.center_of_mass = from_godot(rigid->get_center_of_mass());

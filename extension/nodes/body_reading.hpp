@@ -73,13 +73,16 @@ struct BodyValues {
     double gravity_scale = 1.0;
     double linear_damping = 0.0;
     double angular_damping = 0.0;
+    godot::Vector3 constant_force;   // at the centre of mass, in the world (unit: newtons)
+    godot::Vector3 constant_torque;  // in the world (unit: newton meters)
 };
 BodyValues read_values(const godot::CollisionObject3D& body, const BodyDefaults& defaults);
 
 // What a body is made from: a change makes it anew.
 struct BodyMakings {
     double mass = 1.0;
-    godot::Vector3 inertia;  // zero: that of the shapes
+    bool solid_of_mesh = false;  // what is not given below is that of the touched mesh, filled evenly
+    godot::Vector3 inertia;      // zero: that of the shapes
     std::optional<Vec3> center_of_mass;
     bool continuous = false;
     bool can_sleep = true;

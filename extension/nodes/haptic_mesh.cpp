@@ -54,6 +54,7 @@ void HapticMesh::set_mesh(const Ref<Mesh>& mesh) {
 void HapticMesh::set_library_mesh(const String& name) {
     if (library_mesh_ != name) {
         library_mesh_ = name;
+        known_mass_.reset();
         forget_triangles();
     }
 }
@@ -67,6 +68,23 @@ void HapticMesh::set_smoothing_angle(double angle) {
         smoothing_angle_ = angle;
         ++change_count;
     }
+}
+
+void HapticMesh::set_use_library_mass(bool use) {
+    use_library_mass_ = use;
+    update_configuration_warnings();
+}
+
+double HapticMesh::known_mass() const {
+    if (!known_mass_) {
+        known_mass_ = get_library_mass();
+    }
+    return *known_mass_;
+}
+
+// A body twice as large in each direction is eight times as heavy.
+double HapticMesh::library_mass(const Basis& body_scale) const {
+    return known_mass() * std::abs(static_cast<double>((body_scale * get_basis()).determinant()));
 }
 
 // Each mesh is read by the first node that asks; when it changes, by the first that asks again.
@@ -155,6 +173,12 @@ PackedStringArray HapticMesh::_get_configuration_warnings() const {
     if (!error.empty()) {
         warnings.push_back("This mesh cannot be touched: " + to_godot(error) + ".");
     }
+    if (use_library_mass_ && !is_giving_mass()) {
+        warnings.push_back(
+            "This HapticMesh gives its body no mass: set 'library_mesh' to a mesh to which library.json "
+            "gives "
+            "one and leave 'mesh' empty, or switch 'use_library_mass' off.");
+    }
     return warnings;
 }
 
@@ -179,6 +203,8 @@ void HapticMesh::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_mesh"), &HapticMesh::get_mesh);
     ClassDB::bind_method(D_METHOD("set_library_mesh", "name"), &HapticMesh::set_library_mesh);
     ClassDB::bind_method(D_METHOD("get_library_mesh"), &HapticMesh::get_library_mesh);
+    ClassDB::bind_method(D_METHOD("set_use_library_mass", "use"), &HapticMesh::set_use_library_mass);
+    ClassDB::bind_method(D_METHOD("is_using_library_mass"), &HapticMesh::is_using_library_mass);
     ClassDB::bind_method(D_METHOD("set_smoothing_angle", "angle"), &HapticMesh::set_smoothing_angle);
     ClassDB::bind_method(D_METHOD("get_smoothing_angle"), &HapticMesh::get_smoothing_angle);
     ClassDB::bind_method(D_METHOD("get_library_mass"), &HapticMesh::get_library_mass);
@@ -192,6 +218,8 @@ void HapticMesh::_bind_methods() {
                  "get_mesh");
     ADD_PROPERTY(PropertyInfo(Variant::STRING, "library_mesh", PROPERTY_HINT_ENUM_SUGGESTION, ""),
                  "set_library_mesh", "get_library_mesh");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "use_library_mass"), "set_use_library_mass",
+                 "is_using_library_mass");
     ADD_PROPERTY(
         PropertyInfo(Variant::FLOAT, "smoothing_angle", PROPERTY_HINT_RANGE, "0,180,0.1,radians_as_degrees"),
         "set_smoothing_angle", "get_smoothing_angle");

@@ -3,6 +3,7 @@
 #include <godot_cpp/classes/mesh.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "nodes/shape_reading.hpp"
@@ -24,6 +25,9 @@ public:
     void set_smoothing_angle(double angle);
     double get_smoothing_angle() const { return smoothing_angle_; }
 
+    void set_use_library_mass(bool use);
+    bool is_using_library_mass() const { return use_library_mass_; }
+
     double get_library_mass() const;
     godot::String get_library_source() const;
     static godot::PackedStringArray get_library_names();
@@ -34,6 +38,11 @@ public:
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
     // out. Whether its triangles are sound shows when they are built.
     ShapeReading read(const godot::Basis& body_scale) const;
+
+    // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
+    // kilograms).
+    bool is_giving_mass() const { return use_library_mass_ && mesh_.is_null() && known_mass() > 0.0; }
+    double library_mass(const godot::Basis& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
     static std::uint64_t changes();
@@ -46,12 +55,15 @@ protected:
 private:
     // Null where nothing is named; a source with an error where it cannot be read.
     std::shared_ptr<MeshSource> source() const;
+    double known_mass() const;
     void resource_changed();
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;
+    bool use_library_mass_ = false;
+    mutable std::optional<double> known_mass_;    // of the library's mesh, looked up once
     mutable std::shared_ptr<MeshSource> source_;  // read once, when somebody asks
     mutable std::shared_ptr<MeshSource> former_;  // until then: the one before the mesh changed
 };

@@ -75,6 +75,10 @@ Dictionary distribution(const DurationHistogram& periods) {
     return result;
 }
 
+bool is_mirrored(const Node* node) {
+    return is_solid_body(node) || Object::cast_to<Joint3D>(node) != nullptr;
+}
+
 // Bodies that the editor already knows cannot be touched, each with what to do.
 void find_problems(const Node& node, PackedStringArray& problems) {
     for (int i = 0; i < node.get_child_count(); ++i) {
@@ -84,6 +88,12 @@ void find_problems(const Node& node, PackedStringArray& problems) {
                  problems_of(read_shapes(*Object::cast_to<CollisionObject3D>(child)))) {
                 problems.push_back("'" + String(child->get_name()) +
                                    "' cannot be touched as it should be: " + to_godot(problem) + ".");
+            }
+        }
+        if (const auto* joint = Object::cast_to<Joint3D>(child)) {
+            if (const std::string problem = problem_of_joint(*joint); !problem.empty()) {
+                problems.push_back("'" + String(child->get_name()) +
+                                   "' does not join as it should: " + to_godot(problem) + ".");
             }
         }
         find_problems(*child, problems);
@@ -278,7 +288,7 @@ void HapticWorld::node_added(Node* node) {
     if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
         update_configuration_warnings();
     }
-    if (run_ != nullptr && is_solid_body(node)) {
+    if (run_ != nullptr && is_mirrored(node)) {
         run_->bodies_changed();
     }
 }
@@ -296,7 +306,7 @@ void HapticWorld::node_removed(Node* node) {
         run_->forget(proxy);
     } else if (auto* recorder = Object::cast_to<HapticRecorder>(node)) {
         run_->forget(recorder);
-    } else if (is_solid_body(node)) {
+    } else if (is_mirrored(node)) {
         run_->bodies_changed();
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/core/object.hpp>
+#include <unordered_set>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
@@ -146,6 +147,7 @@ TickStatus WorldRun::take_status() {
 void WorldRun::synchronise(double seconds) {
     session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_bodies(seconds);
+    synchronise_joints();
     synchronise_devices();
     synchronise_proxies();
     synchronise_recorder();
@@ -154,39 +156,70 @@ void WorldRun::synchronise(double seconds) {
     }
 }
 
-void WorldRun::collect_bodies(Node* node, std::vector<CollisionObject3D*>& found) const {
+void WorldRun::collect_nodes(Node* node, std::vector<CollisionObject3D*>& bodies,
+                             std::vector<Joint3D*>& joints) const {
     for (int i = 0; i < node->get_child_count(); ++i) {
         Node* child = node->get_child(i);
         if (is_solid_body(child)) {
-            found.push_back(Object::cast_to<CollisionObject3D>(child));
+            bodies.push_back(Object::cast_to<CollisionObject3D>(child));
+        } else if (auto* joint = Object::cast_to<Joint3D>(child)) {
+            joints.push_back(joint);
         }
-        collect_bodies(child, found);
+        collect_nodes(child, bodies, joints);
     }
 }
 
-void WorldRun::find_bodies() {
-    std::vector<CollisionObject3D*> found;
-    collect_bodies(&world_, found);
-    std::unordered_map<std::uint64_t, bool> is_there;
-    for (CollisionObject3D* body : found) {
-        is_there[body->get_instance_id()] = true;
-        if (mirror_of(body->get_instance_id()) == nullptr) {
-            mirrors_.push_back(std::make_unique<BodyMirror>(*body));
-            mirror_by_id_[body->get_instance_id()] = mirrors_.back().get();
-        }
+// Mirrors of what has come; those of what has gone are let go.
+template <class Mirror, class NodeType>
+void WorldRun::match(std::vector<std::unique_ptr<Mirror>>& mirrors, const std::vector<NodeType*>& found) {
+    std::unordered_set<std::uint64_t> there;
+    for (const NodeType* node : found) {
+        there.insert(node->get_instance_id());
     }
-    for (const auto& mirror : mirrors_) {
-        if (!is_there.contains(mirror->id())) {
+    std::erase_if(mirrors, [&](const auto& mirror) {
+        const bool gone = !there.contains(mirror->id());
+        if (gone) {
             mirror->release(session_);
-            mirror_by_id_.erase(mirror->id());
+        }
+        return gone;
+    });
+    for (const auto& mirror : mirrors) {
+        there.erase(mirror->id());
+    }
+    for (NodeType* node : found) {
+        if (there.contains(node->get_instance_id())) {
+            mirrors.push_back(std::make_unique<Mirror>(*node));
         }
     }
-    std::erase_if(mirrors_, [&](const auto& mirror) { return !is_there.contains(mirror->id()); });
+}
+
+void WorldRun::find_nodes() {
+    std::vector<CollisionObject3D*> bodies;
+    std::vector<Joint3D*> joints;
+    collect_nodes(&world_, bodies, joints);
+    match(joints_, joints);
+    match(mirrors_, bodies);
+    mirror_by_id_.clear();
+    for (const auto& mirror : mirrors_) {
+        mirror_by_id_[mirror->id()] = mirror.get();
+    }
+}
+
+void WorldRun::synchronise_joints() {
+    const FindMirror find = [this](const Node* node) {
+        return node != nullptr ? mirror_of(node->get_instance_id()) : nullptr;
+    };
+    for (const auto& joint : joints_) {
+        joint->synchronise(session_, find);
+        if (joint->node() != nullptr && !joint->problem().empty()) {
+            complaints_.say(*joint->node(), to_godot(joint->problem()));
+        }
+    }
 }
 
 void WorldRun::synchronise_bodies(double seconds) {
     if (std::exchange(bodies_changed_, false)) {
-        find_bodies();
+        find_nodes();
     }
     MirrorContext context;
     defaults_.touch = world_.default_touch();
@@ -496,6 +529,11 @@ std::vector<std::string> WorldRun::problems() const {
         for (const std::string& problem : mirror->problems()) {
             all.push_back((body != nullptr ? from_godot(name_of(*body)) : std::string("a body")) + ": " +
                           problem);
+        }
+    }
+    for (const auto& joint : joints_) {
+        if (joint->node() != nullptr && !joint->problem().empty()) {
+            all.push_back(from_godot(name_of(*joint->node())) + ": " + joint->problem());
         }
     }
     return all;

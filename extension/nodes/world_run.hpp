@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "nodes/body_mirror.hpp"
+#include "nodes/joint_mirror.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "realtime/baseline_loop.hpp"
@@ -85,8 +86,12 @@ private:
     static TickStatus tick_loop_function(void* self, Nanoseconds scheduled);
     TickStatus tick(Nanoseconds now);
 
-    void collect_bodies(godot::Node* node, std::vector<godot::CollisionObject3D*>& found) const;
-    void find_bodies();
+    void collect_nodes(godot::Node* node, std::vector<godot::CollisionObject3D*>& bodies,
+                       std::vector<godot::Joint3D*>& joints) const;
+    template <class Mirror, class NodeType>
+    void match(std::vector<std::unique_ptr<Mirror>>& mirrors, const std::vector<NodeType*>& found);
+    void find_nodes();
+    void synchronise_joints();
     void synchronise_bodies(double seconds);
     void finish_building(const MirrorContext& context);
     void synchronise_devices();
@@ -124,6 +129,7 @@ private:
     std::vector<std::unique_ptr<BodyMirror>> mirrors_;
     std::unordered_map<std::uint64_t, BodyMirror*> mirror_by_id_;
     std::vector<BodyMirror*> mirror_by_handle_;
+    std::vector<std::unique_ptr<JointMirror>> joints_;
     bool bodies_changed_ = true;
     bool shapes_changed_ = false;
     std::vector<DeviceLink> devices_;

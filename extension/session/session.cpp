@@ -87,7 +87,8 @@ struct Session::Impl {
           loop(s, snapshots),
           bodies(s.most_bodies),
           devices(most_devices),
-          proxies(most_proxies) {}
+          proxies(most_proxies),
+          joints(s.physics.max_joints) {}
 
     void send(Command&& command) {
         send_backlog();
@@ -126,7 +127,7 @@ struct Session::Impl {
     SpscRing<Retired> retired;
     SessionLoop loop;
 
-    HandlePool bodies, devices, proxies;
+    HandlePool bodies, devices, proxies, joints;
     std::deque<Command> backlog;
 };
 
@@ -230,6 +231,27 @@ void Session::set_body_damping(SessionHandle body, double linear, double angular
     impl_->send(command::SetBodyDamping{body, linear, angular});
 }
 
+void Session::set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque) {
+    impl_->send(command::SetBodyPush{body, force, torque});
+}
+
+AddResult Session::add_joint(const JointDescription& joint, SessionHandle first, SessionHandle second) {
+    if (std::string error = wrong_in(joint); !error.empty()) {
+        return {no_handle, std::move(error)};
+    }
+    const SessionHandle handle = impl_->joints.take();
+    if (handle == no_handle) {
+        return {no_handle, "a world takes at most " + std::to_string(impl_->settings.physics.max_joints) +
+                               " joints: remove one"};
+    }
+    impl_->send(command::AddJoint{handle, joint, first, second});
+    return {handle, {}};
+}
+
+void Session::remove_joint(SessionHandle joint) {
+    impl_->send(command::RemoveJoint{joint});
+}
+
 void Session::set_gravity(const Vec3& gravity) {
     impl_->send(command::SetGravity{gravity});
 }
@@ -290,6 +312,9 @@ bool Session::collect() {
                 break;
             case Retired::Kind::proxy:
                 impl_->proxies.give_back(remains.handle);
+                break;
+            case Retired::Kind::joint:
+                impl_->joints.give_back(remains.handle);
                 break;
             case Retired::Kind::texture:
                 break;

@@ -78,7 +78,15 @@ public:
     void set_body_surface(SessionHandle body, const SurfaceMaterial& surface);
     void set_body_gravity_scale(SessionHandle body, double scale);
     void set_body_damping(SessionHandle body, double linear, double angular);
+    // Pushes a dynamic body in every tick from now on: a force at its centre of mass and a torque, in the
+    // world (units: newtons, newton meters).
+    void set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque);
     void set_gravity(const Vec3& gravity);
+
+    // Joins two bodies, or one and the world (no_handle). The joint's frame is given in that of the first of
+    // them that is a body. It goes with its bodies.
+    AddResult add_joint(const JointDescription& joint, SessionHandle first, SessionHandle second);
+    void remove_joint(SessionHandle joint);
 
     // The device must live until remove_device has been carried out: see collect().
     AddResult add_device(Device& device, const Workspace& workspace);

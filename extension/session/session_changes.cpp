@@ -66,6 +66,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     }
     end_travel(c.handle);
     std::erase(magnets_, c.handle);
+    std::erase(pushed_, c.handle);
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
     handle_of_id_[removed->id.index()] = no_handle;
@@ -179,6 +180,44 @@ bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
         timeline_.set_damping(changed->id, c.linear, c.angular);
     }
     return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyPush& c, Retired&) {
+    Body* const changed = body(c.handle);
+    if (!changed) {
+        return false;
+    }
+    changed->push = c.force;
+    changed->twist = c.torque;
+    std::erase(pushed_, c.handle);
+    if (c.force != Vec3(0.0) || c.torque != Vec3(0.0)) {
+        pushed_.push_back(c.handle);
+    }
+    return false;
+}
+
+// Where a body found no place in the world there is nothing to join.
+bool SessionLoop::carry_out(command::AddJoint& c, Retired&) {
+    const Body* const first = body(c.first);
+    const Body* const second = body(c.second);
+    const Body* const anchor = first ? first : second;
+    if (!anchor || (c.first != no_handle && !first) || (c.second != no_handle && !second)) {
+        return false;
+    }
+    const Pose at = physics_.pose(anchor->id);
+    JointDescription joint = c.joint;
+    joint.frame = {to_parent(at, c.joint.frame.position), at.rotation * c.joint.frame.rotation};
+    joints_[c.handle] =
+        timeline_.add_joint(joint, first ? first->id : BodyId{}, second ? second->id : BodyId{});
+    status_ |= joints_[c.handle].valid() ? 0u : static_cast<TickStatus>(session_full);
+    return false;
+}
+
+bool SessionLoop::carry_out(command::RemoveJoint& c, Retired& retired) {
+    timeline_.remove_joint(std::exchange(joints_[c.handle], JointId{}));
+    retired.kind = Retired::Kind::joint;
+    retired.handle = c.handle;
+    return true;
 }
 
 bool SessionLoop::carry_out(command::SetGravity& c, Retired&) {

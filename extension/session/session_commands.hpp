@@ -62,6 +62,18 @@ struct SetBodyDamping {
     SessionHandle handle;
     double linear, angular;
 };
+struct SetBodyPush {
+    SessionHandle handle;
+    Vec3 force, torque;
+};
+struct AddJoint {
+    SessionHandle handle;
+    JointDescription joint;  // its frame in that of the first of its bodies
+    SessionHandle first, second;
+};
+struct RemoveJoint {
+    SessionHandle handle;
+};
 struct SetGravity {
     Vec3 gravity;
 };
@@ -98,16 +110,17 @@ struct Record {
 
 namespace tactus {
 
-using Command = std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
-                             command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
-                             command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
-                             command::SetBodyDamping, command::SetGravity, command::AddDevice,
-                             command::SetWorkspace, command::RemoveDevice, command::AddProxy,
-                             command::SetProxy, command::RemoveProxy, command::Record>;
+using Command =
+    std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
+                 command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
+                 command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
+                 command::SetBodyDamping, command::SetBodyPush, command::AddJoint, command::RemoveJoint,
+                 command::SetGravity, command::AddDevice, command::SetWorkspace, command::RemoveDevice,
+                 command::AddProxy, command::SetProxy, command::RemoveProxy, command::Record>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, device, proxy, texture } kind = Kind::body;
+    enum class Kind { body, device, proxy, texture, joint } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body, same_body;
     std::shared_ptr<const TouchShape> shape;

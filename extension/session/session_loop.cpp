@@ -49,6 +49,8 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       state_of_(settings.most_bodies, no_handle) {
     travelling_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
+    pushed_.reserve(settings.most_bodies);
+    joints_.resize(settings.physics.max_joints);
     corrected_.reserve(settings.history.ticks > 0 ? settings.most_bodies : 0);
     states_.reserve(settings.most_bodies);
     hands_.reserve(most_proxies);
@@ -262,6 +264,16 @@ void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
     }
 }
 
+void SessionLoop::push_bodies() {
+    for (const SessionHandle handle : pushed_) {
+        const Body& pushed = bodies_[handle];
+        if (pushed.motion == Motion::Dynamic) {
+            timeline_.apply_force(pushed.id, pushed.push, physics_.center_of_mass(pushed.id));
+            timeline_.apply_torque(pushed.id, pushed.twist);
+        }
+    }
+}
+
 // The opposite of what the hand feels goes to what it touches, where it touches it.
 void SessionLoop::press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding) {
     for (int i = 0; i < force.contact_count; ++i) {
@@ -323,6 +335,7 @@ void SessionLoop::rest() {
 }
 
 void SessionLoop::step_physics() {
+    push_bodies();
     hands_.clear();
     for (const ProxySlot& slot : proxies_) {
         if (slot.proxy && slot.description.enabled) {

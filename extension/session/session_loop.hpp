@@ -65,6 +65,8 @@ private:
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
         Pose target;
         int ticks_left = 0;
+        Vec3 push{0.0};  // in every tick, see Session::set_body_push
+        Vec3 twist{0.0};
     };
 
     struct DeviceSlot {
@@ -98,6 +100,9 @@ private:
     bool carry_out(command::SetBodyMotion& c, Retired&);
     bool carry_out(command::SetBodyGravityScale& c, Retired&);
     bool carry_out(command::SetBodyDamping& c, Retired&);
+    bool carry_out(command::SetBodyPush& c, Retired&);
+    bool carry_out(command::AddJoint& c, Retired&);
+    bool carry_out(command::RemoveJoint& c, Retired& retired);
     bool carry_out(command::SetGravity& c, Retired&);
     bool carry_out(command::AddDevice& c, Retired&);
     bool carry_out(command::SetWorkspace& c, Retired&);
@@ -121,6 +126,7 @@ private:
     Vec3 attract(const ProxySlot& slot);
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);
+    void push_bodies();
     void press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding);
     void write_devices(Nanoseconds now);
     void step_physics();
@@ -138,6 +144,8 @@ private:
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
+    std::vector<SessionHandle> pushed_;   // bodies with a push of their own
+    std::vector<JointId> joints_;         // by handle
     std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
     std::vector<CorrectedBody> corrected_;
     std::vector<Vec3> hands_;              // where the proxies are (unit: meters)

@@ -69,6 +69,13 @@ TEST(SessionRealtime, CommandsAreCarriedOutWithoutAllocating) {
         rig.session.set_body_surface(last, {0.3, 0.1, false, false});
         rig.session.set_body_velocity(last, Vec3(0.1), Vec3(0.0));
         rig.session.set_gravity({0.0, -9.0 - 0.01 * round, 0.0});
+        const SessionHandle swinging = added[added.size() - 2];
+        rig.session.set_body_push(swinging, {0.1, 0.0, 0.0}, {0.0, 0.01 * round, 0.0});
+        const AddResult joint =
+            rig.session.add_joint({.kind = JointKind::Hinge, .frame = {}}, swinging, no_handle);
+        if (round % 2 == 1) {
+            rig.session.remove_joint(joint.handle);
+        }
         if (round > 10) {
             rig.session.remove_body(added[static_cast<std::size_t>(round)]);
         }

@@ -1,7 +1,9 @@
 #include "session/session.hpp"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <numbers>
 #include <thread>
 
 #include "session_rig.hpp"
@@ -92,6 +94,53 @@ TEST(Session, BodiesMadeElsewhereMayShareTheirTouch) {
     rig.device.position = {0.0, 0.05, 0.0};
     rig.draw({0.0, 0.0, 0.0}, 100);
     EXPECT_NEAR(rig.device.force.y, 5.0, 1e-6);
+}
+
+TEST(Session, APushActsInEveryTickUntilItIsTakenAway) {
+    SessionSettings settings;
+    settings.physics.gravity = Vec3(0.0);
+    SessionRig rig(settings);
+    const SessionHandle ball = rig.add(body(SphereShape{0.1}, Vec3(0.0), Motion::Dynamic, 2.0));
+    rig.session.set_body_push(ball, {4.0, 0.0, 0.0}, Vec3(0.0));
+    rig.ticks(500);
+    EXPECT_NEAR(rig.state_of(ball)->linear_velocity.x, 1.0, 5e-3);
+    rig.session.set_body_push(ball, Vec3(0.0), Vec3(0.0));
+    rig.ticks(500);
+    EXPECT_NEAR(rig.state_of(ball)->linear_velocity.x, 1.0, 5e-3);
+}
+
+TEST(Session, AJointIsGivenInTheFrameOfItsBody) {
+    SessionRig rig;
+    BodyAddition turned = body(SphereShape{0.05}, {1.0, 2.0, 0.0}, Motion::Dynamic);
+    turned.description.pose.rotation = glm::angleAxis(std::numbers::pi / 2.0, Vec3(0.0, 0.0, 1.0));
+    const SessionHandle ball = rig.add(turned);
+    // A quarter of a metre along the body's y, which is the world's -x.
+    const AddResult joint = rig.session.add_joint(
+        {.kind = JointKind::Pin, .frame = {{0.0, 0.25, 0.0}, Quat(1.0, 0.0, 0.0, 0.0)}}, ball, no_handle);
+    EXPECT_EQ(joint.error, "");
+    for (int i = 0; i < 1'000; ++i) {
+        rig.tick();
+        ASSERT_NEAR(glm::distance(rig.state_of(ball)->pose.position, Vec3(0.75, 2.0, 0.0)), 0.25, 1e-3);
+    }
+    rig.session.remove_joint(joint.handle);
+    rig.ticks(1'000);
+    EXPECT_LT(rig.state_of(ball)->pose.position.y, 1.0);
+}
+
+TEST(Session, JointsAreGivenBackWhenTheirBodyHasGone) {
+    SessionSettings settings;
+    settings.physics.max_joints = 2;
+    SessionRig rig(settings);
+    for (int round = 0; round < 5; ++round) {
+        const SessionHandle ball = rig.add(body(SphereShape{0.05}, {0.0, 2.0, 0.0}, Motion::Dynamic));
+        const AddResult joint = rig.session.add_joint({.frame = {}}, ball, no_handle);
+        ASSERT_EQ(joint.error, "");
+        rig.tick();
+        rig.session.remove_body(ball);
+        rig.session.remove_joint(joint.handle);
+        rig.tick();
+        rig.session.collect();
+    }
 }
 
 TEST(Session, AtRestTheDeviceIsGivenNoForce) {

@@ -1,0 +1,122 @@
+#include "nodes/joint_reading.hpp"
+
+#include <algorithm>
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/generic6_dof_joint3d.hpp>
+#include <godot_cpp/classes/hinge_joint3d.hpp>
+#include <godot_cpp/classes/pin_joint3d.hpp>
+#include <godot_cpp/classes/slider_joint3d.hpp>
+
+#include "nodes/conversions.hpp"
+
+namespace tactus {
+
+namespace {
+
+using godot::Generic6DOFJoint3D;
+using godot::HingeJoint3D;
+using godot::Object;
+using godot::SliderJoint3D;
+
+// Lower above upper means free to Godot as to us.
+JointRange range(bool limited, double lower, double upper) {
+    return limited ? JointRange{lower, upper} : JointRange::free();
+}
+
+JointRange turned(const JointRange& of_a) {
+    return of_a.lower > of_a.upper ? JointRange::free() : JointRange{-of_a.upper, -of_a.lower};
+}
+
+void read(const HingeJoint3D& node, JointReading& reading) {
+    JointDescription& joint = reading.joint;
+    joint.kind = JointKind::Hinge;
+    joint.angular[2] = turned(range(node.get_flag(HingeJoint3D::FLAG_USE_LIMIT),
+                                    node.get_param(HingeJoint3D::PARAM_LIMIT_LOWER),
+                                    node.get_param(HingeJoint3D::PARAM_LIMIT_UPPER)));
+    if (node.get_flag(HingeJoint3D::FLAG_ENABLE_MOTOR)) {
+        const double steps = godot::Engine::get_singleton()->get_physics_ticks_per_second();
+        joint.motor_speed = -node.get_param(HingeJoint3D::PARAM_MOTOR_TARGET_VELOCITY);
+        joint.motor_torque = node.get_param(HingeJoint3D::PARAM_MOTOR_MAX_IMPULSE) * steps;
+    }
+}
+
+// Slides along x and turns about it within the angular limit, which is zero unless set.
+void read(const SliderJoint3D& node, JointReading& reading) {
+    JointDescription& joint = reading.joint;
+    joint.linear[0] = {node.get_param(SliderJoint3D::PARAM_LINEAR_LIMIT_LOWER),
+                       node.get_param(SliderJoint3D::PARAM_LINEAR_LIMIT_UPPER)};
+    joint.angular[0] = turned({node.get_param(SliderJoint3D::PARAM_ANGULAR_LIMIT_LOWER),
+                               node.get_param(SliderJoint3D::PARAM_ANGULAR_LIMIT_UPPER)});
+    const bool turns = joint.angular[0].lower != 0.0 || joint.angular[0].upper != 0.0;
+    joint.kind = turns ? JointKind::SixAxes : JointKind::Slider;
+}
+
+void read(const Generic6DOFJoint3D& node, JointReading& reading) {
+    using Param = Generic6DOFJoint3D::Param;
+    using Flag = Generic6DOFJoint3D::Flag;
+    JointDescription& joint = reading.joint;
+    joint.kind = JointKind::SixAxes;
+    bool has_more = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto param = [&node, i](Param which) -> double {
+            return i == 0   ? node.get_param_x(which)
+                   : i == 1 ? node.get_param_y(which)
+                            : node.get_param_z(which);
+        };
+        const auto flag = [&node, i](Flag which) {
+            return i == 0 ? node.get_flag_x(which) : i == 1 ? node.get_flag_y(which) : node.get_flag_z(which);
+        };
+        joint.linear[i] = range(flag(Generic6DOFJoint3D::FLAG_ENABLE_LINEAR_LIMIT),
+                                param(Generic6DOFJoint3D::PARAM_LINEAR_LOWER_LIMIT),
+                                param(Generic6DOFJoint3D::PARAM_LINEAR_UPPER_LIMIT));
+        joint.angular[i] = turned(range(flag(Generic6DOFJoint3D::FLAG_ENABLE_ANGULAR_LIMIT),
+                                        param(Generic6DOFJoint3D::PARAM_ANGULAR_LOWER_LIMIT),
+                                        param(Generic6DOFJoint3D::PARAM_ANGULAR_UPPER_LIMIT)));
+        for (const Flag more :
+             {Generic6DOFJoint3D::FLAG_ENABLE_LINEAR_SPRING, Generic6DOFJoint3D::FLAG_ENABLE_ANGULAR_SPRING,
+              Generic6DOFJoint3D::FLAG_ENABLE_MOTOR, Generic6DOFJoint3D::FLAG_ENABLE_LINEAR_MOTOR}) {
+            has_more |= flag(more);
+        }
+    }
+    if (has_more) {
+        reading.problem =
+            "springs and motors of a Generic6DOFJoint3D are not carried out: switch them off, or use a "
+            "HingeJoint3D for a motor";
+    }
+}
+
+}  // namespace
+
+JointReading read_joint(const godot::Joint3D& node) {
+    JointReading reading;
+    if (const auto* hinge = Object::cast_to<HingeJoint3D>(&node)) {
+        read(*hinge, reading);
+    } else if (const auto* slider = Object::cast_to<SliderJoint3D>(&node)) {
+        read(*slider, reading);
+    } else if (const auto* six = Object::cast_to<Generic6DOFJoint3D>(&node)) {
+        read(*six, reading);
+    } else if (Object::cast_to<godot::PinJoint3D>(&node) == nullptr) {
+        reading.problem = "a " + from_godot(node.get_class()) +
+                          " is not carried out: use a PinJoint3D, HingeJoint3D, SliderJoint3D or "
+                          "Generic6DOFJoint3D";
+        reading.usable = false;
+    }
+    reading.joint.bodies_collide = !node.get_exclude_nodes_from_collision();
+    reading.joint.frame = pose_of(node.get_global_transform());
+    if (std::string wrong = wrong_in(reading.joint); reading.usable && !wrong.empty()) {
+        reading.problem = std::move(wrong);
+        reading.usable = false;
+    }
+    return reading;
+}
+
+bool same_joint(const JointDescription& a, const JointDescription& b) {
+    const auto same = [](const JointRange& left, const JointRange& right) {
+        return left.lower == right.lower && left.upper == right.upper;
+    };
+    return a.kind == b.kind && std::ranges::equal(a.linear, b.linear, same) &&
+           std::ranges::equal(a.angular, b.angular, same) && a.motor_speed == b.motor_speed &&
+           a.motor_torque == b.motor_torque && a.bodies_collide == b.bodies_collide;
+}
+
+}  // namespace tactus
