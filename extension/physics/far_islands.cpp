@@ -167,10 +167,15 @@ void FarIslands::bring_back(std::vector<JPH::BodyID>& list) {
 // With the length of the last step, by which Jolt scales the forces it begins with. Contacts that find no
 // room begin without.
 void FarIslands::save(Contacts& contacts, std::size_t part, const JPH::StateRecorderFilter* which) const {
-    const std::size_t begin = part == 0 ? 0 : contacts.bytes[0];
-    MemoryWriter writer(std::span(contacts.memory).subspan(begin));
-    system_.SaveState(writer, JPH::EStateRecorderState::Global | JPH::EStateRecorderState::Contacts, which);
-    contacts.bytes[part] = writer.IsFailed() ? 0 : writer.used();
+    const std::span<std::byte> room = std::span(contacts.memory).subspan(part == 0 ? 0 : contacts.bytes[0]);
+    const auto written = [&](JPH::EStateRecorderState what) {
+        MemoryWriter writer(room);
+        system_.SaveState(writer, what, which);
+        return writer.IsFailed() ? 0 : writer.used();
+    };
+    contacts.bytes[part] = written(JPH::EStateRecorderState::Global | JPH::EStateRecorderState::Contacts);
+    if (contacts.bytes[part] == 0 && part == 0)
+        contacts.bytes[part] = written(JPH::EStateRecorderState::Global);
 }
 
 void FarIslands::restore(const Contacts& contacts) {

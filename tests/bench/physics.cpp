@@ -173,7 +173,9 @@ Vec3 place(int i) {
 // tick.
 void rub(Rig& rig, const Pose& first, int i) {
     const double phase = 2.0 * std::numbers::pi * i * tick;
-    rig.hand.position = first.position + Vec3(0.02 * std::sin(phase), 0.5 * edge + Rig::radius - 0.004, 0.0);
+    // It comes from above, or it would be inside the box and touch nothing.
+    const double height = std::max(-0.004, 0.01 - 1e-4 * i);
+    rig.hand.position = first.position + Vec3(0.02 * std::sin(phase), 0.5 * edge + Rig::radius + height, 0.0);
     rig.hand.velocity = {0.04 * std::numbers::pi * std::cos(phase), 0.0, 0.0};
 }
 
@@ -199,6 +201,10 @@ struct RubbedBoxes {
         const int until_asleep = sleeping > 0 ? 2000 : 200;
         for (int i = 0; i < until_asleep; ++i)
             run();
+        if (rig.look().proxies[0].contact_count == 0) {
+            std::fprintf(stderr, "the finger does not touch the box\n");
+            std::exit(1);
+        }
     }
 
     double run() {
