@@ -15,6 +15,7 @@ needs ca-certificates test -e /etc/ssl/certs/ca-certificates.crt
 needs g++ command -v g++
 needs cargo command -v cargo
 needs libglm-dev test -e /usr/include/glm/glm.hpp
+needs libsodium-dev test -e /usr/include/sodium.h
 needs libgtest-dev test -e /usr/include/gtest/gtest.h
 needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb

@@ -25,7 +25,8 @@ namespace tactus {
 
 inline constexpr std::uint8_t wire_version = 1;
 
-using ObjectId = std::uint32_t;  // given by the teleoperator, the same for the whole of its epoch
+// Given by the teleoperator; within one of its epochs an id that was removed never comes back.
+using ObjectId = std::uint32_t;
 inline constexpr ObjectId no_object = 0xffff'ffffu;
 
 // Of operator samples: counts up from 1 within an epoch of the operator.
@@ -71,6 +72,7 @@ using ContentHash = std::array<std::uint8_t, 16>;
 // A piece of an encoded ObjectDescription. All pieces but the last are of most_fragment_bytes.
 struct DiscoveryFragment {
     ObjectId object = no_object;
+    std::uint32_t revision = 0;  // of the object's description: the highest is the one that holds
     ContentHash hash{};
     std::uint32_t total_bytes = 0;     // of the whole description, 1 … most_description_bytes
     std::uint32_t offset = 0;          // of this piece in it, a multiple of most_fragment_bytes
@@ -79,7 +81,7 @@ struct DiscoveryFragment {
 inline constexpr std::size_t most_fragment_bytes = 1024;
 inline constexpr std::uint32_t most_description_bytes = 16u << 20;
 
-// The object does not exist any more. `hash`: of the description that this takes back.
+// The object does not exist any more. `hash`: of its last description.
 struct ObjectRemoval {
     ObjectId object = no_object;
     ContentHash hash{};
@@ -163,6 +165,7 @@ enum class Refusal : std::uint8_t {
     truncated,    // shorter than what it says it is
     oversized,    // longer than what it says it is, or than a message may be
     wrong_magic,  // not one of ours
+    sealed,       // encrypted, and this side has no key
     wrong_version,
     unknown_type,
     not_finite,    // a NaN or an infinity

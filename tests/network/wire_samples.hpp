@@ -1,0 +1,70 @@
+// One message of each kind with values that differ in every field, for tests of the wire.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "network/messages.hpp"
+
+namespace tactus::samples {
+
+inline constexpr PacketHeader header{0x0102030405060708u, 77, -123'456'789};
+
+inline ContentHash hash() {
+    ContentHash hash;
+    for (std::size_t i = 0; i < hash.size(); ++i) {
+        hash[i] = static_cast<std::uint8_t>(0xa0 + i);
+    }
+    return hash;
+}
+
+inline constexpr std::array<std::byte, 5> piece{std::byte{1}, std::byte{2}, std::byte{3}, std::byte{4},
+                                                std::byte{5}};
+
+inline ObjectState state(ObjectId object) {
+    const double shift = object;
+    return {object,
+            object % 2 == 1,
+            {{0.5 + shift, -1.25, 2.0}, {0.5, -0.5, 0.5, -0.5}},
+            {0.125, -0.25, 0.375 + shift},
+            {-4.0, 5.5, 6.25}};
+}
+
+inline OperatorSample hand(SampleSequence sequence) {
+    OperatorSample sample;
+    sample.sequence = sequence;
+    sample.time = 1'000'000 * static_cast<Nanoseconds>(sequence);
+    sample.pointer = 1;
+    sample.connected = true;
+    sample.buttons = 0x80000001u;
+    sample.position = {0.01, 0.02, 0.03};
+    sample.velocity = {-0.1, 0.2, -0.3};
+    sample.force = {1.5, -2.5, 3.5};
+    sample.nearest_object = 7;
+    sample.position_in_object = {0.001, 0.002, -0.003};
+    return sample;
+}
+
+inline std::vector<Message> one_of_each() {
+    ObjectStates states{5'000'000, 42, 2, {}};
+    states.states[0] = state(3);
+    states.states[1] = state(4);
+    OperatorSamples samples{2, {}};
+    samples.samples[0] = hand(43);
+    samples.samples[1] = hand(42);
+    return {
+        Hello{Side::teleoperator_side, 2, 1'000'000, 0x1122334455667788u, 9, {0.0, -9.5, 0.25}},
+        Bye{},
+        ClockRequest{12, 1'000'000'007},
+        ClockAnswer{12, 1'000'000'007, -5, 6},
+        DiscoveryFragment{7, 3, hash(), 1024 + 5, 1024, piece},
+        ObjectRemoval{8, hash()},
+        DiscoveryAcknowledgement{9, hash(), DiscoveryVerdict::no_room},
+        states,
+        samples,
+        ForceSample{2, 5'000'000, 41, {0.1, 0.2, -0.3}, {1.0, 2.0, 3.0}, 4},
+    };
+}
+
+}  // namespace tactus::samples
