@@ -1,0 +1,248 @@
+#include "network/endpoint.hpp"
+
+#include <sodium.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds first_second = nanoseconds_per_second;
+constexpr Nanoseconds hurry = 5;  // times as many clock requests in it
+constexpr double smoothing = 1.0 / 16.0;
+
+}  // namespace
+
+Endpoint::Endpoint(Link& link, const EndpointSettings& settings) : link_(link), settings_(settings) {}
+
+void Endpoint::begin_tick(Nanoseconds now) {
+    now_ = now;
+    local_now_ = local_time(now);
+    taken_this_tick_ = 0;
+    if (!ticked_) {
+        ticked_ = true;
+        rates_since_ = next_hello_ = next_request_ = now;
+    }
+    const bool alive = hears_peer() || statistics_.peer == PeerState::wrong_side;
+    if (alive && now - heard_at_ > settings_.vanish_after) {
+        statistics_.peer = PeerState::vanished;
+        ++statistics_.vanishings;
+    }
+}
+
+const Endpoint::Received* Endpoint::receive() {
+    while (taken_this_tick_ < most_datagrams_per_tick) {
+        const ReceivedDatagram datagram = link_.receive(buffer_, now_);
+        if (!datagram) {
+            return nullptr;
+        }
+        ++taken_this_tick_;
+        const Refusal refusal = decode(std::span(buffer_).first(datagram.bytes), received_.packet);
+        if (refusal != Refusal::none) {
+            statistics_.refused.add(refusal);
+            continue;
+        }
+        received_.arrived = local_time(datagram.arrived);
+        if (!admit(received_.packet.header)) {
+            continue;
+        }
+        ++statistics_.packets_received;
+        statistics_.bytes_received += datagram.bytes;
+        if (take(received_.arrived)) {
+            return &received_;
+        }
+    }
+    return nullptr;
+}
+
+// Whether the packet belongs to the far side's present epoch and is here for the first time. Only a hello
+// begins an epoch.
+bool Endpoint::admit(const PacketHeader& header) {
+    const bool hello = std::holds_alternative<Hello>(received_.packet.message);
+    const bool strange = header.epoch != statistics_.peer_epoch;
+    if (header.epoch == settings_.epoch || (strange && (!hello || was_before(header.epoch)))) {
+        ++statistics_.strange_epoch;
+        return false;
+    }
+    if (strange) {
+        meet(header.epoch);
+    }
+    switch (window_.note(header.sequence)) {
+        case SequenceWindow::Arrival::copy:
+            ++statistics_.copies;
+            return false;
+        case SequenceWindow::Arrival::too_old:
+            ++statistics_.too_old;
+            return false;
+        case SequenceWindow::Arrival::late:
+            ++statistics_.late;
+            break;
+        case SequenceWindow::Arrival::newest:
+            break;
+    }
+    statistics_.missing = window_.missing();
+    return statistics_.peer != PeerState::left;
+}
+
+bool Endpoint::was_before(std::uint64_t epoch) const {
+    const std::size_t known = std::min(past_count_, most_past);
+    return std::find(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(known), epoch) !=
+           past_.begin() + static_cast<std::ptrdiff_t>(known);
+}
+
+void Endpoint::meet(std::uint64_t epoch) {
+    if (statistics_.peer_epoch != 0) {
+        past_[past_count_++ % most_past] = statistics_.peer_epoch;
+        ++statistics_.peer_restarts;
+    }
+    statistics_.peer_epoch = epoch;
+    statistics_.peer = PeerState::one_way;
+    window_.forget();
+    hello_sequence_ = 0;
+    clock_.forget();
+    statistics_.clock = {};
+    one_way_known_ = false;
+    met_at_ = now_;
+    next_hello_ = next_request_ = now_;  // it need not wait to be heard
+}
+
+bool Endpoint::take(Nanoseconds arrived) {
+    const PacketHeader& header = received_.packet.header;
+    const Message& message = received_.packet.message;
+    heard_at_ = now_;
+    if (statistics_.peer == PeerState::vanished) {
+        statistics_.peer = PeerState::one_way;  // until its next hello says more
+        next_hello_ = now_;
+    }
+    note_one_way(header.sent_at, arrived);
+    if (const auto* hello = std::get_if<Hello>(&message)) {
+        take_hello(header, *hello);
+        return false;
+    }
+    if (std::holds_alternative<Bye>(message)) {
+        statistics_.peer = PeerState::left;
+        return false;
+    }
+    if (const auto* request = std::get_if<ClockRequest>(&message)) {
+        answer(*request, arrived);
+        return false;
+    }
+    if (const auto* clock_answer = std::get_if<ClockAnswer>(&message)) {
+        take_answer(*clock_answer, arrived);
+        return false;
+    }
+    return statistics_.peer != PeerState::wrong_side;
+}
+
+void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
+    if (header.sequence < hello_sequence_) {
+        return;  // overtaken by a newer one
+    }
+    hello_sequence_ = header.sequence;
+    peer_hello_ = hello;
+    if (hello.side == settings_.side) {
+        statistics_.peer = PeerState::wrong_side;
+    } else {
+        statistics_.peer = hello.heard_epoch == settings_.epoch ? PeerState::connected : PeerState::one_way;
+    }
+}
+
+void Endpoint::answer(const ClockRequest& request, Nanoseconds arrived) {
+    // The tick may have been due before the request came, and yet have run after.
+    send(ClockAnswer{request.number, request.t0, arrived, std::max(local_now_, arrived)});
+}
+
+void Endpoint::take_answer(const ClockAnswer& answer, Nanoseconds arrived) {
+    clock_.add({answer.t0, arrived, answer.t1, answer.t2});
+    statistics_.clock = clock_.figures();
+}
+
+void Endpoint::note_one_way(Nanoseconds sent_at, Nanoseconds arrived) {
+    if (!clock_.figures().known) {
+        return;
+    }
+    const Nanoseconds way = arrived - clock_.near_time(sent_at);
+    const auto way_now = static_cast<double>(way);
+    if (!one_way_known_) {
+        one_way_known_ = true;
+        statistics_.one_way_delay = way_now;
+        statistics_.one_way_jitter = 0.0;
+    } else {
+        const double change = std::abs(static_cast<double>(way - last_one_way_));
+        statistics_.one_way_jitter += smoothing * (change - statistics_.one_way_jitter);
+        statistics_.one_way_delay += smoothing * (way_now - statistics_.one_way_delay);
+    }
+    last_one_way_ = way;
+}
+
+bool Endpoint::send(const Message& message) {
+    std::array<std::byte, most_message_bytes> bytes;
+    const std::size_t size = encode({settings_.epoch, sequence_ + 1, local_now_}, message, bytes);
+    if (size == 0 || !link_.send(std::span(bytes).first(size), now_)) {
+        ++statistics_.not_sent;
+        return false;
+    }
+    ++sequence_;
+    ++statistics_.packets_sent;
+    statistics_.bytes_sent += size;
+    return true;
+}
+
+void Endpoint::end_tick() {
+    if (now_ >= next_hello_) {
+        say_hello();
+        next_hello_ = now_ + settings_.hello_every;
+    }
+    if (hears_peer() && now_ >= next_request_) {
+        send(ClockRequest{++request_, local_now_});
+        const bool fresh = now_ - met_at_ < first_second;
+        next_request_ = now_ + (fresh ? settings_.clock_every / hurry : settings_.clock_every);
+    }
+    measure_rates(now_);
+}
+
+void Endpoint::say_hello() {
+    own_hello_.side = settings_.side;
+    own_hello_.scenario = settings_.scenario;
+    own_hello_.period = settings_.period;
+    own_hello_.heard_epoch = hears_peer() ? statistics_.peer_epoch : 0;
+    send(own_hello_);
+}
+
+void Endpoint::leave() {
+    for (int i = 0; i < 3; ++i) {
+        send(Bye{});
+    }
+}
+
+void Endpoint::set_world(std::uint32_t object_count, const Vec3& gravity) {
+    own_hello_.object_count = object_count;
+    own_hello_.gravity = gravity;
+}
+
+void Endpoint::measure_rates(Nanoseconds now) {
+    const Nanoseconds elapsed = now - rates_since_;
+    if (elapsed < nanoseconds_per_second) {
+        return;
+    }
+    const std::uint64_t totals[4] = {statistics_.packets_sent, statistics_.bytes_sent,
+                                     statistics_.packets_received, statistics_.bytes_received};
+    double* const rates[4] = {&statistics_.sent_rate.packets, &statistics_.sent_rate.bytes,
+                              &statistics_.received_rate.packets, &statistics_.received_rate.bytes};
+    for (int i = 0; i < 4; ++i) {
+        *rates[i] = static_cast<double>(totals[i] - rate_base_[i]) / to_seconds(elapsed);
+        rate_base_[i] = totals[i];
+    }
+    rates_since_ = now;
+}
+
+std::uint64_t random_epoch() {
+    std::uint64_t epoch = 0;
+    while (epoch == 0) {
+        randombytes_buf(&epoch, sizeof epoch);
+    }
+    return epoch;
+}
+
+}  // namespace tactus
