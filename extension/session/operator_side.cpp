@@ -28,6 +28,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
       history_(room.most_tracked, room.samples),
       past_(room.samples),
       truths_(room.most_tracked),
+      drags_(room.most_tracked),
       body_of_object_(session.most_bodies, no_handle),
       object_of_body_(session.most_bodies, no_object) {
     targets_.reserve(room.most_tracked);
@@ -67,11 +68,15 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     if (resimulates && (replaying_ || begin_replay(loop))) {
         replay(loop);
-    } else {
+        if (replayed_ + 1 == sample_ && !lands(loop, now)) {
+            replaying_ = false;
+            find_replayed_targets(loop);
+        }
+    } else if (any_news(loop) && !lands(loop, now)) {
         find_targets(loop, settings_.derivation);
     }
     if (!targets_.empty()) {
-        correct(loop, now);
+        correct(loop);
     }
 }
 
@@ -201,6 +206,15 @@ DerivationInput OperatorSide::derivation_input(const Truth& truth, const BodyMot
     return in;
 }
 
+bool OperatorSide::any_news(SessionLoop& loop) const {
+    for (std::size_t i = 0; i < truths_.size(); ++i) {
+        if (is_news(loop, i)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void OperatorSide::find_targets(SessionLoop& loop, Derivation derivation) {
     for (std::size_t i = 0; i < truths_.size(); ++i) {
         const bool news = is_news(loop, i);
@@ -225,10 +239,10 @@ void OperatorSide::find_targets(SessionLoop& loop, Derivation derivation) {
 
 // False where there is nothing to replay, or no past to start from.
 bool OperatorSide::begin_replay(SessionLoop& loop) {
-    bool news = false;
+    learn_drags(loop);
+    const bool news = any_news(loop);
     SampleSequence newest = no_sample;
     for (std::size_t i = 0; i < truths_.size(); ++i) {
-        news = is_news(loop, i) || news;
         newest = truths_[i].fresh ? std::max(newest, truths_[i].sample) : newest;
     }
     if (!news || newest == no_sample) {
@@ -260,6 +274,28 @@ bool OperatorSide::begin_replay(SessionLoop& loop) {
     return true;
 }
 
+// The model's past since the last truth that was put in came from that truth alone.
+void OperatorSide::learn_drags(SessionLoop& loop) {
+    for (std::size_t i = 0; i < truths_.size(); ++i) {
+        const Truth& truth = truths_[i];
+        const BodyMotion* const model = history_.at(i, truth.sample);
+        if (truth.fresh && model && tracks(loop, i) && truth_at_ != no_sample && truth.sample > truth_at_) {
+            drags_[i].learn(settings_.drag, truth.motion.linear_velocity, model->linear_velocity,
+                            static_cast<double>(truth.sample - truth_at_) * seconds_);
+        }
+    }
+}
+
+void OperatorSide::apply_drags(SessionLoop& loop) const {
+    for (std::size_t i = 0; i < drags_.size(); ++i) {
+        if (drags_[i].value() != 0.0 && loop.body(static_cast<SessionHandle>(i))) {
+            const auto handle = static_cast<SessionHandle>(i);
+            loop.accelerate(handle,
+                            drags_[i].acceleration(settings_.drag, loop.motion(handle).linear_velocity));
+        }
+    }
+}
+
 void OperatorSide::put_in_truth() {
     for (const Target& truth : replay_truth_) {
         twin_->correct(truth.body, truth.motion, true);
@@ -279,6 +315,7 @@ void OperatorSide::replay_tick(SessionLoop& loop) {
         slot.hand_velocity = past.hands[i].velocity;
         slot.idle = past.hands[i].idle;
     }
+    apply_drags(*twin_);
     twin_->end_replay_tick(past.time);
     if (replayed_ <= truth_at_) {
         return;
@@ -298,10 +335,6 @@ void OperatorSide::replay_tick(SessionLoop& loop) {
 void OperatorSide::replay(SessionLoop& loop) {
     for (std::uint32_t i = 0; i < settings_.replay_steps && replayed_ + 1 < sample_; ++i) {
         replay_tick(loop);
-    }
-    if (replayed_ + 1 == sample_) {
-        replaying_ = false;
-        find_replayed_targets(loop);
     }
 }
 
@@ -325,15 +358,27 @@ void OperatorSide::find_replayed_targets(SessionLoop& loop) {
 
 // --- correcting
 
-void OperatorSide::correct(SessionLoop& loop, Nanoseconds now) {
-    ++statistics_.corrections;
-    const bool with_velocity = settings_.correction != Correction::pose;
+// What would be felt in this tick without a correction. True where a pointer has just come to touch
+// something: a correction would have to hide a force that nobody has felt yet; it waits for the next tick.
+bool OperatorSide::lands(SessionLoop& loop, Nanoseconds now) {
+    bool any = false;
     for (std::size_t i = 0; i < most_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
-        if (slot.present()) {
-            pointers_[i].force_before = force_uncorrected(loop, pointers_[i], slot, now);
+        if (!slot.present()) {
+            continue;
         }
+        Pointer& pointer = pointers_[i];
+        const Proxy& proxy = pointer.active ? *pointer.felt.proxy : *slot.proxy;
+        const bool was_free = proxy.touching().empty();
+        pointer.force_before = force_uncorrected(loop, pointer, slot, now);
+        any = any || (was_free && glm::length(pointer.force_before) > no_force);
     }
+    return any && is_stealthy(settings_.correction);
+}
+
+void OperatorSide::correct(SessionLoop& loop) {
+    ++statistics_.corrections;
+    const bool with_velocity = settings_.correction != Correction::pose;
     for (const Target& target : targets_) {
         const Pose from = loop.scene().body(loop.body(target.body)->slot).pose;
         const Pose motion = displacement(from, target.motion.pose);
@@ -395,8 +440,13 @@ bool OperatorSide::carry(SessionLoop& loop, const Target& target, const Pose& mo
         }
         any = true;
         const Vec3 hand = slot.hand + pointer.offset;
-        proxy.displace(to_parent(motion, proxy.position()) - proxy.position());
-        pointer.offset = to_parent(motion, hand) - slot.hand;
+        // It has not moved in this tick yet: it goes from where the body was to where it has been instead.
+        const Pose& was = loop.scene().body(loop.body(target.body)->slot).previous;
+        const Pose before = target.previous ? displacement(was, *target.previous) : motion;
+        proxy.displace(to_parent(before, proxy.position()) - proxy.position());
+        const Vec3 offset = to_parent(motion, hand) - slot.hand;
+        note_drift(loop, pointer, glm::length(offset - pointer.offset));
+        pointer.offset = offset;
         if (const double length = glm::length(pointer.offset); length > settings_.stealth.longest_offset) {
             pointer.offset *= settings_.stealth.longest_offset / length;
         }
@@ -420,6 +470,9 @@ void OperatorSide::activate(Pointer& pointer, const SessionLoop::ProxySlot& slot
 // --- feeling
 
 void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
+    if (!settings_.traditional && settings_.correction != Correction::none) {
+        apply_drags(loop);
+    }
     for (std::size_t i = 0; i < most_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         Pointer& pointer = pointers_[i];
@@ -446,6 +499,9 @@ void OperatorSide::feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxyS
         pointer.felt.hand = slot.hand + pointer.offset;
         pointer.felt.hand_velocity = slot.hand_velocity;
         pointer.felt.force_before = pointer.felt.force;
+        if (slot.parts.contact_count > 0) {
+            pointer.felt.proxy->set_sliding(slot.sliding);
+        }
         loop.touch(pointer.felt, now);
         if (corrected) {
             hide_correction(loop, pointer, slot, now);
@@ -480,26 +536,46 @@ void OperatorSide::hide_correction(SessionLoop& loop, Pointer& pointer, const Se
         loop.touch(pointer.felt, now);
         return;
     }
+    const Vec3 without = pointer.bridge.felt(pointer.felt.force);
     pointer.bridge = bridge(pointer.felt.force, pointer.force_before,
                             settings_.correction == Correction::stealthy_direction);
+    note_drift(
+        loop, pointer,
+        glm::length(pointer.bridge.felt(pointer.felt.force) - without) / stiffness_under(loop, pointer));
+}
+
+double OperatorSide::stiffness_under(const SessionLoop& loop, const Pointer& pointer) const {
+    const ProxyState& state = pointer.felt.state;
+    const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
+    return under ? std::max(1.0, loop.scene().body(under->slot).material.stiffness) : usual_stiffness;
+}
+
+void OperatorSide::note_drift(const SessionLoop& loop, Pointer& pointer, double way) const {
+    const double unnoticed = settings_.stealth.share *
+                             just_noticeable(settings_.stealth, glm::length(pointer.felt.force)) /
+                             stiffness_under(loop, pointer);
+    pointer.drift.carried(settings_.stealth, way, unnoticed);
 }
 
 void OperatorSide::fade(const SessionLoop& loop, Pointer& pointer) {
+    pointer.drift.pass(settings_.stealth, seconds_);
     if (pointer.felt.state.contact_count == 0) {
         pointer.offset = faded(pointer.offset, settings_.stealth.free_speed * seconds_);
         pointer.bridge = {};
         return;
     }
-    const double force = glm::length(pointer.felt.force);
-    double change = unnoticed_change(settings_.stealth, force, seconds_);
-    statistics_.cost.faded = pointer.offset != Vec3(0.0) || !pointer.bridge.is_none() ? change : 0.0;
-    if (pointer.offset != Vec3(0.0) && !pointer.bridge.is_none()) {
-        change *= 0.5;
+    if (pointer.offset == Vec3(0.0) && pointer.bridge.is_none()) {
+        return;
     }
-    const SessionLoop::Body* const under = const_cast<SessionLoop&>(loop).body(pointer.felt.state.bodies[0]);
-    const double stiffness = under ? loop.scene().body(under->slot).material.stiffness : usual_stiffness;
-    pointer.offset = faded(pointer.offset, change / std::max(stiffness, 1.0));
-    pointer.bridge = faded(pointer.bridge, force, change);
+    const double force = glm::length(pointer.felt.force);
+    const double stiffness = stiffness_under(loop, pointer);
+    const double change = unnoticed_change(settings_.stealth, force, seconds_);
+    statistics_.cost.faded = change;
+    const double share = pointer.offset != Vec3(0.0) && !pointer.bridge.is_none() ? 0.5 : 1.0;
+    // Somewhat faster than what comes, so that what has gathered gets less.
+    const double drift = 1.5 * pointer.drift.rate() * seconds_;
+    pointer.offset = faded(pointer.offset, share * change / stiffness + drift);
+    pointer.bridge = faded(pointer.bridge, force, share * change + drift * stiffness);
 }
 
 // --- sending

@@ -60,6 +60,7 @@ private:
         bool active = false;          // else what is modelled is felt
         Vec3 offset{0.0};             // (unit: meters)
         ForceBridge bridge;
+        DriftRate drift;
         Vec3 force_before{0.0};  // felt in this tick if nothing were corrected (unit: newtons)
         // Traditional: what came last.
         Vec3 far_force{0.0};
@@ -83,14 +84,18 @@ private:
     void follow_far_side(SessionLoop& loop);
     bool tracks(SessionLoop& loop, std::size_t body) const;
     bool is_news(SessionLoop& loop, std::size_t body) const;
+    bool any_news(SessionLoop& loop) const;
     void find_targets(SessionLoop& loop, Derivation derivation);
     DerivationInput derivation_input(const Truth& truth, const BodyMotion& then, const BodyMotion& now) const;
     bool begin_replay(SessionLoop& loop);
+    void learn_drags(SessionLoop& loop);
+    void apply_drags(SessionLoop& loop) const;
     void replay(SessionLoop& loop);
     void replay_tick(SessionLoop& loop);
     void put_in_truth();
     void find_replayed_targets(SessionLoop& loop);
-    void correct(SessionLoop& loop, Nanoseconds now);
+    bool lands(SessionLoop& loop, Nanoseconds now);
+    void correct(SessionLoop& loop);
     Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
                            Nanoseconds now) const;
     bool carry(SessionLoop& loop, const Target& target, const Pose& motion);
@@ -99,6 +104,8 @@ private:
     void hide_correction(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot,
                          Nanoseconds now);
     void fade(const SessionLoop& loop, Pointer& pointer);
+    void note_drift(const SessionLoop& loop, Pointer& pointer, double way) const;
+    double stiffness_under(const SessionLoop& loop, const Pointer& pointer) const;
     void remember(SessionLoop& loop);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);
     void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, OperatorSample& sample) const;
@@ -111,6 +118,7 @@ private:
     StateHistory history_;
     std::vector<Past> past_;  // by sample
     std::vector<Truth> truths_;
+    std::vector<DragEstimate> drags_;
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::array<Pointer, most_proxies> pointers_;

@@ -14,6 +14,10 @@ SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
     return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
 }
 
+const SessionLoop::Body* SessionLoop::body(SessionHandle handle) const {
+    return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
+}
+
 // Enters the touch scene and the physics world together, or neither.
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {

@@ -65,6 +65,7 @@ public:
     double seconds() const { return seconds_; }
     std::size_t most_bodies() const { return bodies_.size(); }
     Body* body(SessionHandle handle);  // null where there is none
+    const Body* body(SessionHandle handle) const;
     ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
     const TouchScene& scene() const { return scene_; }
     SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
@@ -73,6 +74,8 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
+    // In this tick, besides all other forces; a body at rest is left alone (unit: meters per second squared).
+    void accelerate(SessionHandle handle, const Vec3& acceleration);
 
     // The body is elsewhere. With `rides`, or where a proxy rests on it, it has been elsewhere a tick ago,
     // too, and what rests on it comes along; else it runs into what is in its way. `previous`: where it was a

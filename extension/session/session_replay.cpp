@@ -18,6 +18,14 @@ bool SessionLoop::asleep(SessionHandle handle) {
     return !physics_.awake(bodies_[handle].id);
 }
 
+void SessionLoop::accelerate(SessionHandle handle, const Vec3& acceleration) {
+    const Body& pushed = bodies_[handle];
+    if (pushed.motion == Motion::Dynamic && physics_.awake(pushed.id)) {
+        physics_.apply_force(pushed.id, acceleration * physics_.mass(pushed.id),
+                             physics_.center_of_mass(pushed.id));
+    }
+}
+
 bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
     const int slot = bodies_[handle].slot;
     return std::ranges::any_of(proxy.touching(), [slot](const Contact& c) { return c.body == slot; });

@@ -11,6 +11,7 @@
 #include "core/teleop/control_scheme.hpp"
 #include "core/teleop/deadband.hpp"
 #include "core/teleop/derivation.hpp"
+#include "core/teleop/drag_estimate.hpp"
 #include "core/teleop/errors.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/stealth.hpp"
@@ -29,6 +30,7 @@ struct TeleopSettings {
     ControlScheme control = ControlScheme::spring;
     MotionThreshold threshold;
     StealthSettings stealth;
+    DragSettings drag;  // with re-simulation
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;      // samples that the far side keeps in hand at the start, 0 … 200

@@ -4,12 +4,19 @@
 
 namespace tactus {
 
+namespace {
+
+// Where a body has come to rest is said so many ticks longer: some of it is lost.
+constexpr std::uint64_t linger = 200;
+
+}  // namespace
+
 TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                                    std::shared_ptr<TeleopPort> port, std::uint64_t epoch)
     : settings_(settings),
       link_(link, std::move(port), epoch),
       seconds_(to_seconds(session.period)),
-      most_bodies_(session.most_bodies) {
+      moved_at_(session.most_bodies) {
     for (Pointer& pointer : pointers_) {
         pointer.buffer.set_settings(buffer_settings());
     }
@@ -123,8 +130,13 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     link_.port().statistics.publish(statistics_);
 }
 
-// States by need: what is awake often, everything now and then.
+// States by need: what moves often, everything now and then.
 void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
+    for (std::size_t i = 0; i < moved_at_.size(); ++i) {
+        if (const auto handle = static_cast<SessionHandle>(i); loop.body(handle) && !loop.asleep(handle)) {
+            moved_at_[i] = tick_;
+        }
+    }
     const bool everything = tick_ % std::max(1u, settings_.refresh_every) == 0;
     if (!everything && tick_ % std::max(1u, settings_.states_every) != 0) {
         return;
@@ -132,10 +144,11 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     ObjectStates message;
     message.true_at = now;
     message.newest_operator_sample = newest_applied_;
-    for (std::size_t i = 0; i < most_bodies_; ++i) {
+    for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
         const SessionLoop::Body* const body = loop.body(handle);
-        if (!body || (!everything && (body->motion == Motion::Static || loop.asleep(handle)))) {
+        const bool moves = moved_at_[i] > 0 && tick_ - moved_at_[i] < linger;
+        if (!body || (!everything && !moves)) {
             continue;
         }
         const BodyMotion motion = loop.motion(handle);

@@ -37,7 +37,7 @@ private:
     TeleopSettings settings_;
     TeleopLink link_;
     double seconds_;
-    std::size_t most_bodies_;
+    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;

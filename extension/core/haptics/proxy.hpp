@@ -74,6 +74,8 @@ public:
         stretch_ = memory.stretch;
         touching_ = memory.touching;
     }
+    // Whether dynamic or static friction holds it next, where another proxy knows.
+    void set_sliding(bool sliding) { sliding_ = sliding; }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
     bool pass_through(int body) { return surroundings_.pass_through(body); }
 

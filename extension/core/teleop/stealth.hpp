@@ -7,6 +7,8 @@
 // F is zero, so nothing is ever felt in free space, and the offset may fade fast there.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/teleop/body_motion.hpp"
@@ -32,6 +34,24 @@ struct StealthSettings {
     double window = 0.1;             // in which a change counts as one change (unit: seconds), > 0
     double free_speed = 0.5;         // at which the offset fades in free space (unit: meters per second), > 0
     double longest_offset = 0.1;     // more is not carried (unit: meters), >= 0
+};
+
+// How fast corrections come that are each too small to notice. They come where the model drifts, and the
+// drift takes back what they bring: fading as fast as they come changes nothing that can be felt.
+class DriftRate {
+public:
+    // A correction has carried the pointers by `way`; of that, no more than `unnoticed` counts (unit:
+    // meters).
+    void carried(const StealthSettings& settings, double way, double unnoticed) {
+        rate_ += std::min(way, unnoticed) / settings.window;
+    }
+    void pass(const StealthSettings& settings, double seconds) {
+        rate_ *= std::exp(-seconds / settings.window);
+    }
+    double rate() const { return rate_; }  // (unit: meters per second)
+
+private:
+    double rate_ = 0.0;
 };
 
 // The change of a force of this size that can just be noticed (unit: newtons).
