@@ -29,7 +29,11 @@ public:
         free_.pop_back();
         return handle;
     }
-    void give_back(SessionHandle handle) { free_.push_back(handle); }
+    void give_back(SessionHandle handle) {
+        if (handle != no_handle) {
+            free_.push_back(handle);
+        }
+    }
 
 private:
     std::vector<SessionHandle> free_;
@@ -105,12 +109,20 @@ struct Session::Impl {
     // Loop side. A command whose remains might find no room waits.
     std::uint32_t take_commands(std::uint32_t most) {
         std::uint32_t taken = 0;
-        while (taken < most && retired.size() < retired.capacity()) {
+        while (taken < most && retired.size() + 1 < retired.capacity()) {
             Command* const command = commands.front();
             if (!command) {
                 break;
             }
             Retired remains;
+            if (SessionLoop* const twin = loop.twin()) {
+                Command same;
+                if (duplicate(*command, same) && twin->take(same, remains)) {
+                    remains.handle = no_handle;  // given back once, by the loop itself
+                    retired.try_push(std::move(remains));
+                    remains = {};
+                }
+            }
             if (loop.take(*command, remains)) {
                 retired.try_push(std::move(remains));
             }
@@ -127,6 +139,7 @@ struct Session::Impl {
     SessionLoop loop;
 
     HandlePool bodies, devices, proxies;
+    bool has_twin = false;  // the side that was attached last has one
     std::deque<Command> backlog;
 };
 
@@ -153,13 +166,17 @@ AddResult Session::add_body(const BodyAddition& addition) {
     if (!body.ready()) {
         return {no_handle, body.error()};
     }
+    PreparedBody same_body;
+    if (impl_->has_twin) {
+        same_body = prepare(addition.description);
+    }
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
         return {no_handle, "the world already holds its limit of " +
                                std::to_string(impl_->settings.most_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    impl_->send(command::AddBody{handle, std::move(body), std::move(touch.shape),
+    impl_->send(command::AddBody{handle, std::move(body), std::move(same_body), std::move(touch.shape),
                                  with_texture(addition.touch_material, addition.texture.get()),
                                  addition.texture, addition.description.collision.layer,
                                  addition.description.pose, addition.description.motion});
@@ -239,8 +256,10 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(most_proxies) + " proxies: remove one"};
     }
-    impl_->send(command::AddProxy{
-        handle, std::make_unique<Proxy>(impl_->settings.most_parts, description.settings), description});
+    const auto make = [&] {
+        return std::make_unique<Proxy>(impl_->settings.most_parts, description.settings);
+    };
+    impl_->send(command::AddProxy{handle, make(), impl_->has_twin ? make() : nullptr, description});
     return {handle, {}};
 }
 
@@ -258,6 +277,11 @@ void Session::record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, Ses
     impl_->send(command::Record{ring, proxy, object});
 }
 
+void Session::attach(std::unique_ptr<TeleopSide> side) {
+    impl_->has_twin = side && side->twin();
+    impl_->send(command::Attach{std::move(side)});
+}
+
 bool Session::collect() {
     Retired remains;
     while (impl_->retired.try_pop(remains)) {
@@ -272,6 +296,7 @@ bool Session::collect() {
                 impl_->proxies.give_back(remains.handle);
                 break;
             case Retired::Kind::texture:
+            case Retired::Kind::side:
                 break;
         }
         remains = {};

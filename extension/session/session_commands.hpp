@@ -8,12 +8,14 @@
 #include "core/ports/device.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
+#include "session/teleop_side.hpp"
 
 namespace tactus::command {
 
 struct AddBody {
     SessionHandle handle;
     PreparedBody body;
+    PreparedBody same_body;  // for a twin; else empty
     std::shared_ptr<const TouchShape> shape;
     TouchMaterial material;
     std::shared_ptr<const HeightImage> texture;  // keeps material.texture alive
@@ -80,6 +82,7 @@ struct RemoveDevice {
 struct AddProxy {
     SessionHandle handle;
     std::unique_ptr<Proxy> proxy;
+    std::unique_ptr<Proxy> same_proxy;  // for a twin; else null
     ProxyDescription description;
 };
 struct SetProxy {
@@ -93,6 +96,9 @@ struct Record {
     RecorderRing<SessionRecord>* ring;
     SessionHandle proxy, object;
 };
+struct Attach {
+    std::unique_ptr<TeleopSide> side;  // null: detach
+};
 
 }  // namespace tactus::command
 
@@ -103,16 +109,21 @@ using Command = std::variant<command::AddBody, command::RemoveBody, command::Tel
                              command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
                              command::SetBodyDamping, command::SetGravity, command::AddDevice,
                              command::SetWorkspace, command::RemoveDevice, command::AddProxy,
-                             command::SetProxy, command::RemoveProxy, command::Record>;
+                             command::SetProxy, command::RemoveProxy, command::Record, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, device, proxy, texture } kind = Kind::body;
+    enum class Kind { body, device, proxy, texture, side } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
     std::unique_ptr<Proxy> proxy;
     std::shared_ptr<const HeightImage> texture;
+    std::unique_ptr<TeleopSide> side;
 };
+
+// The same command for a twin, where it concerns one: what it owns is taken from `command`. False where it
+// does not.
+bool duplicate(Command& command, Command& same);
 
 }  // namespace tactus

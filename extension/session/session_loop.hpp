@@ -12,23 +12,12 @@
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/session_commands.hpp"
+#include "session/teleop_side.hpp"
 
 namespace tactus {
 
 class SessionLoop {
 public:
-    SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
-
-    // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is
-    // something.
-    bool take(Command& command, Retired& retired);
-
-    // After the first bodies have come in and before the first tick.
-    void settle() { physics_.settle_broad_phase(); }
-
-    TickStatus tick(Nanoseconds now, TickTrace* trace);
-
-private:
     struct Body {
         BodyId id;
         int slot = -1;  // in the touch scene; -1: not in the loop
@@ -40,6 +29,74 @@ private:
         int ticks_left = 0;
     };
 
+    struct ProxySlot {
+        std::unique_ptr<Proxy> proxy;
+        ProxyDescription description;
+        Vec3 hand{0.0};           // in the world (unit: meters)
+        Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
+        Vec3 force{0.0};          // of the scene as it is here; what the hand is given is state.force
+                                  // (unit: newtons)
+        Vec3 force_before{0.0};   // one tick ago
+        HandForce parts;
+        bool sliding = false;
+        bool idle = false;  // a side says that nobody holds it: it touches nothing
+        EffectMemory effects;
+        ProxyState state;
+
+        bool present() const { return proxy && description.enabled; }
+    };
+
+    SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
+
+    // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is
+    // something.
+    bool take(Command& command, Retired& retired);
+
+    // After the first bodies have come in and before the first tick.
+    void settle() { physics_.settle_broad_phase(); }
+
+    TickStatus tick(Nanoseconds now, TickTrace* trace);
+
+    // Another loop that has to get every command, too.
+    SessionLoop* twin() { return side_ ? side_->twin() : nullptr; }
+
+    // --- for a side of teleoperation, inside its three calls (teleop_side.hpp)
+
+    double seconds() const { return seconds_; }
+    std::size_t most_bodies() const { return bodies_.size(); }
+    Body* body(SessionHandle handle);  // null where there is none
+    const Body* body(SessionHandle handle) const;
+    ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
+    const TouchScene& scene() const { return scene_; }
+    SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
+    DeviceSample device_sample(SessionHandle device) const;
+
+    // Where physics has the body after the last step.
+    BodyMotion motion(SessionHandle handle);
+    bool asleep(SessionHandle handle);
+    // In this tick, besides all other forces; a body at rest is left alone (unit: meters per second squared).
+    void accelerate(SessionHandle handle, const Vec3& acceleration);
+
+    // The body is elsewhere. With `rides`, or where a proxy rests on it, it has been elsewhere a tick ago,
+    // too, and what rests on it comes along; else it runs into what is in its way. `previous`: where it was a
+    // tick ago, if that is known better. Its rates change where `with_velocity` says so.
+    void correct(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides = false,
+                 const Pose* previous = nullptr);
+    bool rests_on(const Proxy& proxy, SessionHandle handle) const;
+
+    // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
+    void touch(ProxySlot& slot, Nanoseconds now);
+
+    // One tick of what does not face the world: no devices, no snapshots, no side. Corrections and the slots'
+    // hands are set in between.
+    void begin_replay_tick();
+    void end_replay_tick(Nanoseconds now);
+
+    // All that a replay starts from. False where `memory` is too small or the bodies are others now.
+    bool save(LoopMemento& memento);
+    bool restore(const LoopMemento& memento);
+
+private:
     struct DeviceSlot {
         Device* device = nullptr;
         Workspace workspace;
@@ -49,14 +106,6 @@ private:
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
         bool was_held = false;
-    };
-
-    struct ProxySlot {
-        std::unique_ptr<Proxy> proxy;
-        ProxyDescription description;
-        Vec3 force{0.0};  // on the hand, in the world (unit: newtons)
-        EffectMemory effects;
-        ProxyState state;
     };
 
     bool carry_out(command::AddBody& c, Retired& retired);
@@ -78,8 +127,8 @@ private:
     bool carry_out(command::SetProxy& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
     bool carry_out(command::Record& c, Retired&);
+    bool carry_out(command::Attach& c, Retired& retired);
 
-    Body* body(SessionHandle handle);
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
     void end_travel(SessionHandle handle);
     void travel();
@@ -87,16 +136,17 @@ private:
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void show_state(SessionHandle handle);
     void read_devices(Nanoseconds now);
-    void touch(ProxySlot& slot, Nanoseconds now);
-    Vec3 attract(const ProxySlot& slot);
+    void touch_all(Nanoseconds now);
+    void press_all();
+    Vec3 attract(const ProxySlot& slot, bool press);
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);
-    void press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding);
+    void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
     void step_physics();
     void publish(Nanoseconds now);
     void append_record(Nanoseconds now);
-    void describe(ProxySlot& slot, const ProxyTick& tick, const HandForce& force);
+    void describe(ProxySlot& slot, const ProxyTick& tick);
 
     SessionSettings settings_;
     double seconds_;  // of a tick
@@ -115,6 +165,7 @@ private:
     std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
     std::array<DeviceSlot, most_devices> devices_;
     std::array<ProxySlot, most_proxies> proxies_;
+    std::unique_ptr<TeleopSide> side_;  // null: nobody at the far side
     RecorderRing<SessionRecord>* recording_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
