@@ -15,6 +15,7 @@ struct LinkEmulator::Luck {
 
 namespace {
 
+constexpr int most_at_once = 1024;
 constexpr Nanoseconds beginning = std::numeric_limits<Nanoseconds>::min();
 
 // splitmix64 (Steele, Lea & Flood 2014), begun anew for every datagram from the seed and its number.
@@ -89,9 +90,10 @@ ReceivedDatagram LinkEmulator::receive(std::span<std::byte> into, Nanoseconds no
     return {};
 }
 
-// Takes over all that the link below has. One slot stays free to look at the next datagram in.
+// Takes over what the link below has; a flood is spread over ticks. One slot stays free to look at the next
+// datagram in.
 void LinkEmulator::admit(Nanoseconds now) {
-    for (;;) {
+    for (int i = 0; i < most_at_once; ++i) {
         const std::uint32_t slot = free_.back();
         Datagram& datagram = slots_[slot];
         const ReceivedDatagram received = inner_.receive(datagram.bytes, now);

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <string>
 
+#include "published_vectors.hpp"
 #include "shared/random_values.hpp"
 #include "wire_samples.hpp"
 
@@ -26,16 +26,6 @@ Bytes encoded(const Message& message, const PacketHeader& header = samples::head
 Refusal refusal_of(const Bytes& bytes) {
     Packet packet;
     return decode(bytes, packet);
-}
-
-std::string hex(const Bytes& bytes) {
-    std::string text;
-    for (const std::byte byte : bytes) {
-        constexpr const char* digits = "0123456789abcdef";
-        text += digits[std::to_integer<int>(byte >> 4)];
-        text += digits[std::to_integer<int>(byte & std::byte{15})];
-    }
-    return text;
 }
 
 // Two messages are the same when their bytes are.
@@ -246,17 +236,13 @@ TEST(Messages, AFragmentThatIsNotWhereItSaysIsRefused) {
 
 // The bytes that docs/wire_format.md describes, for a second implementation to read: tests/tools reads them.
 TEST(Messages, AreTheBytesOfThePublishedVectors) {
-    std::map<std::string, std::string> published;
-    std::ifstream file("tests/shared/wire_vectors.txt");
-    for (std::string name, bytes; file >> name >> bytes;) {
-        published[name] = bytes;
-    }
+    std::map<std::string, std::string> published = samples::published_vectors();
     const char* names[] = {
         "hello",   "bye",         "clock_request", "clock_answer",     "discovery_fragment",
         "removal", "acknowledge", "object_states", "operator_samples", "force"};
     const std::vector<Message> messages = samples::one_of_each();
     for (std::size_t i = 0; i < messages.size(); ++i) {
-        EXPECT_EQ(published[names[i]], hex(encoded(messages[i]))) << names[i];
+        EXPECT_EQ(published[names[i]], samples::hex(encoded(messages[i]))) << names[i];
     }
 }
 

@@ -3,9 +3,12 @@
 
 #include <cstring>
 #include <limits>
+#include <map>
+#include <string>
 
 #include "network/messages.hpp"
 #include "object_samples.hpp"
+#include "published_vectors.hpp"
 #include "shared/random_values.hpp"
 
 namespace tactus {
@@ -142,6 +145,15 @@ TEST(ObjectDescription, WhatIsTooLongIsNotSent) {
     description.object = 1;
     description.body.shapes = {{MeshShape{mesh, 0.0}, {}}};
     EXPECT_TRUE(encode_description(description).empty());
+}
+
+// For a second implementation to read: tests/tools does.
+TEST(ObjectDescription, IsTheBytesOfThePublishedVectors) {
+    const std::map<std::string, std::string> published = samples::published_vectors();
+    const Bytes bytes = encode_description(samples::object_of_all_shapes(5));
+    EXPECT_EQ(published.at("description"), samples::hex(bytes));
+    const ContentHash hash = content_hash(bytes);
+    EXPECT_EQ(published.at("description_hash"), samples::hex(std::as_bytes(std::span(hash))));
 }
 
 // BLAKE2b with 128 bits of digest, as RFC 7693 and Python's hashlib.blake2b(digest_size=16) have it.

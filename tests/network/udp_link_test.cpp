@@ -1,0 +1,299 @@
+// Real sockets on this machine. Waits are bounded by what a crowded machine may take; nothing asserts how
+// long anything took.
+#include "network/udp_link.hpp"
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <set>
+#include <thread>
+
+#include "network/endpoint.hpp"
+#include "network/link_emulator.hpp"
+#include "network/secure_link.hpp"
+#include "realtime/clock.hpp"
+#include "support/realtime_audit.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds ms = 1'000'000;
+constexpr Nanoseconds patience = 20 * nanoseconds_per_second;
+
+void nap() {
+    const timespec span{0, 200'000};
+    nanosleep(&span, nullptr);
+}
+
+// Until `done` says so, or patience ends.
+template <typename Done>
+bool eventually(Done&& done) {
+    for (const Nanoseconds end = monotonic_now() + patience; monotonic_now() < end; nap()) {
+        if (done()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+UdpSettings to(std::uint16_t remote_port, std::uint16_t local_port = 0) {
+    UdpSettings settings;
+    settings.remote_address = "127.0.0.1";
+    settings.remote_port = remote_port;
+    settings.local_address = "127.0.0.1";
+    settings.local_port = local_port;
+    return settings;
+}
+
+// A port that is free now.
+std::uint16_t free_port() {
+    UdpLink probe;
+    EXPECT_EQ(probe.open(to(9)), "");
+    return probe.local_port();
+}
+
+struct Pair {
+    Pair() {
+        const std::uint16_t first_port = free_port();
+        EXPECT_EQ(second.open(to(first_port)), "");
+        EXPECT_EQ(first.open(to(second.local_port(), first_port)), "");
+    }
+    UdpLink first, second;
+};
+
+std::vector<std::byte> bytes(std::size_t size, int fill) {
+    return std::vector<std::byte>(size, static_cast<std::byte>(fill));
+}
+
+TEST(UdpLink, CarriesDatagramsBothWays) {
+    Pair pair;
+    std::array<std::byte, most_datagram_bytes> buffer;
+    for (UdpLink* from : {&pair.first, &pair.second}) {
+        UdpLink& other = from == &pair.first ? pair.second : pair.first;
+        for (const std::size_t size : {std::size_t{1}, std::size_t{100}, most_datagram_bytes}) {
+            const Nanoseconds before = monotonic_now();
+            ASSERT_TRUE(from->send(bytes(size, 7), before));
+            ReceivedDatagram received;
+            ASSERT_TRUE(eventually([&] {
+                received = other.receive(buffer, monotonic_now());
+                return static_cast<bool>(received);
+            }));
+            EXPECT_EQ(received.bytes, size);
+            EXPECT_EQ(buffer[size - 1], std::byte{7});
+            EXPECT_GE(received.arrived, before);
+            EXPECT_LE(received.arrived, monotonic_now());
+        }
+    }
+    EXPECT_EQ(pair.first.figures().state, UdpState::open);
+    EXPECT_EQ(pair.first.figures().sent, 3u);
+    EXPECT_EQ(pair.first.figures().received, 3u);
+}
+
+TEST(UdpLink, RefusesTheEmptyAndTheTooLong) {
+    Pair pair;
+    EXPECT_FALSE(pair.first.send({}, 0));
+    EXPECT_FALSE(pair.first.send(bytes(most_datagram_bytes + 1, 0), 0));
+    EXPECT_EQ(pair.first.figures().no_room_to_send, 2u);
+}
+
+TEST(UdpLink, APortInUseIsSaidWithWhatToDo) {
+    UdpLink first, second;
+    ASSERT_EQ(first.open(to(9)), "");
+    const std::string error = second.open(to(9, first.local_port()));
+    EXPECT_EQ(error, "port " + std::to_string(first.local_port()) +
+                         " is in use by another program: end that one or choose another port");
+    EXPECT_EQ(second.figures().state, UdpState::closed);
+    first.close();
+    EXPECT_EQ(second.open(to(9, free_port())), "");
+}
+
+TEST(UdpLink, WrongAddressesAreSaidInWords) {
+    UdpLink link;
+    UdpSettings settings = to(9);
+    settings.remote_address = "not an address";
+    EXPECT_EQ(link.open(settings).find("the address \"not an address\" is not known"), 0u);
+    settings.remote_address = "";
+    EXPECT_NE(link.open(settings).find("no address"), std::string::npos);
+    settings = to(0);
+    EXPECT_NE(link.open(settings).find("no address"), std::string::npos);
+    settings = to(9);
+    settings.local_address = "192.0.2.1";  // a number kept for documents
+    EXPECT_NE(link.open(settings).find("not one of this machine"), std::string::npos);
+}
+
+TEST(UdpLink, AClosedLinkTakesNothingAndGivesNothing) {
+    UdpLink link;
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    EXPECT_FALSE(link.send(bytes(3, 1), 0));
+    EXPECT_FALSE(link.receive(buffer, 0));
+    EXPECT_EQ(link.local_port(), 0);
+    ASSERT_EQ(link.open(to(9)), "");
+    link.close();
+    link.close();
+    EXPECT_EQ(link.figures().state, UdpState::closed);
+}
+
+TEST(UdpLink, AFarSideThatIsNotThereIsNoticedAndMayComeLater) {
+    const std::uint16_t port = free_port();
+    UdpLink first;
+    ASSERT_EQ(first.open(to(port)), "");
+    ASSERT_TRUE(eventually([&] {
+        first.send(bytes(4, 1), 0);
+        return first.figures().state == UdpState::unreachable;
+    }));
+    EXPECT_GT(first.figures().unreachable, 0u);
+    UdpLink second;
+    ASSERT_EQ(second.open(to(first.local_port(), port)), "");
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    EXPECT_TRUE(eventually([&] {
+        first.send(bytes(4, 2), 0);
+        second.send(bytes(4, 3), 0);
+        return static_cast<bool>(second.receive(buffer, 0)) && first.figures().state == UdpState::open;
+    }));
+}
+
+TEST(UdpLink, StrangersAndGiantsAreDropped) {
+    Pair pair;
+    const int stranger = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    sockaddr_in target{};
+    target.sin_family = AF_INET;
+    target.sin_port = htons(pair.first.local_port());
+    target.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const auto* address = reinterpret_cast<const sockaddr*>(&target);
+    const std::vector<std::byte> datagram = bytes(50, 9);
+    ASSERT_GT(sendto(stranger, datagram.data(), datagram.size(), 0, address, sizeof target), 0);
+    ::close(stranger);
+
+    // From the right address, but longer than any of ours: by way of the second link's port.
+    const std::uint16_t second_port = pair.second.local_port();
+    pair.second.close();
+    const int giant = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    sockaddr_in own = target;
+    own.sin_port = htons(second_port);
+    ASSERT_EQ(bind(giant, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
+    const std::vector<std::byte> long_one = bytes(most_datagram_bytes + 1, 9);
+    const std::vector<std::byte> good = bytes(3, 5);
+    ASSERT_GT(sendto(giant, long_one.data(), long_one.size(), 0, address, sizeof target), 0);
+    ASSERT_EQ(sendto(giant, good.data(), 0, 0, address, sizeof target), 0);
+    ASSERT_GT(sendto(giant, good.data(), good.size(), 0, address, sizeof target), 0);
+    ::close(giant);
+
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    ReceivedDatagram received;
+    ASSERT_TRUE(eventually([&] { return (received = pair.first.receive(buffer, 0)).bytes != 0; }));
+    EXPECT_EQ(received.bytes, 3u);
+    EXPECT_EQ(pair.first.figures().oversized, 1u);
+    EXPECT_FALSE(pair.first.receive(buffer, 0));
+}
+
+TEST(UdpLink, WhatNobodyTakesIsBounded) {
+    UdpSettings settings = to(9);
+    settings.capacity = 8;
+    UdpLink first, second;
+    ASSERT_EQ(second.open(to(9)), "");
+    settings.remote_port = second.local_port();
+    ASSERT_EQ(first.open(settings), "");
+    settings = to(first.local_port(), second.local_port());
+    second.close();
+    ASSERT_EQ(second.open(settings), "");
+    EXPECT_TRUE(eventually([&] {
+        second.send(bytes(10, 1), 0);
+        return first.figures().no_room_to_take > 0;
+    }));
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    int waiting = 0;
+    while (first.receive(buffer, 0)) {
+        ++waiting;
+    }
+    EXPECT_GE(waiting, 8);
+}
+
+TEST(UdpLink, IsTheSameOverTheNewInternet) {
+    UdpLink first, second;
+    UdpSettings settings;
+    settings.local_address = settings.remote_address = "::1";
+    settings.remote_port = 9;
+    if (!first.open(settings).empty()) {
+        GTEST_SKIP() << "this machine has no IPv6";
+    }
+    const std::uint16_t first_port = first.local_port();
+    settings.remote_port = first_port;
+    ASSERT_EQ(second.open(settings), "");
+    first.close();
+    settings.local_port = first_port;
+    settings.remote_port = second.local_port();
+    ASSERT_EQ(first.open(settings), "");
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    EXPECT_TRUE(eventually([&] {
+        second.send(bytes(10, 1), 0);
+        return static_cast<bool>(first.receive(buffer, 0));
+    }));
+}
+
+// The thread that ticks touches no lock of the network thread's, allocates nothing and makes no system call.
+TEST(UdpLink, TheHapticThreadWaitsForNobody) {
+    Pair pair;
+    EndpointSettings settings;
+    LinkEmulator emulator(pair.first, {}, 1);
+    SecureLink near_link(emulator, SecretKey{1}, 11);
+    SecureLink far_link(pair.second, SecretKey{1}, 22);
+    Endpoint near(near_link, settings);
+    settings.side = Side::teleoperator_side;
+    settings.epoch = 2;
+    Endpoint far(far_link, settings);
+    int received = 0;
+    std::atomic<bool> done{false};
+    const testing::LockAudit locks;
+    std::thread far_side([&] {
+        while (!done) {
+            far.begin_tick(monotonic_now());
+            while (far.receive() != nullptr) {
+            }
+            far.send(ForceSample{});
+            far.end_tick();
+            nap();
+        }
+        far.leave();
+    });
+    std::size_t offences = 0;
+    std::string first_offence;
+    const Nanoseconds end = monotonic_now() + patience;
+    while (monotonic_now() < end && (received < 200 || near.statistics().clock.exchanges < 3)) {
+        testing::AuditScope audit;
+        near.begin_tick(monotonic_now());
+        while (near.receive() != nullptr) {
+            ++received;
+        }
+        near.send(ForceSample{});
+        near.end_tick();
+        audit.finish();
+        const std::size_t found =
+            audit.allocations() + audit.frees() + audit.locks() + audit.waits() + audit.system_calls();
+        first_offence = offences == 0 && found != 0 ? audit.describe() : first_offence;
+        offences += found;
+        nap();
+    }
+    done = true;
+    far_side.join();
+    EXPECT_GE(received, 200);
+    EXPECT_TRUE(near.connected());
+    EXPECT_EQ(offences, 0u) << first_offence;
+    EXPECT_TRUE(locks.shared_locks().empty());
+}
+
+TEST(UdpLink, ClosingSendsWhatWasSaidLast) {
+    Pair pair;
+    pair.first.send(bytes(5, 42), 0);
+    pair.first.close();
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    ReceivedDatagram received;
+    ASSERT_TRUE(eventually([&] { return (received = pair.second.receive(buffer, 0)).bytes != 0; }));
+    EXPECT_EQ(buffer[0], std::byte{42});
+}
+
+}  // namespace
+}  // namespace tactus
