@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/haptics/nearest_surface.hpp"
 
@@ -20,10 +21,11 @@ constexpr double usual_stiffness = 500.0;
 
 OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& room,
                            const TeleopSettings& settings, Link& link, std::shared_ptr<TeleopPort> port,
-                           std::uint64_t epoch)
+                           const EndpointSettings& endpoint)
     : settings_(settings),
       room_(room),
-      link_(link, std::move(port), epoch),
+      link_(link, endpoint),
+      port_(std::move(port)),
       seconds_(to_seconds(session.period)),
       history_(room.most_tracked, room.samples),
       past_(room.samples),
@@ -47,12 +49,13 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
 // --- receiving
 
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (link_.port().settings.refresh()) {
-        settings_ = link_.port().settings.front();
+    if (port_->settings.refresh()) {
+        settings_ = port_->settings.front();
     }
+    link_.begin_tick(now);
     ++sample_;
     remember_hands(loop, now);
-    receive(loop, now);
+    receive(loop);
     statistics_.cost = {};
     targets_.clear();
     if (settings_.traditional) {
@@ -89,24 +92,57 @@ void OperatorSide::remember_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
-void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
+void OperatorSide::receive(SessionLoop& loop) {
     ObjectBinding binding;
-    while (link_.port().bindings.try_pop(binding)) {
+    while (port_->bindings.try_pop(binding)) {
         if (binding.object < body_of_object_.size() && binding.body < object_of_body_.size()) {
             body_of_object_[binding.object] = binding.body;
             object_of_body_[binding.body] = binding.object;
         }
     }
-    while (link_.receive(packet_, now)) {
-        if (link_.peer_is_new()) {
-            std::ranges::fill(truths_, Truth{});
-            replaying_ = false;
+    while (const Endpoint::Received* const received = link_.receive()) {
+        if (received->packet.header.epoch != peer_epoch_) {
+            if (std::exchange(peer_epoch_, received->packet.header.epoch) != 0) {
+                forget_far_side();
+            }
         }
-        if (const auto* const states = std::get_if<ObjectStates>(&packet_.message)) {
+        restart_waits_ = restart_waits_ && !port_->discovery.put_restart();
+        const Message& message = received->packet.message;
+        if (const auto* const states = std::get_if<ObjectStates>(&message)) {
             take(*states, loop);
-        } else if (const auto* const force = std::get_if<ForceSample>(&packet_.message)) {
+        } else if (const auto* const force = std::get_if<ForceSample>(&message)) {
             take(*force);
+        } else if (const auto* const piece = std::get_if<DiscoveryFragment>(&message)) {
+            if (!restart_waits_) {
+                port_->discovery.put(*piece);
+            }
+        } else if (const auto* const removal = std::get_if<ObjectRemoval>(&message)) {
+            if (!restart_waits_) {
+                port_->discovery.put(*removal);
+            }
         }
+    }
+}
+
+// Another start of the far side: nothing that the last one said holds.
+void OperatorSide::forget_far_side() {
+    std::ranges::fill(truths_, Truth{});
+    std::ranges::fill(body_of_object_, no_handle);
+    std::ranges::fill(object_of_body_, no_object);
+    for (Pointer& pointer : pointers_) {
+        pointer.far_force = Vec3(0.0);
+        pointer.far_sample = no_sample;
+    }
+    truth_at_ = no_sample;
+    replaying_ = false;
+    restart_waits_ = true;
+}
+
+void OperatorSide::acknowledge() {
+    constexpr int most_a_tick = 8;
+    DiscoveryAcknowledgement acknowledgement;
+    for (int i = 0; i < most_a_tick && port_->discovery.next_acknowledgement(acknowledgement); ++i) {
+        link_.send(acknowledgement);
     }
 }
 
@@ -483,7 +519,7 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
         if (settings_.traditional) {
             slot.state.hand = slot.hand;
             slot.state.position = pointer.far_sample != no_sample ? pointer.far_proxy : slot.hand;
-            slot.state.force = link_.peer_present(now, settings_.patience) ? pointer.far_force : Vec3(0.0);
+            slot.state.force = link_.hears_peer() ? pointer.far_force : Vec3(0.0);
             continue;
         }
         feel(loop, pointer, slot, now);
@@ -589,11 +625,11 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
             send_sample(loop, i, now);
         }
     }
-    link_.send_outgoing(now);
+    acknowledge();
+    link_.end_tick();
     statistics_.sample = sample_;
-    statistics_.peer_present = link_.peer_present(now, settings_.patience);
-    link_.count(statistics_);
-    link_.port().statistics.publish(statistics_);
+    statistics_.link = link_.statistics();
+    port_->statistics.publish(statistics_);
 }
 
 void OperatorSide::remember(SessionLoop& loop) {
@@ -628,7 +664,8 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
         const Vec3 guessed = guessed_position(last.position, last.velocity,
                                               static_cast<double>(sample_ - last.sequence) * seconds_);
         if (!position_needs_sending(settings_.deadband, guessed, sample.position, sample.velocity) &&
-            !force_needs_sending(settings_.deadband, last.force, sample.force) &&
+            !(uses_force(settings_.control) &&
+              force_needs_sending(settings_.deadband, last.force, sample.force)) &&
             sample.buttons == last.buttons) {
             return;
         }
@@ -644,7 +681,7 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     message.count = static_cast<std::uint16_t>(
         std::min<std::size_t>(pointer.sent_count, std::max(1u, settings_.repeats)));
     std::copy_n(pointer.sent.begin(), message.count, message.samples.begin());
-    link_.send(message, now);
+    link_.send(message);
 }
 
 void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot,

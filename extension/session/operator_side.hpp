@@ -12,7 +12,7 @@
 
 #include "core/teleop/state_history.hpp"
 #include "session/session_loop.hpp"
-#include "session/teleop_link.hpp"
+#include "session/teleop_port.hpp"
 
 namespace tactus {
 
@@ -28,7 +28,7 @@ struct OperatorRoom {
 class OperatorSide final : public TeleopSide {
 public:
     OperatorSide(const SessionSettings& session, const OperatorRoom& room, const TeleopSettings& settings,
-                 Link& link, std::shared_ptr<TeleopPort> port, std::uint64_t epoch);
+                 Link& link, std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint);
 
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds now) override;
@@ -79,7 +79,9 @@ private:
 
     void take(const ObjectStates& states, SessionLoop& loop);
     void take(const ForceSample& force);
-    void receive(SessionLoop& loop, Nanoseconds now);
+    void receive(SessionLoop& loop);
+    void acknowledge();
+    void forget_far_side();
     void remember_hands(SessionLoop& loop, Nanoseconds now);
     void follow_far_side(SessionLoop& loop);
     bool tracks(SessionLoop& loop, std::size_t body) const;
@@ -112,7 +114,8 @@ private:
 
     TeleopSettings settings_;
     OperatorRoom room_;
-    TeleopLink link_;
+    Endpoint link_;
+    std::shared_ptr<TeleopPort> port_;
     double seconds_;  // of a tick
     SampleSequence sample_ = no_sample;
     StateHistory history_;
@@ -133,7 +136,8 @@ private:
     SampleSequence replayed_ = no_sample;  // the newest sample that the twin has applied
     SampleSequence truth_at_ = no_sample;
     std::vector<Target> replay_truth_;
-    Packet packet_;
+    std::uint64_t peer_epoch_ = 0;  // whose states are known
+    bool restart_waits_ = false;    // the owner has not been told yet
 };
 
 }  // namespace tactus

@@ -1,11 +1,12 @@
 // What the owner of a session and a side of its teleoperation say to each other while the loop runs.
 //
-// Threads: settings, bindings and outgoing belong to the owner's writing end and the loop's reading end,
-// statistics and incoming the other way round. Nobody waits.
+// Threads: into settings, bindings, announced and withdrawn the owner writes and the loop reads; statistics
+// and released go the other way; `discovery` says itself who calls what. Nobody waits.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <memory>
+#include <vector>
 
 #include "core/ports/link.hpp"
 #include "core/teleop/control_scheme.hpp"
@@ -15,7 +16,9 @@
 #include "core/teleop/errors.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/stealth.hpp"
-#include "network/messages.hpp"
+#include "network/discovery_receiver.hpp"
+#include "network/discovery_sender.hpp"
+#include "network/endpoint.hpp"
 #include "realtime/spsc_ring.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/session_types.hpp"
@@ -33,30 +36,25 @@ struct TeleopSettings {
     DragSettings drag;  // with re-simulation
     StandInSettings stand_in;
     DeadbandSettings deadband;
-    std::uint32_t buffer_depth = 0;      // samples that the far side keeps in hand at the start, 0 … 200
-    std::uint32_t states_every = 5;      // ticks between states of what moves, >= 1
-    std::uint32_t refresh_every = 200;   // ticks between states of everything, >= 1
-    std::uint32_t repeats = 9;           // samples in one packet, the newest and older ones, 1 … 9
-    std::uint32_t replay_steps = 32;     // ticks of the past that are replayed in one tick, >= 1
-    Nanoseconds patience = 500'000'000;  // without a packet, then the other side is gone
+    std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
+    std::uint32_t states_every = 10;    // ticks between states of what moves, >= 1
+    std::uint32_t refresh_every = 200;  // ticks between states of everything, >= 1
+    std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
+    std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
 };
 
 struct TeleopStatistics {
     std::uint64_t sample = 0;  // operator: the newest of its own; far side: the newest applied
-    std::uint64_t packets_sent = 0, bytes_sent = 0;
-    std::uint64_t packets_received = 0, bytes_received = 0;
-    std::uint64_t packets_refused_by_link = 0;
-    RefusalCounts refused;
+    LinkStatistics link;
+    DiscoveryCounts discovery;          // far side
     std::uint64_t unknown_objects = 0;  // states of objects that are not there
     std::uint64_t stale_states = 0;     // older than what is known
     std::uint64_t corrections = 0;      // ticks in which the model was corrected
     std::uint64_t replays = 0;          // that were begun
-    std::uint64_t restarts = 0;         // of the other side
-    bool peer_present = false;
-    double round_trip = 0.0;          // from a sample to what answers it (unit: seconds)
-    CorrectionCost cost;              // of the last tick
-    double largest_force_step = 0.0;  // (unit: newtons)
-    double offset = 0.0;              // how far the pointers are carried (unit: meters)
+    double round_trip = 0.0;            // from a sample to what answers it (unit: seconds)
+    CorrectionCost cost;                // of the last tick
+    double largest_force_step = 0.0;    // (unit: newtons)
+    double offset = 0.0;                // how far the pointers are carried (unit: meters)
     BufferCounts buffer;
     std::uint64_t buffer_depth = 0;
 };
@@ -67,18 +65,18 @@ struct ObjectBinding {
     SessionHandle body = no_handle;
 };
 
-struct Letter {
-    std::size_t bytes = 0;
-    Nanoseconds arrived = 0;
-    std::array<std::byte, most_datagram_bytes> datagram;
-};
-
 struct TeleopPort {
     TripleBuffer<TeleopSettings> settings;
     TripleBuffer<TeleopStatistics> statistics;
+
+    // Operator: what the far side describes, and which body that is here.
+    DiscoveryReceiver discovery;
     SpscRing<ObjectBinding> bindings{1024};
-    SpscRing<Letter> incoming{64};  // datagrams that are for the owner: discovery
-    SpscRing<Letter> outgoing{64};  // of the owner, sent by the loop
+
+    // Far side: what is to be described, what is gone, and contents to be destroyed.
+    SpscRing<PreparedDiscovery> announced{1024};
+    SpscRing<ObjectId> withdrawn{1024};
+    SpscRing<std::shared_ptr<const std::vector<std::byte>>> released{2048};
 };
 
 }  // namespace tactus

@@ -12,9 +12,10 @@ constexpr std::uint64_t linger = 200;
 }  // namespace
 
 TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
-                                   std::shared_ptr<TeleopPort> port, std::uint64_t epoch)
+                                   std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
     : settings_(settings),
-      link_(link, std::move(port), epoch),
+      link_(link, endpoint),
+      port_(std::move(port)),
       seconds_(to_seconds(session.period)),
       moved_at_(session.most_bodies) {
     for (Pointer& pointer : pointers_) {
@@ -31,45 +32,76 @@ JitterBufferSettings TeleoperatorSide::buffer_settings() const {
 }
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (link_.port().settings.refresh()) {
-        settings_ = link_.port().settings.front();
+    link_.begin_tick(now);
+    take_orders();
+    ++tick_;
+    receive();
+    if (!link_.hears_peer()) {
+        release_hands();
+    }
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        if (SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
+            play(loop, pointers_[i], slot);
+        }
+    }
+}
+
+void TeleoperatorSide::take_orders() {
+    if (port_->settings.refresh()) {
+        settings_ = port_->settings.front();
         for (Pointer& pointer : pointers_) {
             pointer.buffer.set_settings(buffer_settings());
         }
     }
-    ++tick_;
-    receive(now);
-    const bool present = link_.peer_present(now, settings_.patience);
-    for (std::size_t i = 0; i < most_proxies; ++i) {
-        SessionLoop::ProxySlot& slot = loop.proxy(i);
-        if (!slot.proxy) {
-            continue;
-        }
-        if (!present && pointers_[i].holds) {
-            pointers_[i].holds = false;
-            pointers_[i].buffer.restart();
-        }
-        play(loop, pointers_[i], slot);
+    while (PreparedDiscovery* const announced = port_->announced.front()) {
+        discovery_.announce(*announced);
+        port_->released.try_push(std::move(announced->content));
+        port_->announced.pop();
+    }
+    ObjectId gone = no_object;
+    while (port_->withdrawn.try_pop(gone)) {
+        std::shared_ptr<const std::vector<std::byte>> content;
+        discovery_.withdraw(gone, content);
+        port_->released.try_push(std::move(content));
     }
 }
 
-void TeleoperatorSide::receive(Nanoseconds now) {
-    while (link_.receive(packet_, now)) {
-        if (link_.peer_is_new()) {
-            newest_applied_ = no_sample;
-            for (Pointer& pointer : pointers_) {
-                pointer.buffer.restart();
-                pointer.holds = false;
-            }
+void TeleoperatorSide::receive() {
+    while (const Endpoint::Received* const received = link_.receive()) {
+        if (received->packet.header.epoch != peer_epoch_) {
+            peer_epoch_ = received->packet.header.epoch;
+            release_hands();
+            discovery_.restart();
         }
-        if (const auto* const samples = std::get_if<OperatorSamples>(&packet_.message)) {
+        const Message& message = received->packet.message;
+        if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
             for (std::size_t i = 0; i < samples->count; ++i) {
-                const OperatorSample& sample = samples->samples[i];
-                if (sample.pointer < most_proxies) {
-                    pointers_[sample.pointer].buffer.insert(sample);
+                if (samples->samples[i].pointer < most_proxies) {
+                    pointers_[samples->samples[i].pointer].buffer.insert(samples->samples[i]);
                 }
             }
+        } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&message)) {
+            discovery_.take(*known);
         }
+    }
+}
+
+// Nobody is there: the pointers touch nothing, and what comes next is a new beginning.
+void TeleoperatorSide::release_hands() {
+    newest_applied_ = no_sample;
+    for (Pointer& pointer : pointers_) {
+        if (pointer.buffer.counts().exact > 0) {
+            pointer.buffer.restart();
+        }
+        pointer.holds = false;
+    }
+}
+
+void TeleoperatorSide::describe(Nanoseconds now) {
+    constexpr int most_a_tick = 2;
+    Message message;
+    for (int i = 0; i < most_a_tick && link_.hears_peer() && discovery_.next(now, message); ++i) {
+        link_.send(message);
     }
 }
 
@@ -121,13 +153,14 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
             send_force(loop, i, now);
         }
     }
-    link_.send_outgoing(now);
+    describe(now);
+    link_.end_tick();
     statistics_.sample = newest_applied_;
-    statistics_.peer_present = link_.peer_present(now, settings_.patience);
     statistics_.buffer = pointers_[0].buffer.counts();
     statistics_.buffer_depth = pointers_[0].buffer.depth();
-    link_.count(statistics_);
-    link_.port().statistics.publish(statistics_);
+    statistics_.link = link_.statistics();
+    statistics_.discovery = discovery_.counts();
+    port_->statistics.publish(statistics_);
 }
 
 // States by need: what moves often, everything now and then.
@@ -155,12 +188,12 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
         message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), motion.pose,
                                            motion.linear_velocity, motion.angular_velocity};
         if (message.count == ObjectStates::most) {
-            link_.send(message, now);
+            link_.send(message);
             message.count = 0;
         }
     }
     if (message.count > 0) {
-        link_.send(message, now);
+        link_.send(message);
     }
 }
 
@@ -178,7 +211,7 @@ void TeleoperatorSide::send_force(SessionLoop& loop, std::size_t index, Nanoseco
     message.force = state.force;
     message.proxy = state.position;
     message.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
-    if (link_.send(message, now)) {
+    if (link_.send(message)) {
         pointer.force_sent = state.force;
         pointer.force_sent_at = now;
     }

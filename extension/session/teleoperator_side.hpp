@@ -3,14 +3,14 @@
 #pragma once
 
 #include "session/session_loop.hpp"
-#include "session/teleop_link.hpp"
+#include "session/teleop_port.hpp"
 
 namespace tactus {
 
 class TeleoperatorSide final : public TeleopSide {
 public:
     TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
-                     std::shared_ptr<TeleopPort> port, std::uint64_t epoch);
+                     std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint);
 
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop&, Nanoseconds) override {}
@@ -26,7 +26,10 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
-    void receive(Nanoseconds now);
+    void take_orders();
+    void receive();
+    void release_hands();
+    void describe(Nanoseconds now);
     void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
@@ -35,14 +38,16 @@ private:
     void send_force(SessionLoop& loop, std::size_t index, Nanoseconds now);
 
     TeleopSettings settings_;
-    TeleopLink link_;
+    Endpoint link_;
+    std::shared_ptr<TeleopPort> port_;
+    DiscoverySender discovery_;
+    std::uint64_t peer_epoch_ = 0;
     double seconds_;
     std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;
     TeleopStatistics statistics_;
-    Packet packet_;
 };
 
 }  // namespace tactus

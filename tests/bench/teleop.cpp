@@ -4,7 +4,8 @@
 //     radius METERS | limit NEWTONS
 //     path circle CX CY CZ RADIUS AMPLITUDE TURN_SECONDS WAVES
 //     path keys SECONDS X Y Z  SECONDS X Y Z …
-//     body NAME static|dynamic MASS FRICTION RESTITUTION STIFFNESS DAMPING STATIC DYNAMIC X Y Z  QW QX QY QZ
+//     body NAME static|dynamic MASS FRICTION RESTITUTION  STIFFNESS DAMPING STATIC DYNAMIC
+//          X Y Z  QW QX QY QZ  LINEAR_DAMPING ANGULAR_DAMPING
 //     box HX HY HZ  X Y Z  QW QX QY QZ      (of the last body; half extents, then where in the body)
 //     sphere R X Y Z
 //     case NAME key=value …
@@ -70,6 +71,7 @@ TeleopBody read_body(std::istream& in) {
         touch.damping >> touch.static_friction >> touch.dynamic_friction;
     d.motion = motion == "dynamic" ? Motion::Dynamic : Motion::Static;
     d.pose = read_pose(in);
+    in >> d.linear_damping >> d.angular_damping;
     return body;
 }
 

@@ -183,8 +183,8 @@ void write_rows(const std::string& path, const std::vector<Row>& rows) {
         put(row.far);
         put(row.model.position);
         put(row.truth.position);
-        file << ',' << (row.far_known ? position_error(row.model, row.truth) : 0.0) << ',' << row.offset << ',' << row.jnd_share
-             << '\n';
+        file << ',' << (row.far_known ? position_error(row.model, row.truth) : 0.0) << ',' << row.offset
+             << ',' << row.jnd_share << '\n';
     }
 }
 
@@ -324,11 +324,20 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment)
                    experiment.settings.correction != Correction::none;
 
     Place model(scene, experiment), truth(scene, experiment), direct(scene, experiment);
+    const auto endpoint = [&](Side side, std::uint64_t epoch) {
+        EndpointSettings one;
+        one.side = side;
+        one.scenario = experiment.settings.traditional ? 2 : 4;
+        one.epoch = epoch;
+        one.period = period;
+        return one;
+    };
     TeleopSettings at_first = experiment.settings;
     at_first.correction = experiment.correct_from_touch ? Correction::none : at_first.correction;
-    model.session.attach(std::make_unique<OperatorSide>(settings, room, at_first, seen, operator_port, 11));
-    truth.session.attach(
-        std::make_unique<TeleoperatorSide>(settings, experiment.settings, at_far, far_port, 12));
+    model.session.attach(std::make_unique<OperatorSide>(settings, room, at_first, seen, operator_port,
+                                                        endpoint(Side::operator_side, 11)));
+    truth.session.attach(std::make_unique<TeleoperatorSide>(settings, experiment.settings, at_far, far_port,
+                                                            endpoint(Side::teleoperator_side, 12)));
     model.fill(scene, experiment, true);
     truth.fill(scene, experiment, false);
     direct.fill(scene, experiment, false);
@@ -365,7 +374,7 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment)
             if (!answered.far_known) {
                 answered.far_known = true;
                 answered.truth = truth.object_pose();
-                answered.far = truth.pointer().force;
+                answered.far = truth.device.force;
             }
         }
         if (waiting_for_touch && model.pointer().contact_count > 0) {
@@ -377,10 +386,11 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment)
     const TeleopStatistics& ours = operator_port->statistics.front();
     const TeleopStatistics& theirs = far_port->statistics.front();
     figures["packets_per_s"] =
-        static_cast<double>(ours.packets_sent + theirs.packets_sent) / experiment.seconds;
-    figures["bytes_per_s"] = static_cast<double>(ours.bytes_sent + theirs.bytes_sent) / experiment.seconds;
-    figures["packets_forth_per_s"] = static_cast<double>(ours.packets_sent) / experiment.seconds;
-    figures["packets_back_per_s"] = static_cast<double>(theirs.packets_sent) / experiment.seconds;
+        static_cast<double>(ours.link.packets_sent + theirs.link.packets_sent) / experiment.seconds;
+    figures["bytes_per_s"] =
+        static_cast<double>(ours.link.bytes_sent + theirs.link.bytes_sent) / experiment.seconds;
+    figures["packets_forth_per_s"] = static_cast<double>(ours.link.packets_sent) / experiment.seconds;
+    figures["packets_back_per_s"] = static_cast<double>(theirs.link.packets_sent) / experiment.seconds;
     figures["corrections"] = static_cast<double>(ours.corrections);
     figures["replays"] = static_cast<double>(ours.replays);
     figures["samples_held"] = static_cast<double>(theirs.buffer.held);

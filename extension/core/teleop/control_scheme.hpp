@@ -16,6 +16,10 @@ enum class ControlScheme : std::uint8_t {
     position_force_relative,  // thesis 3: near an object to the place relative to it; in contact the force
 };
 
+inline bool uses_force(ControlScheme scheme) {
+    return scheme == ControlScheme::position_force || scheme == ControlScheme::position_force_relative;
+}
+
 struct StandInSettings {
     double speed = 1.0;   // of the hand in free space, scheme 1 (unit: meters per second), > 0
     double near = 0.03;   // how near an object is near, scheme 3 (unit: meters), > 0
