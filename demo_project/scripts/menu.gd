@@ -8,6 +8,7 @@ extends Control
 const SCENES := {
 	"Static: a sphere on the thesis's path": "res://static_testbed.tscn",
 	"Dynamic: a box that can be pushed": "res://dynamic_testbed.tscn",
+	"Materials: rubber, ice, sandpaper, steel, sponge": "res://materials.tscn",
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
 }
 

@@ -7,6 +7,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/shape_reading.hpp"
+#include "nodes/touch_values.hpp"
 
 namespace tactus {
 
@@ -14,10 +15,8 @@ using namespace godot;
 
 namespace {
 
-bool operator==(const TouchMaterial& a, const TouchMaterial& b) {
-    return a.stiffness == b.stiffness && a.damping == b.damping && a.static_friction == b.static_friction &&
-           a.dynamic_friction == b.dynamic_friction;
-}
+// Building a tree over so many takes about a millisecond.
+constexpr std::size_t most_triangles_at_once = 2000;
 
 bool operator==(const SurfaceMaterial& a, const SurfaceMaterial& b) {
     return a.friction == b.friction && a.restitution == b.restitution && a.rough == b.rough &&
@@ -61,40 +60,84 @@ void BodyMirror::remember_place(CollisionObject3D& body) {
     }
 }
 
-void BodyMirror::add(Session& session, const MirrorContext& context) {
+void BodyMirror::remove(Session& session) {
+    if (handle_ != no_handle) {
+        session.remove_body(handle_);
+        handle_ = no_handle;
+        shown_change_ = 0;
+    }
+}
+
+// Reads the body as it is and has a twin of it built: at once where that takes no time.
+void BodyMirror::plan(Session& session, const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
     key_ = shape_key(node);
     mesh_changes_ = HapticMesh::changes();
     makings_ = read_makings(node);
-    values_ = read_values(node, context.defaults);
-    shown_from_ = context.takes_effect;
     for (const Ref<Shape3D>& shape : shapes_of(node)) {
         if (!shape->is_connected("changed", context.on_shape_change)) {
             shape->connect("changed", context.on_shape_change);
         }
     }
-    BodyReading reading = read_shapes(node);
-    problems_ = std::move(reading.problems);
-    remember_place(node);
-    shapes_ = reading.addition;
-    if (!reading.touchable) {
+    shapes_ = read_shapes(node);
+    if (handle_ == no_handle) {
+        remember_place(node);
+    }
+    auto job = std::make_shared<Job>();
+    job->plan = {shapes_,          read_values(node, context.defaults),
+                 makings_,         place_,
+                 linear_velocity_, angular_velocity_,
+                 is_rigid(node)};
+    job_ = job;
+    if (shapes_.touchable) {
+        hold_still_in_godot(node);
+    }
+    if (triangle_count(shapes_) <= most_triangles_at_once) {
+        job->built = build_body(session, job->plan, run_serially);
+        job->done = true;
+        take_ready(session, context);
+    } else {
+        context.workers->add([job, &session, run = context.workers->runner()] {
+            job->built = build_body(session, job->plan, run);
+            job->done.store(true, std::memory_order_release);
+        });
+    }
+}
+
+void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
+    if (job_ == nullptr || !job_->done.load(std::memory_order_acquire) || body() == nullptr) {
         return;
     }
-    BodyAddition& addition = reading.addition;
-    put_into(addition, values_);
-    put_into(addition.description, makings_);
-    addition.description.pose = pose_of(place_);
-    addition.description.may_move = is_rigid(node);
-    addition.description.linear_velocity = from_godot(linear_velocity_);
-    addition.description.angular_velocity = from_godot(angular_velocity_);
-    const AddResult added = session.add_body(addition);
+    const std::shared_ptr<Job> job = std::move(job_);
+    job_.reset();
+    remove(session);
+    problems_ = std::move(job->built.problems);
+    if (!job->built.buildable) {
+        return;
+    }
+    AddResult added = session.add_body(std::move(job->built.body));
     handle_ = added.handle;
     if (handle_ == no_handle) {
-        problems_.push_back(added.error);
+        problems_.push_back(std::move(added.error));
         return;
     }
+    shown_from_ = context.takes_effect;
+    values_ = job->plan.values;
+    catch_up(session, job->plan);
+}
+
+// What has changed while the twin was built.
+void BodyMirror::catch_up(Session& session, const BodyPlan& plan) {
+    CollisionObject3D& node = *body();
     hold_still_in_godot(node);
+    remember_place(node);
+    if (!(place_ == plan.place)) {
+        session.teleport_body(handle_, pose_of(place_));
+    }
+    if (!(linear_velocity_ == plan.linear_velocity) || !(angular_velocity_ == plan.angular_velocity)) {
+        session.set_body_velocity(handle_, from_godot(linear_velocity_), from_godot(angular_velocity_));
+    }
 }
 
 bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) {
@@ -105,17 +148,14 @@ bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) 
         return false;
     }
     mesh_changes_ = HapticMesh::changes();
-    const BodyReading now = read_shapes(node);
-    return now.problems != problems_ ||
-           !same_shapes(now.addition.description.shapes, shapes_.description.shapes) ||
-           !same_shapes(now.addition.touch_shapes, shapes_.touch_shapes);
+    return !same_shapes(read_shapes(node), shapes_);
 }
 
 void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
     const BodyValues before = values_;
     values_ = read_values(*body(), defaults);
-    if (!(values_.touch == before.touch)) {
-        session.set_touch_material(handle_, values_.touch);
+    if (!same_values(values_.touch, before.touch) || values_.texture != before.texture) {
+        session.set_touch_material(handle_, values_.touch, values_.texture);
     }
     if (!(values_.surface == before.surface)) {
         session.set_body_surface(handle_, values_.surface);
@@ -166,13 +206,9 @@ void BodyMirror::synchronise(Session& session, const MirrorContext& context, dou
         return;
     }
     if (needs_a_new_twin(*node, context.shapes_changed)) {
-        if (handle_ != no_handle) {
-            session.remove_body(handle_);
-            handle_ = no_handle;
-            shown_change_ = 0;
-        }
-        add(session, context);
-        return;
+        plan(session, context);
+    } else {
+        take_ready(session, context);
     }
     if (handle_ != no_handle) {
         hold_still_in_godot(*node);
@@ -197,10 +233,8 @@ void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
 }
 
 void BodyMirror::release(Session& session) {
-    if (handle_ != no_handle) {
-        session.remove_body(handle_);
-        handle_ = no_handle;
-    }
+    remove(session);
+    job_.reset();
     tried_ = false;
     if (auto* rigid = Object::cast_to<RigidBody3D>(body())) {
         PhysicsServer3D::get_singleton()->body_set_mode(rigid->get_rid(), own_mode(*rigid));

@@ -2,12 +2,15 @@
 // moves is shown on Godot's side. Main thread only.
 #pragma once
 
+#include <atomic>
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/variant/callable.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "nodes/body_reading.hpp"
+#include "nodes/body_building.hpp"
+#include "nodes/workers.hpp"
 #include "session/session.hpp"
 
 namespace tactus {
@@ -18,6 +21,7 @@ struct MirrorContext {
     godot::Callable on_shape_change;  // is connected to the shapes
     bool shapes_changed = false;      // it was called since the last time
     std::uint64_t takes_effect = 0;   // the first tick that has certainly taken what is sent now
+    Workers* workers = nullptr;       // for bodies of many triangles
 };
 
 class BodyMirror {
@@ -31,6 +35,12 @@ public:
     // Brings the session up to date. What moved on Godot's side since the last call took `seconds` for it.
     void synchronise(Session& session, const MirrorContext& context, double seconds);
 
+    // A twin of many triangles is built beside the loop; until it is ready the body is as it was before, or
+    // absent.
+    bool is_building() const { return job_ != nullptr; }
+    // Hands over a twin that has become ready.
+    void take_ready(Session& session, const MirrorContext& context);
+
     // `tick` is the tick of the snapshot that the state is from.
     void apply(const BodyState& state, std::uint64_t tick);
 
@@ -41,7 +51,16 @@ public:
     const std::vector<std::string>& problems() const { return problems_; }
 
 private:
-    void add(Session& session, const MirrorContext& context);
+    // What is built, and what came of it. Shared with the thread that builds it.
+    struct Job {
+        BodyPlan plan;
+        BuiltBody built;
+        std::atomic<bool> done{false};
+    };
+
+    void plan(Session& session, const MirrorContext& context);
+    void remove(Session& session);
+    void catch_up(Session& session, const BodyPlan& plan);
     bool needs_a_new_twin(godot::CollisionObject3D& body, bool shapes_changed);
     void send_values(Session& session, const BodyDefaults& defaults);
     void send_motion(Session& session, double seconds, std::uint64_t takes_effect);
@@ -54,7 +73,8 @@ private:
     std::uint64_t mesh_changes_ = 0;
     BodyMakings makings_;
     BodyValues values_;
-    BodyAddition shapes_;       // only its shapes are of interest
+    BodyReading shapes_;        // as they were when the newest twin was planned
+    std::shared_ptr<Job> job_;  // null: nothing is being built
     godot::Transform3D place_;  // of Godot's body, when we last saw or set it
     godot::Vector3 linear_velocity_;
     godot::Vector3 angular_velocity_;

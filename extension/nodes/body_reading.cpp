@@ -37,17 +37,18 @@ Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
     return Ref<PhysicsMaterial>();
 }
 
-TouchMaterial touch_of(const Ref<PhysicsMaterial>& material, const TouchMaterial& otherwise) {
+void read_touch(const Ref<PhysicsMaterial>& material, const BodyDefaults& defaults, BodyValues& values) {
     if (const auto* haptic = Object::cast_to<HapticMaterial>(material.ptr())) {
-        return haptic->touch();
+        values.touch = haptic->touch();
+        values.texture = haptic->heights();
+        return;
     }
-    if (material.is_null()) {
-        return otherwise;
+    values.touch = defaults.touch;
+    values.texture = defaults.texture;
+    if (material.is_valid()) {
+        values.touch.static_friction = values.touch.dynamic_friction =
+            std::max(0.0, static_cast<double>(material->get_friction()));
     }
-    TouchMaterial touch = otherwise;
-    touch.static_friction = touch.dynamic_friction =
-        std::max(0.0, static_cast<double>(material->get_friction()));
-    return touch;
 }
 
 double damping_of(RigidBody3D::DampMode mode, double own, double project) {
@@ -110,11 +111,7 @@ HapticMesh* haptic_mesh_of(const CollisionObject3D& body) {
 
 ShapeKey shape_key(CollisionObject3D& body) {
     ShapeKey key;
-    key.scaling = scaling_of(body.get_global_transform().basis);
-    // A body that turns has its scaling rounded anew in every frame.
-    if (key.scaling.is_equal_approx(Basis())) {
-        key.scaling = Basis();
-    }
+    key.scaling = without_rounding(scaling_of(body.get_global_transform().basis));
     for_each_shape(body, [&key](const Ref<Shape3D>& shape, const Transform3D& place, Object*) {
         key.shapes.push_back({shape->get_instance_id(), place});
     });
@@ -137,36 +134,61 @@ BodyReading read_shapes(CollisionObject3D& body) {
         return reading;
     }
     const Basis scaling = shape_key(body).scaling;
-    BodyDescription& description = reading.addition.description;
     for_each_shape(body, [&](const Ref<Shape3D>& shape, const Transform3D& place, Object* owner) {
         ShapeReading one = read_shape(shape, Transform3D(scaling, Vector3()) * place);
         if (!one.error.empty()) {
             reading.problems.push_back(name_of_owner(owner) + one.error);
         }
-        std::move(one.shapes.begin(), one.shapes.end(), std::back_inserter(description.shapes));
+        for (MeshDraft& mesh : one.meshes) {
+            mesh.owner = name_of_owner(owner);
+        }
+        std::ranges::move(one.shapes, std::back_inserter(reading.shapes));
+        std::ranges::move(one.meshes, std::back_inserter(reading.meshes));
     });
     if (const HapticMesh* mesh = haptic_mesh_of(body)) {
         ShapeReading touched = mesh->read(scaling);
         if (!touched.error.empty()) {
             reading.problems.push_back(name_of_owner(mesh) + touched.error);
         }
-        reading.addition.touch_shapes = std::move(touched.shapes);
-        if (description.shapes.empty()) {
-            description.shapes = reading.addition.touch_shapes;
+        for (MeshDraft& draft : touched.meshes) {
+            draft.owner = name_of_owner(mesh);
         }
+        reading.touched = std::move(touched.meshes);
     }
-    reading.touchable = !description.shapes.empty();
+    reading.touchable = !reading.shapes.empty() || !reading.meshes.empty() || !reading.touched.empty();
     if (!reading.touchable && reading.problems.empty()) {
         reading.problems.push_back("it has no shape: give it a CollisionShape3D or a HapticMesh as a child");
     }
     return reading;
 }
 
+bool same_shapes(const BodyReading& a, const BodyReading& b) {
+    return a.problems == b.problems && same_shapes(a.shapes, b.shapes) && same_meshes(a.meshes, b.meshes) &&
+           same_meshes(a.touched, b.touched);
+}
+
+std::string problem_of(const MeshDraft& draft) {
+    const std::string& error = draft.source->triangles().error;
+    return error.empty() ? error : draft.owner + error;
+}
+
+std::vector<std::string> problems_of(const BodyReading& reading) {
+    std::vector<std::string> problems = reading.problems;
+    for (const std::vector<MeshDraft>* drafts : {&reading.meshes, &reading.touched}) {
+        for (const MeshDraft& draft : *drafts) {
+            if (std::string problem = problem_of(draft); !problem.empty()) {
+                problems.push_back(std::move(problem));
+            }
+        }
+    }
+    return problems;
+}
+
 BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaults) {
     BodyValues values;
     const Ref<PhysicsMaterial> material = material_of(body);
     values.motion = motion_of(body);
-    values.touch = touch_of(material, defaults.touch);
+    read_touch(material, defaults, values);
     if (material.is_valid()) {
         values.surface = {std::max(0.0, static_cast<double>(material->get_friction())),
                           std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0),
@@ -218,6 +240,7 @@ void put_into(BodyDescription& description, const BodyMakings& makings) {
 
 void put_into(BodyAddition& addition, const BodyValues& values) {
     addition.touch_material = values.touch;
+    addition.texture = values.texture;
     BodyDescription& description = addition.description;
     description.motion = values.motion;
     description.material = values.surface;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/haptics/touch_material.hpp"
+#include "nodes/shape_reading.hpp"
 #include "session/session.hpp"
 
 namespace tactus {
@@ -15,7 +16,8 @@ class HapticMesh;
 
 // What a world adds to each of its bodies.
 struct BodyDefaults {
-    TouchMaterial touch;           // of bodies without a physics_material_override
+    TouchMaterial touch;                         // of bodies without a physics_material_override
+    std::shared_ptr<const HeightImage> texture;  // of the same
     double linear_damping = 0.1;   // that Godot's project settings give to every rigid body (unit: 1/seconds)
     double angular_damping = 0.1;  // likewise
 };
@@ -47,18 +49,25 @@ ShapeKey shape_key(godot::CollisionObject3D& body);
 std::vector<godot::Ref<godot::Shape3D>> shapes_of(godot::CollisionObject3D& body);
 
 struct BodyReading {
-    BodyAddition addition;
+    std::vector<PlacedShape> shapes;    // that collide; touched, too, where there is no HapticMesh
+    std::vector<MeshDraft> meshes;      // likewise
+    std::vector<MeshDraft> touched;     // instead of these
     std::vector<std::string> problems;  // of single shapes; the rest of the body can still be touched
     bool touchable = false;             // false: nothing is left to touch, the problems say why
 };
 
-// Everything but the values below, which are cheap enough to ask for in every frame.
+// Everything but the values below, which are cheap enough to ask for in every frame. The triangles of meshes
+// are taken as they are; problems_of() looks at them, too.
 BodyReading read_shapes(godot::CollisionObject3D& body);
+bool same_shapes(const BodyReading& a, const BodyReading& b);
+std::vector<std::string> problems_of(const BodyReading& reading);
+std::string problem_of(const MeshDraft& draft);  // empty where the triangles are sound
 
 // What a running body can take over as it is, without being made anew.
 struct BodyValues {
     Motion motion = Motion::Static;
     TouchMaterial touch;
+    std::shared_ptr<const HeightImage> texture;  // null: none
     SurfaceMaterial surface;
     CollisionLayers layers;
     double gravity_scale = 1.0;

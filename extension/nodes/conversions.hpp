@@ -46,6 +46,11 @@ inline godot::Basis scaling_of(const godot::Basis& basis) {
     return godot::Basis(basis.get_rotation_quaternion()).transposed() * basis;
 }
 
+// A frame that turns has its scaling rounded anew each time; none at all stays none.
+inline godot::Basis without_rounding(const godot::Basis& scaling) {
+    return scaling.is_equal_approx(godot::Basis()) ? godot::Basis() : scaling;
+}
+
 inline godot::String to_godot(const std::string& text) {
     return godot::String::utf8(text.c_str());
 }

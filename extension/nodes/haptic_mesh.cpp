@@ -3,12 +3,12 @@
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/core/class_db.hpp>
+#include <numbers>
+#include <unordered_map>
 
-#include "core/geometry/mesh_check.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_library.hpp"
-#include "nodes/mesh_reading.hpp"
 #include "nodes/messages.hpp"
 
 namespace tactus {
@@ -26,8 +26,10 @@ std::uint64_t HapticMesh::changes() {
 }
 
 void HapticMesh::forget_triangles() {
-    is_read_ = false;
-    triangles_ = {};
+    if (source_ != nullptr) {
+        former_ = std::move(source_);
+    }
+    source_.reset();
     ++change_count;
     update_configuration_warnings();
 }
@@ -56,42 +58,65 @@ void HapticMesh::set_library_mesh(const String& name) {
     }
 }
 
-const HapticMesh::Triangles& HapticMesh::triangles() const {
-    if (is_read_) {
-        return triangles_;
+void HapticMesh::set_smoothing_angle(double angle) {
+    if (!is_at_least_zero(angle) || angle > std::numbers::pi) {
+        refuse(*this, "smoothing_angle", angle, "between 0 and pi");
+        return;
     }
-    is_read_ = true;
+    if (smoothing_angle_ != angle) {
+        smoothing_angle_ = angle;
+        ++change_count;
+    }
+}
+
+// Each mesh is read by the first node that asks; when it changes, by the first that asks again.
+std::shared_ptr<MeshSource> HapticMesh::source() const {
+    static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> by_mesh;
+    static std::unordered_map<std::uint32_t, std::weak_ptr<MeshSource>> by_name;
+    if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
+        return source_;
+    }
+    std::weak_ptr<MeshSource>& known =
+        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[library_mesh_.hash()];
+    source_ = known.lock();
+    if (source_ != nullptr && source_ != former_) {
+        former_.reset();
+        return source_;
+    }
     if (mesh_.is_valid()) {
-        auto mesh = std::make_shared<TriangleMesh>(mesh_from_resource(mesh_));
-        triangles_.error = check_mesh(*mesh);
-        triangles_.mesh = triangles_.error.empty() ? std::move(mesh) : nullptr;
-    } else if (library_mesh_.is_empty()) {
-        triangles_.error = "it has no mesh: set 'mesh', or 'library_mesh' to one of " +
-                           from_godot(String(", ").join(mesh_library_names()));
+        source_ = std::make_shared<MeshSource>(mesh_);
     } else {
         LibraryMesh loaded = load_library_mesh(library_mesh_);
-        triangles_ = {std::move(loaded.mesh), std::move(loaded.error)};
+        source_ = std::make_shared<MeshSource>(
+            MeshSource::Checked{std::move(loaded.mesh), std::move(loaded.error)});
     }
-    return triangles_;
+    if (former_ != nullptr) {
+        source_->succeed(*former_);
+        former_.reset();
+    }
+    known = source_;
+    std::erase_if(by_mesh, [](const auto& entry) { return entry.second.expired(); });
+    return source_;
 }
 
 ShapeReading HapticMesh::read(const Basis& body_scale) const {
-    const Triangles& source = triangles();
-    if (source.mesh == nullptr) {
-        return {{}, source.error};
+    ShapeReading reading;
+    const std::shared_ptr<MeshSource> triangles = source();
+    if (triangles == nullptr) {
+        reading.error = "it has no mesh: set 'mesh', or 'library_mesh' to one of " +
+                        from_godot(String(", ").join(mesh_library_names()));
+        return reading;
     }
     const Transform3D local = Transform3D(body_scale, Vector3()) * get_transform();
     if (!local.is_finite()) {
-        return {{}, "its transform is not made of finite numbers: reset it in the inspector"};
+        reading.error = "its transform is not made of finite numbers: reset it in the inspector";
+    } else if (local.basis.determinant() == 0) {
+        reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
+    } else {
+        reading.meshes.push_back(
+            {triangles, without_rounding(scaling_of(local.basis)), pose_of(local), smoothing_angle_, {}});
     }
-    if (local.basis.determinant() == 0) {
-        return {{}, "it is scaled to zero along an axis: give it a scale that is not zero"};
-    }
-    const Basis scaling = scaling_of(local.basis);
-    const auto mesh = scaling.is_equal_approx(Basis())
-                          ? source.mesh
-                          : std::make_shared<const TriangleMesh>(scaled(*source.mesh, scaling));
-    return {{PlacedShape{MeshShape{mesh}, pose_of(local)}}, {}};
+    return reading;
 }
 
 double HapticMesh::get_library_mass() const {
@@ -125,8 +150,10 @@ PackedStringArray HapticMesh::_get_configuration_warnings() const {
             "RigidBody3D.");
     }
     const ShapeReading reading = read(Basis());
-    if (!reading.error.empty()) {
-        warnings.push_back("This mesh cannot be touched: " + to_godot(reading.error) + ".");
+    const std::string error =
+        reading.meshes.empty() ? reading.error : reading.meshes.front().source->triangles().error;
+    if (!error.empty()) {
+        warnings.push_back("This mesh cannot be touched: " + to_godot(error) + ".");
     }
     return warnings;
 }
@@ -152,6 +179,8 @@ void HapticMesh::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_mesh"), &HapticMesh::get_mesh);
     ClassDB::bind_method(D_METHOD("set_library_mesh", "name"), &HapticMesh::set_library_mesh);
     ClassDB::bind_method(D_METHOD("get_library_mesh"), &HapticMesh::get_library_mesh);
+    ClassDB::bind_method(D_METHOD("set_smoothing_angle", "angle"), &HapticMesh::set_smoothing_angle);
+    ClassDB::bind_method(D_METHOD("get_smoothing_angle"), &HapticMesh::get_smoothing_angle);
     ClassDB::bind_method(D_METHOD("get_library_mass"), &HapticMesh::get_library_mass);
     ClassDB::bind_method(D_METHOD("get_library_source"), &HapticMesh::get_library_source);
     ClassDB::bind_method(D_METHOD("_resource_changed"), &HapticMesh::resource_changed);
@@ -163,6 +192,9 @@ void HapticMesh::_bind_methods() {
                  "get_mesh");
     ADD_PROPERTY(PropertyInfo(Variant::STRING, "library_mesh", PROPERTY_HINT_ENUM_SUGGESTION, ""),
                  "set_library_mesh", "get_library_mesh");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "smoothing_angle", PROPERTY_HINT_RANGE, "0,180,0.1,radians_as_degrees"),
+        "set_smoothing_angle", "get_smoothing_angle");
 }
 
 }  // namespace tactus

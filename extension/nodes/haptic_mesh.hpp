@@ -20,6 +20,10 @@ public:
     void set_library_mesh(const godot::String& name);
     godot::String get_library_mesh() const { return library_mesh_; }
 
+    // (unit: radians, 0 to pi)
+    void set_smoothing_angle(double angle);
+    double get_smoothing_angle() const { return smoothing_angle_; }
+
     double get_library_mass() const;
     godot::String get_library_source() const;
     static godot::PackedStringArray get_library_names();
@@ -28,7 +32,7 @@ public:
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
-    // out.
+    // out. Whether its triangles are sound shows when they are built.
     ShapeReading read(const godot::Basis& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
@@ -40,19 +44,16 @@ protected:
     void _validate_property(godot::PropertyInfo& property) const;
 
 private:
-    struct Triangles {
-        std::shared_ptr<const TriangleMesh> mesh;
-        std::string error;
-    };
-
-    const Triangles& triangles() const;
+    // Null where nothing is named; a source with an error where it cannot be read.
+    std::shared_ptr<MeshSource> source() const;
     void resource_changed();
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
     godot::String library_mesh_;
-    mutable Triangles triangles_;  // read once, when somebody asks
-    mutable bool is_read_ = false;
+    double smoothing_angle_ = 0.0;
+    mutable std::shared_ptr<MeshSource> source_;  // read once, when somebody asks
+    mutable std::shared_ptr<MeshSource> former_;  // until then: the one before the mesh changed
 };
 
 }  // namespace tactus

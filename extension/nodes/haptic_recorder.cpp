@@ -49,6 +49,11 @@ void HapticRecorder::set_trace_path(const String& path) {
     update_configuration_warnings();
 }
 
+void HapticRecorder::set_autostart(bool autostart) {
+    autostart_ = autostart;
+    update_configuration_warnings();
+}
+
 void HapticRecorder::set_trace_seconds(double seconds) {
     if (!is_above_zero(seconds)) {
         refuse(*this, "trace_seconds", seconds, "a finite number above 0");
@@ -84,8 +89,11 @@ PackedStringArray HapticRecorder::_get_configuration_warnings() const {
     if (is_inside_tree() && !problem().is_empty()) {
         warnings.push_back("This HapticRecorder cannot record all: " + problem() + ".");
     }
-    if (csv_path_.is_empty() && trace_path_.is_empty()) {
-        warnings.push_back("This HapticRecorder writes nothing: set 'csv_path', 'trace_path' or both.");
+    // Without autostart a script starts it, and may set the paths just before.
+    if (autostart_ && !has_file()) {
+        warnings.push_back(
+            "This HapticRecorder writes nothing: set 'csv_path', 'trace_path' or both, or switch 'autostart' "
+            "off where a script sets them.");
     }
     return warnings;
 }
@@ -112,6 +120,10 @@ bool HapticRecorder::start() {
     stop();
     rows_ = lost_ = 0;
     ticks_.clear();
+    if (!has_file()) {
+        fail("it has no file to write: set 'csv_path', 'trace_path' or both before it starts");
+        return false;
+    }
     csv_ = open(csv_path_);
     trace_file_ = open(trace_path_);
     if (csv_ == nullptr && trace_file_ == nullptr) {
@@ -182,7 +194,7 @@ void HapticRecorder::_notification(int what) {
     }
     if (what == NOTIFICATION_ENTER_TREE) {
         Roll<HapticRecorder>::enter(this);
-        if (autostart_ && !(csv_path_.is_empty() && trace_path_.is_empty())) {
+        if (autostart_ && has_file()) {
             start();
         }
     } else if (what == NOTIFICATION_EXIT_TREE) {

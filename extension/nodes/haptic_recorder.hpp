@@ -34,7 +34,7 @@ public:
     godot::String get_trace_path() const { return trace_path_; }
     void set_trace_seconds(double seconds);
     double get_trace_seconds() const { return trace_seconds_; }
-    void set_autostart(bool autostart) { autostart_ = autostart; }
+    void set_autostart(bool autostart);
     bool is_autostart() const { return autostart_; }
 
     bool start();
@@ -66,6 +66,7 @@ private:
     };
     using File = std::unique_ptr<std::FILE, FileCloser>;
 
+    bool has_file() const { return !(csv_path_.is_empty() && trace_path_.is_empty()); }
     File open(const godot::String& path);
     void write_trace();
     void fail(const godot::String& what);

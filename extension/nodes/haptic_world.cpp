@@ -81,7 +81,7 @@ void find_problems(const Node& node, PackedStringArray& problems) {
         Node* child = node.get_child(i);
         if (is_solid_body(child)) {
             for (const std::string& problem :
-                 read_shapes(*Object::cast_to<CollisionObject3D>(child)).problems) {
+                 problems_of(read_shapes(*Object::cast_to<CollisionObject3D>(child)))) {
                 problems.push_back("'" + String(child->get_name()) +
                                    "' cannot be touched as it should be: " + to_godot(problem) + ".");
             }
@@ -164,6 +164,10 @@ void HapticWorld::set_measure_baseline(bool measure) {
 
 TouchMaterial HapticWorld::default_touch() const {
     return default_material_.is_valid() ? default_material_->touch() : TouchMaterial{};
+}
+
+std::shared_ptr<const HeightImage> HapticWorld::default_texture() const {
+    return default_material_.is_valid() ? default_material_->heights() : nullptr;
 }
 
 // --- life
@@ -255,8 +259,8 @@ void HapticWorld::_notification(int what) {
             stop();
             break;
         case NOTIFICATION_PAUSED:
-            if (run_ != nullptr && clock_ == CLOCK_REAL_TIME) {
-                run_->stop_loop();
+            if (run_ != nullptr) {
+                run_->pause();
             }
             break;
         case NOTIFICATION_UNPAUSED:
@@ -370,7 +374,11 @@ Dictionary HapticWorld::get_statistics() const {
     }
     result["ticks"] = get_ticks();
     result["bodies"] = static_cast<int64_t>(run_->body_count());
-    result["awake_bodies"] = static_cast<int64_t>(run_->session().snapshot().awake_bodies);
+    result["trees_building"] = static_cast<int64_t>(run_->trees_building());
+    const SessionSnapshot& snapshot = run_->session().snapshot();
+    result["awake_bodies"] = static_cast<int64_t>(snapshot.awake_bodies);
+    result["slowed_bodies"] = static_cast<int64_t>(snapshot.slowed_bodies);
+    result["physics_steps"] = static_cast<int64_t>(snapshot.physics_steps);
     if (clock_ != CLOCK_REAL_TIME) {
         return result;
     }

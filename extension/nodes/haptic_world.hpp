@@ -64,6 +64,7 @@ public:
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder* recorder);
     TouchMaterial default_touch() const;
+    std::shared_ptr<const HeightImage> default_texture() const;
 
 protected:
     static void _bind_methods();

@@ -1,49 +1,49 @@
 #include "nodes/mesh_reading.hpp"
 
 #include <bit>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "nodes/conversions.hpp"
 
 namespace tactus {
 
-namespace {
-
-struct PlaceHash {
-    std::size_t operator()(const Vec3& v) const {
-        const auto mix = [](std::size_t seed, double x) {
-            return (seed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e37'79b9'7f4a'7c15u;  // + 0.0: -0 is 0
-        };
-        const std::size_t hash = mix(mix(mix(0, v.x), v.y), v.z);
-        return hash ^ (hash >> 32);
-    }
-};
-
-}  // namespace
-
-TriangleMesh mesh_from_faces(const godot::PackedVector3Array& faces) {
-    TriangleMesh mesh;
-    std::unordered_map<Vec3, std::uint32_t, PlaceHash> vertex_at;
-    const godot::Vector3* corners = faces.ptr();
-    for (std::int64_t i = 0; i + 2 < faces.size(); i += 3) {
-        std::array<std::uint32_t, 3> triangle{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Vec3 place = from_godot(corners[i + static_cast<std::int64_t>(k)]);
-            const auto [entry, is_new] =
-                vertex_at.try_emplace(place, static_cast<std::uint32_t>(mesh.vertices.size()));
-            if (is_new) {
-                mesh.vertices.push_back(place);
-            }
-            triangle[k] = entry->second;
-        }
-        mesh.triangles.push_back({triangle[0], triangle[2], triangle[1]});
-    }
-    return mesh;
+std::size_t MeshCollector::PlaceHash::operator()(const Vec3& v) const {
+    const auto mix = [](std::size_t seed, double x) {
+        return (seed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e37'79b9'7f4a'7c15u;  // + 0.0: -0 is 0
+    };
+    const std::size_t hash = mix(mix(mix(0, v.x), v.y), v.z);
+    return hash ^ (hash >> 32);
 }
 
-TriangleMesh mesh_from_resource(const godot::Ref<godot::Mesh>& mesh) {
-    return mesh.is_valid() ? mesh_from_faces(mesh->get_faces()) : TriangleMesh{};
+std::uint32_t MeshCollector::vertex_at(const Vec3& place) {
+    const auto [entry, is_new] =
+        vertices_.try_emplace(place, static_cast<std::uint32_t>(mesh_.vertices.size()));
+    if (is_new) {
+        mesh_.vertices.push_back(place);
+    }
+    return entry->second;
+}
+
+void MeshCollector::add(const godot::PackedVector3Array& corners, const godot::PackedInt32Array& indices) {
+    std::vector<std::uint32_t> vertex_of(static_cast<std::size_t>(corners.size()));
+    vertices_.reserve(vertices_.size() + vertex_of.size() / 2);
+    const godot::Vector3* places = corners.ptr();
+    for (std::size_t i = 0; i < vertex_of.size(); ++i) {
+        vertex_of[i] = vertex_at(from_godot(places[i]));
+    }
+    const int32_t* index = indices.ptr();
+    const bool indexed = !indices.is_empty();
+    // An index without a corner stays one: check_mesh() says so.
+    const auto vertex = [&](std::int64_t i) {
+        const auto corner = static_cast<std::size_t>(indexed ? index[i] : i);
+        return corner < vertex_of.size() ? vertex_of[corner] : 0xffff'ffffu;
+    };
+    const std::int64_t count = (indexed ? indices.size() : corners.size()) / 3 * 3;
+    mesh_.triangles.reserve(mesh_.triangles.size() + static_cast<std::size_t>(count / 3));
+    for (std::int64_t i = 0; i < count; i += 3) {
+        mesh_.triangles.push_back({vertex(i), vertex(i + 2), vertex(i + 1)});
+    }
 }
 
 TriangleMesh scaled(TriangleMesh mesh, const godot::Basis& scaling) {

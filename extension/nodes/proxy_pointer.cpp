@@ -69,7 +69,9 @@ void ProxyPointer::set_device(const NodePath& path) {
 }
 
 void ProxyPointer::set_radius(double meters) {
-    if (!is_above_zero(meters)) {
+    radius_was_refused_ = !is_above_zero(meters);
+    update_configuration_warnings();
+    if (radius_was_refused_) {
         refuse(*this, "radius", meters, "a finite number above 0");
         return;
     }
@@ -146,6 +148,11 @@ PackedStringArray ProxyPointer::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (is_inside_tree() && device_node() == nullptr) {
         warnings.push_back("This ProxyPointer cannot move: " + get_state_text() + ".");
+    }
+    if (radius_was_refused_) {
+        warnings.push_back("'" + String(get_name()) +
+                           "' was given a radius that is no length above 0 and kept " + String::num(radius_) +
+                           " m: set 'radius' anew.");
     }
     return warnings;
 }

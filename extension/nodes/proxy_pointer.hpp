@@ -56,6 +56,7 @@ public:
     using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;
     void take_state(const ProxyState& state, const BodyIds& bodies);
     void clear_state();
+    void clear_force() { state_.force = Vec3(0.0); }
 
 protected:
     static void _bind_methods();
@@ -70,6 +71,7 @@ private:
 
     godot::NodePath device_;
     double radius_ = 0.01;
+    bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;
     Law force_law_ = FORCE_LAW_SPRING;
     bool enabled_ = true;

@@ -1,5 +1,6 @@
 #include "nodes/shape_reading.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <godot_cpp/classes/box_shape3d.hpp>
 #include <godot_cpp/classes/capsule_shape3d.hpp>
@@ -10,12 +11,12 @@
 #include <godot_cpp/classes/sphere_shape3d.hpp>
 #include <godot_cpp/classes/world_boundary_shape3d.hpp>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 
 #include "core/geometry/convex_hull.hpp"
-#include "core/geometry/mesh_check.hpp"
+#include "core/geometry/touch_shape.hpp"
 #include "nodes/conversions.hpp"
-#include "nodes/mesh_reading.hpp"
 
 namespace tactus {
 
@@ -48,12 +49,19 @@ bool same_factor(double a, double b) {
     return std::abs(a - b) <= even * std::abs(a);
 }
 
-ShapeReading one(Shape shape, const Pose& pose) {
-    return {{PlacedShape{std::move(shape), pose}}, {}};
+ShapeReading failure(std::string error) {
+    return {{}, {}, std::move(error)};
 }
 
-ShapeReading failure(std::string error) {
-    return {{}, std::move(error)};
+ShapeReading one(Shape shape, const Pose& pose) {
+    return {{PlacedShape{std::move(shape), pose}}, {}, {}};
+}
+
+// A shape without triangles is made in no time, so that what is wrong with its size shows at once.
+ShapeReading one_solid(Shape shape, const Pose& pose) {
+    ShapeReading reading = one(std::move(shape), pose);
+    std::string error = make_touch_shape(reading.shapes).error;
+    return error.empty() ? reading : failure(std::move(error));
 }
 
 ShapeReading uneven(const char* kind) {
@@ -65,7 +73,7 @@ ShapeReading placed(const godot::BoxShape3D& box, const AxisFactors& scale, cons
     if (!scale.square) {
         return uneven("box");
     }
-    return one(BoxShape{0.5 * from_godot(box.get_size()) * scale.factors}, pose);
+    return one_solid(BoxShape{0.5 * from_godot(box.get_size()) * scale.factors}, pose);
 }
 
 ShapeReading placed(const godot::SphereShape3D& sphere, const AxisFactors& scale, const Pose& pose) {
@@ -73,7 +81,7 @@ ShapeReading placed(const godot::SphereShape3D& sphere, const AxisFactors& scale
     if (!scale.square || !same_factor(f.x, f.y) || !same_factor(f.x, f.z)) {
         return uneven("sphere");
     }
-    return one(SphereShape{sphere.get_radius() * f.x}, pose);
+    return one_solid(SphereShape{sphere.get_radius() * f.x}, pose);
 }
 
 ShapeReading placed(const godot::CapsuleShape3D& capsule, const AxisFactors& scale, const Pose& pose) {
@@ -82,7 +90,8 @@ ShapeReading placed(const godot::CapsuleShape3D& capsule, const AxisFactors& sca
         return uneven("capsule");
     }
     const double radius = capsule.get_radius();
-    return one(CapsuleShape{radius * f.x, std::max(0.0, 0.5 * capsule.get_height() - radius) * f.x}, pose);
+    return one_solid(CapsuleShape{radius * f.x, std::max(0.0, 0.5 * capsule.get_height() - radius) * f.x},
+                     pose);
 }
 
 ShapeReading placed(const godot::CylinderShape3D& cylinder, const AxisFactors& scale, const Pose& pose) {
@@ -90,7 +99,7 @@ ShapeReading placed(const godot::CylinderShape3D& cylinder, const AxisFactors& s
     if (!scale.square || !same_factor(f.x, f.z)) {
         return uneven("cylinder");
     }
-    return one(CylinderShape{cylinder.get_radius() * f.x, 0.5 * cylinder.get_height() * f.y}, pose);
+    return one_solid(CylinderShape{cylinder.get_radius() * f.x, 0.5 * cylinder.get_height() * f.y}, pose);
 }
 
 ShapeReading placed(const godot::HeightMapShape3D& map, const AxisFactors& scale, const Pose& pose) {
@@ -132,13 +141,26 @@ ShapeReading placed(const godot::ConvexPolygonShape3D& convex, const godot::Basi
     return one(ConvexHullShape{std::make_shared<TriangleMesh>(std::move(hull))}, pose);
 }
 
+// Bodies with the same shape resource share its triangles, as long as one of them is there.
+std::shared_ptr<MeshSource> source_of(const godot::ConcavePolygonShape3D& concave) {
+    static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> sources;
+    const godot::PackedVector3Array faces = concave.get_faces();
+    std::erase_if(sources, [](const auto& entry) { return entry.second.expired(); });
+    std::weak_ptr<MeshSource>& known = sources[concave.get_instance_id()];
+    std::shared_ptr<MeshSource> source = known.lock();
+    if (source == nullptr || !source->has_faces(faces)) {
+        const auto made = std::make_shared<MeshSource>(faces);
+        if (source != nullptr) {
+            made->succeed(*source);
+        }
+        known = source = made;
+    }
+    return source;
+}
+
 ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling,
                     const Pose& pose) {
-    TriangleMesh mesh = scaled(mesh_from_faces(concave.get_faces()), scaling);
-    if (std::string error = check_mesh(mesh); !error.empty()) {
-        return failure(std::move(error));
-    }
-    return one(MeshShape{std::make_shared<TriangleMesh>(std::move(mesh))}, pose);
+    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, {}}}, {}};
 }
 
 bool is_finite(const godot::Transform3D& transform) {
@@ -167,7 +189,7 @@ bool same(const ConvexHullShape& a, const ConvexHullShape& b) {
     return same(a.hull, b.hull);
 }
 bool same(const MeshShape& a, const MeshShape& b) {
-    return same(a.mesh, b.mesh);
+    return a.smooth_below == b.smooth_below && same(a.mesh, b.mesh);
 }
 bool same(const HeightFieldShape& a, const HeightFieldShape& b) {
     return a.columns == b.columns && a.rows == b.rows && a.scale == b.scale && *a.heights == *b.heights;
@@ -226,6 +248,14 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const godot::Transform
         "a " + from_godot(shape->get_class()) +
         " cannot be touched: use a box, sphere, capsule, cylinder, convex, concave, height map or world "
         "boundary shape, or a HapticMesh");
+}
+
+bool same_meshes(const std::vector<MeshDraft>& a, const std::vector<MeshDraft>& b) {
+    return std::ranges::equal(a, b, [](const MeshDraft& left, const MeshDraft& right) {
+        return left.source == right.source && left.scaling == right.scaling &&
+               left.pose.position == right.pose.position && left.pose.rotation == right.pose.rotation &&
+               left.smooth_below == right.smooth_below;
+    });
 }
 
 bool same_shapes(const std::vector<PlacedShape>& a, const std::vector<PlacedShape>& b) {

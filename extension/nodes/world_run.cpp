@@ -60,6 +60,7 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
 
 WorldRun::~WorldRun() {
     stop_loop();
+    session_.rest();
     for (const auto& mirror : mirrors_) {
         mirror->release(session_);
     }
@@ -89,6 +90,16 @@ void WorldRun::stop_loop() {
     }
     loop_.stop();
     drain();
+}
+
+void WorldRun::pause() {
+    stop_loop();
+    session_.rest();
+    session_.refresh();
+    show_devices(session_.snapshot());
+    for (const ProxyLink& link : proxies_) {
+        link.node->clear_force();
+    }
 }
 
 TickStatus WorldRun::tick_loop_function(void* self, Nanoseconds scheduled) {
@@ -133,6 +144,7 @@ TickStatus WorldRun::take_status() {
 // ---------------------------------------------------------------------------------------
 
 void WorldRun::synchronise(double seconds) {
+    session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_bodies(seconds);
     synchronise_devices();
     synchronise_proxies();
@@ -178,14 +190,21 @@ void WorldRun::synchronise_bodies(double seconds) {
     }
     MirrorContext context;
     defaults_.touch = world_.default_touch();
+    defaults_.texture = world_.default_texture();
     context.defaults = defaults_;
     context.on_shape_change = Callable(&world_, "_shape_changed");
     context.shapes_changed = std::exchange(shapes_changed_, false);
     // In real time a tick may be under way that has already taken its commands.
     context.takes_effect = ticks() + (settings_.real_time ? 2 : 1);
-    std::fill(mirror_by_handle_.begin(), mirror_by_handle_.end(), nullptr);
+    context.workers = &workers_;
     for (const auto& mirror : mirrors_) {
         mirror->synchronise(session_, context, seconds);
+    }
+    if (!settings_.real_time) {
+        finish_building(context);
+    }
+    std::fill(mirror_by_handle_.begin(), mirror_by_handle_.end(), nullptr);
+    for (const auto& mirror : mirrors_) {
         if (mirror->handle() != no_handle) {
             mirror_by_handle_[mirror->handle()] = mirror.get();
         }
@@ -196,6 +215,22 @@ void WorldRun::synchronise_bodies(double seconds) {
             }
         }
     }
+}
+
+// Stepped time waits, so that every run has the same bodies in the same ticks.
+void WorldRun::finish_building(const MirrorContext& context) {
+    if (trees_building() == 0) {
+        return;
+    }
+    workers_.wait();
+    for (const auto& mirror : mirrors_) {
+        mirror->take_ready(session_, context);
+    }
+}
+
+std::size_t WorldRun::trees_building() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(mirrors_, [](const auto& mirror) { return mirror->is_building(); }));
 }
 
 void WorldRun::drop_device(DeviceLink& link) {

@@ -41,6 +41,8 @@ public:
     // Real time only. The text is empty, or why the loop could not start.
     std::string start_loop();
     void stop_loop();
+    // Ticks stop for a while: nothing pushes the hand meanwhile.
+    void pause();
 
     // Passes on what changed in the scene tree; `seconds`: since the last call.
     void synchronise(double seconds);
@@ -64,6 +66,7 @@ public:
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
     std::size_t body_count() const { return mirrors_.size(); }
+    std::size_t trees_building() const;         // bodies that wait for theirs
     std::vector<std::string> problems() const;  // each names its node
 
 private:
@@ -85,6 +88,7 @@ private:
     void collect_bodies(godot::Node* node, std::vector<godot::CollisionObject3D*>& found) const;
     void find_bodies();
     void synchronise_bodies(double seconds);
+    void finish_building(const MirrorContext& context);
     void synchronise_devices();
     void synchronise_proxies();
     void synchronise_recorder();
@@ -103,6 +107,7 @@ private:
     HapticWorld& world_;
     RunSettings settings_;
     Session session_;
+    Workers workers_;  // below the session, which their jobs use
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;
     std::unique_ptr<BaselineLoop> baseline_;

@@ -8,12 +8,13 @@
 
 #include "physics/body_record.hpp"
 #include "physics/collision_layers.hpp"
+#include "physics/far_islands.hpp"
 #include "physics/memory_recorder.hpp"
 
 namespace tactus {
 
-TreeKeeper::TreeKeeper(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& records)
-    : system_(system), records_(records) {
+TreeKeeper::TreeKeeper(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& records, const FarIslands& far)
+    : system_(system), records_(records), far_(far) {
     waiting_.reserve(records.size());
 }
 
@@ -42,7 +43,7 @@ void TreeKeeper::tidy_some() {
         BodyRecord& record = *records_[id.GetIndex()];
         record.tree_may_differ = false;
         const JPH::Body& body = *system_.GetBodyLockInterfaceNoLock().TryGetBody(id);
-        const Tree tree = body.IsActive() ? Tree::Awake : Tree::Resting;
+        const Tree tree = body.IsActive() || far_.holds(body) ? Tree::Awake : Tree::Resting;
         system_.GetBodyInterfaceNoLock().SetObjectLayer(id, object_layer(record.layer_pair, tree));
     }
 }
@@ -79,12 +80,19 @@ void WakeJournal::restart(std::uint64_t serial) {
 }
 
 void ActivityListener::OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) {
-    journal_.note(*reinterpret_cast<const JPH::Body*>(body));
+    if (far_.exchanging())
+        return;
+    auto& woken = *reinterpret_cast<JPH::Body*>(body);
+    far_.release(woken, true);
+    journal_.note(woken);
     trees_.may_differ(id);
+    if (in_step_)
+        moved_.push_back({id.GetIndexAndSequenceNumber()});
 }
 
 void ActivityListener::OnBodyDeactivated(const JPH::BodyID& id, JPH::uint64) {
-    trees_.may_differ(id);
+    if (!far_.exchanging())
+        trees_.may_differ(id);
 }
 
 }  // namespace tactus

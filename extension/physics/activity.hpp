@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/jolt.hpp"
+#include "physics/physics_world.hpp"
 
 #include <Jolt/Physics/Body/BodyActivationListener.h>
 #include <Jolt/Physics/Body/BodyID.h>
@@ -20,6 +21,7 @@ class PhysicsSystem;
 
 namespace tactus {
 
+class FarIslands;
 struct BodyRecord;
 
 // Bodies that woke or fell asleep move to the other tree a few a step, so that a thousand falling asleep at
@@ -27,7 +29,7 @@ struct BodyRecord;
 // is found.
 class TreeKeeper {
 public:
-    TreeKeeper(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& records);
+    TreeKeeper(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& records, const FarIslands& far);
 
     void may_differ(JPH::BodyID id);
     void forget(JPH::BodyID id);  // the body leaves the world
@@ -36,6 +38,7 @@ public:
 private:
     JPH::PhysicsSystem& system_;
     std::vector<BodyRecord*>& records_;
+    const FarIslands& far_;             // what is set aside there is awake
     std::vector<JPH::BodyID> waiting_;  // never more than there are bodies
 };
 
@@ -75,7 +78,11 @@ private:
 
 class ActivityListener final : public JPH::BodyActivationListener {
 public:
-    ActivityListener(TreeKeeper& trees, WakeJournal& journal) : trees_(trees), journal_(journal) {}
+    ActivityListener(TreeKeeper& trees, WakeJournal& journal, FarIslands& far, std::vector<BodyId>& moved)
+        : trees_(trees), journal_(journal), far_(far), moved_(moved) {}
+
+    // What wakes during a step is part of what the step moved.
+    void in_step(bool begins) { in_step_ = begins; }
 
     void OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) override;
     void OnBodyDeactivated(const JPH::BodyID& id, JPH::uint64 body) override;
@@ -83,6 +90,9 @@ public:
 private:
     TreeKeeper& trees_;
     WakeJournal& journal_;
+    FarIslands& far_;
+    std::vector<BodyId>& moved_;
+    bool in_step_ = false;
 };
 
 }  // namespace tactus

@@ -83,6 +83,7 @@ PreparedBody PhysicsWorld::remove(BodyId id) {
     const JPH::BodyID jolt_id = body->GetID();
     impl_->wake_around(*body);
     impl_->joints.remove_all_of(*body);
+    impl_->far.release(*body, true);
     impl_->bodies().RemoveBody(jolt_id);
     impl_->trees.forget(jolt_id);
     impl_->forget_pushes(*body);
@@ -285,6 +286,7 @@ void PhysicsWorld::sleep(BodyId id) {
     if (body == nullptr)
         return;
     const LoopMemoryScope scope(impl_->memory);
+    impl_->far.release(*body, false);
     impl_->bodies().DeactivateBody(body->GetID());
 }
 
@@ -320,40 +322,46 @@ void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
 }
 
 std::size_t PhysicsWorld::awake_count() const {
-    return impl_->system.GetNumActiveBodies(JPH::EBodyType::RigidBody);
+    return impl_->system.GetNumActiveBodies(JPH::EBodyType::RigidBody) + impl_->far.count();
 }
 
-std::size_t PhysicsWorld::awake_bodies(std::span<BodyId> out) const {
-    const std::size_t count = std::min(out.size(), awake_count());
-    const JPH::BodyID* active = impl_->system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody);
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] = BodyId{active[i].GetIndexAndSequenceNumber()};
-    return count;
+std::size_t PhysicsWorld::slowed_count() const {
+    return impl_->far.count();
+}
+
+void PhysicsWorld::set_hands(std::span<const Vec3> hands) {
+    impl_->far.set_hands(hands);
 }
 
 bool PhysicsWorld::anything_awake() const {
     return awake_count() > 0;
 }
 
+std::span<const BodyId> PhysicsWorld::moved() const {
+    return impl_->moved;
+}
+
+std::uint64_t PhysicsWorld::steps() const {
+    return impl_->steps;
+}
+
 std::uint32_t PhysicsWorld::step(double seconds) {
+    impl_->moved.clear();
     if (!anything_awake() || !(seconds > 0.0))
         return step_nothing_awake;
+    ++impl_->steps;
     const std::uint64_t overflows = impl_->memory.overflows();
     const LoopMemoryScope scope(impl_->memory);
     impl_->add_pushes();
-    const JPH::EPhysicsUpdateError error = impl_->system.Update(
-        static_cast<float>(seconds), impl_->settings.sub_steps, &impl_->step_memory, &impl_->jobs);
+    std::uint32_t status = impl_->update(seconds);
     impl_->remove_pushes();
-    const auto has = [error](JPH::EPhysicsUpdateError bit) {
-        return (error & bit) != JPH::EPhysicsUpdateError::None;
-    };
+    impl_->far.plan();
+    while (impl_->far.begin_turn()) {
+        status |= impl_->update(seconds * FarIslands::turns);
+        impl_->far.end_turn();
+    }
+    impl_->far.finish();
     impl_->trees.tidy_some();
-    std::uint32_t status = step_ok;
-    if (has(JPH::EPhysicsUpdateError::BodyPairCacheFull))
-        status |= step_pairs_full;
-    if (has(JPH::EPhysicsUpdateError::ContactConstraintsFull) ||
-        has(JPH::EPhysicsUpdateError::ManifoldCacheFull))
-        status |= step_contacts_full;
     if (impl_->memory.overflows() != overflows)
         status |= step_memory_full;
     return status;
@@ -371,12 +379,18 @@ Vec3 PhysicsWorld::center_of_mass(BodyId id) const {
 
 Vec3 PhysicsWorld::linear_velocity(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
-    return body != nullptr ? units::vector(body->GetLinearVelocity()) : Vec3(0.0);
+    if (body == nullptr)
+        return Vec3(0.0);
+    return units::vector(impl_->far.holds(*body) ? impl_->far.linear_velocity(*body)
+                                                 : body->GetLinearVelocity());
 }
 
 Vec3 PhysicsWorld::angular_velocity(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
-    return body != nullptr ? units::plain(body->GetAngularVelocity()) : Vec3(0.0);
+    if (body == nullptr)
+        return Vec3(0.0);
+    return units::plain(impl_->far.holds(*body) ? impl_->far.angular_velocity(*body)
+                                                : body->GetAngularVelocity());
 }
 
 Vec3 PhysicsWorld::velocity_at(BodyId id, const Vec3& world_point) const {
@@ -395,7 +409,7 @@ Motion PhysicsWorld::motion(BodyId id) const {
 
 bool PhysicsWorld::awake(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
-    return body != nullptr && body->IsActive();
+    return body != nullptr && (body->IsActive() || impl_->far.holds(*body));
 }
 
 std::uint64_t PhysicsWorld::memory_overflows() const {

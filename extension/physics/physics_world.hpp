@@ -42,6 +42,9 @@ struct PhysicsSettings {
     std::uint32_t max_joints = 256;        // 1..32768
     int position_iterations = 2;           // >= 1
     std::uint32_t remembered_wakings = 0;  // see save(); 0 where nobody goes back in time
+    // When more bodies than this are awake, those farthest from every hand take one step of sixteen times the
+    // length in every sixteenth (far_islands.hpp). 0: all take every step; needed for save().
+    std::uint32_t full_rate_bodies = 0;
 };
 
 // A hand's spring pressing on a body. Within the step the force changes by `stiffness` times the way that the
@@ -131,18 +134,26 @@ public:
 
     bool anything_awake() const;
     std::size_t awake_count() const;
-    // The bodies that the next step may move, as many as fit; returns how many were written. Same order on
-    // every run.
-    std::size_t awake_bodies(std::span<BodyId> out) const;
+    // Where hands are, at most 64, in the world (unit: meters): bodies near one take every step.
+    void set_hands(std::span<const Vec3> hands);
+    // Of those awake, the ones that take one step of many (PhysicsSettings::full_rate_bodies).
+    std::size_t slowed_count() const;
 
     // Moves what is awake on by `seconds` (> 0). The result is made of StepStatus bits.
     std::uint32_t step(double seconds);
+
+    // The bodies that the last step moved or woke, each once; the same order on every run. Until the next
+    // one.
+    std::span<const BodyId> moved() const;
+
+    std::uint64_t steps() const;  // that were more than nothing, so far
 
     // --- going back in time
 
     // What is awake and what its motion depends on, as bytes: poses, velocities, contacts, joints, sleep
     // timers, gravity. Not the settings of bodies, nor forces applied but not stepped. Returns how many bytes
-    // were written, 0 when `memory` is too small (about 400 bytes a body and 250 a contact).
+    // were written, 0 when `memory` is too small (about 400 bytes a body and 250 a contact) or bodies are
+    // slowed.
     std::size_t save(std::span<std::byte> memory) const;
 
     // The same with everything that could move, awake or not: what another world made by the same calls

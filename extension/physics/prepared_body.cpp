@@ -207,4 +207,18 @@ PreparedBody prepare(const BodyDescription& description) {
     return PreparedBody(std::move(record));
 }
 
+PreparedBody duplicate(const PreparedBody& body) {
+    const BodyRecord& original = *body.record_;
+    auto record = std::make_unique<BodyRecord>();
+    record->collision = original.collision;
+    record->may_be_dynamic = original.may_be_dynamic;
+    record->mass = original.mass;
+    record->mass_properties = original.mass_properties;
+    JPH::BodyCreationSettings settings = original.body->GetBodyCreationSettings();
+    // Not the inverse of the inverse, which is off by a bit.
+    settings.mMassPropertiesOverride = original.mass_properties;
+    record->body = body_factory().AllocateBody(settings);
+    return PreparedBody(std::move(record));
+}
+
 }  // namespace tactus

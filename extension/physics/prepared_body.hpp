@@ -28,6 +28,7 @@ public:
 
 private:
     friend class PhysicsWorld;
+    friend PreparedBody duplicate(const PreparedBody& body);
     std::unique_ptr<BodyRecord> record_;
     std::string error_;
 };
@@ -35,5 +36,9 @@ private:
 // Any thread, any time; allocates. A description that makes no sense gives a body that is not ready and says
 // why.
 PreparedBody prepare(const BodyDescription& description);
+
+// A body like one that is ready and in no world, sharing its shape: for a second world. Any thread,
+// allocates.
+PreparedBody duplicate(const PreparedBody& body);
 
 }  // namespace tactus

@@ -25,6 +25,8 @@ constexpr JPH::EStateRecorderState all_but_bodies = JPH::EStateRecorderState::Gl
 }  // namespace
 
 std::size_t PhysicsWorld::save_state(std::span<std::byte> memory, bool everything) const {
+    if (impl_->far.count() > 0)
+        return 0;
     const LoopMemoryScope scope(impl_->memory);
     const JPH::PhysicsSystem& system = impl_->system;
     const JPH::BodyLockInterface& bodies = system.GetBodyLockInterfaceNoLock();

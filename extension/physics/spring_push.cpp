@@ -59,28 +59,37 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
 // In terms of the impulse l and with the hand's velocity w, the force at a sub-step's end is
 //     l / dt = F0 + k (h + w dt - u - v dt) - c (v - v0)
 //     <=>   v + l / (dt (c + k dt)) = (F0 + k (h - u + w dt) + c v0) / (c + k dt).
+// A sliding fingertip solves it along n: numbers in place of vectors, n.v + (r x n).w in place of v.
 void SpringPush::SetupVelocityConstraint(float seconds) {
+    const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
     arm_ = push_.body->GetRotation() * push_.local_point;
+    lever_ = arm_.Cross(push_.direction);
+    turn_ = motion.MultiplyWorldSpaceInverseInertiaByVector(push_.body->GetRotation(), lever_);
     const JPH::Vec3 given = along(JPH::Vec3(push_.body->GetCenterOfMassPosition() - push_.start) + arm_);
     const JPH::Vec3 force = push_.force + push_.stiffness * (push_.hand_velocity * push_.elapsed - given);
     const float resistance = push_.damping + push_.stiffness * seconds;
     softness_ = 1.0f / (seconds * resistance);
     bias_ = (force + push_.stiffness * seconds * push_.hand_velocity + push_.damping * push_.first_velocity) /
             resistance;
+    bias_along_ = bias_.Dot(push_.direction);
     impulse_ = force.Dot(push_.direction) > 0.0f ? force * seconds : JPH::Vec3::sZero();
+    impulse_along_ = impulse_.Dot(push_.direction);
     push_.elapsed += seconds;
 
-    const JPH::Mat44 inverse_mass = inverse_mass_at(*push_.body, arm_);
-    const float inverse_mass_along = push_.direction.Dot(inverse_mass.Multiply3x3(push_.direction));
-    effective_mass_ = push_.sticks ? (inverse_mass + JPH::Mat44::sScale(softness_)).Inversed3x3()
-                                   : JPH::Mat44::sScale(1.0f / (inverse_mass_along + softness_));
+    const float inverse_mass_along = motion.GetInverseMass() + lever_.Dot(turn_);
+    effective_mass_along_ = 1.0f / (inverse_mass_along + softness_);
+    if (push_.sticks)
+        effective_mass_ = (inverse_mass_at(*push_.body, arm_) + JPH::Mat44::sScale(softness_)).Inversed3x3();
     held_ = inverse_mass_along > light * softness_ ? held_iterations : 0;
     SetNumVelocityStepsOverride(held_ > 0 ? light_iterations : 0);
 }
 
 // A braced body does not give way: the answer is the force itself, and the contacts remember theirs.
 void SpringPush::WarmStartVelocityConstraint(float) {
-    add_impulse(impulse_);
+    if (push_.sticks)
+        add_impulse(impulse_);
+    else
+        add_impulse_along(impulse_along_);
 }
 
 bool SpringPush::SolveVelocityConstraint(float) {
@@ -88,17 +97,29 @@ bool SpringPush::SolveVelocityConstraint(float) {
         --held_;
         return true;  // or Jolt would think that it is done
     }
+    return push_.sticks ? solve() : solve_along();
+}
+
+bool SpringPush::solve() {
+    const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
+    const JPH::Vec3 velocity = motion.GetLinearVelocity() + motion.GetAngularVelocity().Cross(arm_);
     const JPH::Vec3 before = impulse_;
-    impulse_ = before - effective_mass_.Multiply3x3(velocity() + softness_ * before - bias_);
+    impulse_ = before - effective_mass_.Multiply3x3(velocity + softness_ * before - bias_);
     if (impulse_.Dot(push_.direction) < 0.0f)
         impulse_ = JPH::Vec3::sZero();
     add_impulse(impulse_ - before);
     return impulse_ != before;
 }
 
-JPH::Vec3 SpringPush::velocity() const {
+bool SpringPush::solve_along() {
     const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
-    return along(motion.GetLinearVelocity() + motion.GetAngularVelocity().Cross(arm_));
+    const float velocity =
+        push_.direction.Dot(motion.GetLinearVelocity()) + lever_.Dot(motion.GetAngularVelocity());
+    const float before = impulse_along_;
+    impulse_along_ =
+        std::max(0.0f, before - effective_mass_along_ * (velocity + softness_ * before - bias_along_));
+    add_impulse_along(impulse_along_ - before);
+    return impulse_along_ != before;
 }
 
 void SpringPush::add_impulse(JPH::Vec3Arg impulse) {
@@ -106,6 +127,12 @@ void SpringPush::add_impulse(JPH::Vec3Arg impulse) {
     motion.AddLinearVelocityStep(motion.GetInverseMass() * impulse);
     motion.AddAngularVelocityStep(
         motion.MultiplyWorldSpaceInverseInertiaByVector(push_.body->GetRotation(), arm_.Cross(impulse)));
+}
+
+void SpringPush::add_impulse_along(float impulse) {
+    JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
+    motion.AddLinearVelocityStep((motion.GetInverseMass() * impulse) * push_.direction);
+    motion.AddAngularVelocityStep(impulse * turn_);
 }
 
 void SpringPush::BuildIslands(JPH::uint32 index, JPH::IslandBuilder& islands, JPH::BodyManager&) {

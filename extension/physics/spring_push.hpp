@@ -47,11 +47,14 @@ public:
     JPH::Ref<JPH::ConstraintSettings> GetConstraintSettings() const override { return nullptr; }
 
 private:
-    JPH::Vec3 velocity() const;  // of the point, along n alone for a sliding fingertip
+    bool solve();
+    bool solve_along();
+    void add_impulse(JPH::Vec3Arg impulse);
+    void add_impulse_along(float impulse);
+    // What of a vector counts: along n alone for a sliding fingertip.
     JPH::Vec3 along(JPH::Vec3Arg v) const {
         return push_.sticks ? v : push_.direction * push_.direction.Dot(v);
     }
-    void add_impulse(JPH::Vec3Arg impulse);
 
     // All in Jolt's units, in the world but for local_point.
     struct Push {
@@ -69,11 +72,16 @@ private:
     };
     Push push_;
 
-    JPH::Vec3 arm_ = JPH::Vec3::sZero();   // from the centre of mass to the point
-    JPH::Vec3 bias_ = JPH::Vec3::sZero();  // velocity at which the spring would be slack
+    float softness_ = 0.0f;                 // velocity the spring gives way by for a unit impulse
+    JPH::Vec3 arm_ = JPH::Vec3::sZero();    // r, from the centre of mass to the point
+    JPH::Vec3 lever_ = JPH::Vec3::sZero();  // r x n
+    JPH::Vec3 turn_ = JPH::Vec3::sZero();   // I^-1 (r x n)
+    JPH::Vec3 bias_ = JPH::Vec3::sZero();   // velocity at which the spring would be slack
+    float bias_along_ = 0.0f;
     JPH::Mat44 effective_mass_ = JPH::Mat44::sZero();
-    float softness_ = 0.0f;  // velocity the spring gives way by for a unit impulse
+    float effective_mass_along_ = 0.0f;
     JPH::Vec3 impulse_ = JPH::Vec3::sZero();
+    float impulse_along_ = 0.0f;
     int held_ = 0;  // iterations to come in which the impulse stays what it is
 };
 

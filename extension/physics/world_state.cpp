@@ -59,9 +59,10 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       step_memory(step_memory_size(settings)),
       jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps)),
       records(settings.max_bodies),
-      trees(system, records),
+      far(system, records, settings.full_rate_bodies),
+      trees(system, records, far),
       journal(system, settings.remembered_wakings),
-      activity(trees, journal),
+      activity(trees, journal, far, moved),
       joints(system, settings.max_joints),
       pushes(most_pushes) {
     constexpr JPH::uint one_mutex = 1;
@@ -72,6 +73,7 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
     system.SetCombineRestitution(combined_restitution);
     system.SetGravity(units::vector(settings.gravity));
     system.SetBodyActivationListener(&activity);
+    moved.reserve(2 * settings.max_bodies);
 }
 
 PhysicsWorld::Impl::~Impl() {
@@ -101,6 +103,29 @@ void PhysicsWorld::Impl::wake_around(const JPH::Body& body) {
 
 void PhysicsWorld::Impl::listen_if_needed() {
     system.SetContactListener(layers.any_one_sided() ? &one_sided : nullptr);
+}
+
+std::uint32_t PhysicsWorld::Impl::update(double seconds) {
+    const std::span<const JPH::BodyID> active{system.GetActiveBodiesUnsafe(JPH::EBodyType::RigidBody),
+                                              system.GetNumActiveBodies(JPH::EBodyType::RigidBody)};
+    if (active.empty())
+        return step_ok;
+    for (const JPH::BodyID id : active)
+        moved.push_back({id.GetIndexAndSequenceNumber()});
+    activity.in_step(true);
+    const JPH::EPhysicsUpdateError error =
+        system.Update(static_cast<float>(seconds), settings.sub_steps, &step_memory, &jobs);
+    activity.in_step(false);
+    const auto has = [error](JPH::EPhysicsUpdateError bit) {
+        return (error & bit) != JPH::EPhysicsUpdateError::None;
+    };
+    std::uint32_t status = step_ok;
+    if (has(JPH::EPhysicsUpdateError::BodyPairCacheFull))
+        status |= step_pairs_full;
+    if (has(JPH::EPhysicsUpdateError::ContactConstraintsFull) ||
+        has(JPH::EPhysicsUpdateError::ManifoldCacheFull))
+        status |= step_contacts_full;
+    return status;
 }
 
 void PhysicsWorld::Impl::add_pushes() {

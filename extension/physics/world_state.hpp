@@ -9,6 +9,7 @@
 #include "physics/body_record.hpp"
 #include "physics/collision_layers.hpp"
 #include "physics/contact_rules.hpp"
+#include "physics/far_islands.hpp"
 #include "physics/joint_table.hpp"
 #include "physics/jolt.hpp"
 #include "physics/loop_jobs.hpp"
@@ -41,6 +42,9 @@ struct PhysicsWorld::Impl {
 
     void listen_if_needed();
 
+    // One step of Jolt, and what it moves added to `moved`. StepStatus bits.
+    std::uint32_t update(double seconds);
+
     // Jolt keeps constraints in order: these come last and leave again in reverse, so that joints stay where
     // they are.
     void add_pushes();
@@ -57,13 +61,16 @@ struct PhysicsWorld::Impl {
     LoopJobs jobs;
     JPH::PhysicsSystem system;
     std::vector<BodyRecord*> records;  // by the body's index; owned
+    FarIslands far;
     TreeKeeper trees;
     WakeJournal journal;
+    std::vector<BodyId> moved;  // by the last step
     ActivityListener activity;
     JointTable joints;
     std::vector<SpringPush> pushes;  // the first push_count are of the next step
     std::size_t push_count = 0;
     std::size_t body_count = 0;
+    std::uint64_t steps = 0;
 
     // Changes with everything a snapshot does not hold but rests on: which bodies there are, their shapes and
     // kinds.

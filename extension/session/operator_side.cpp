@@ -39,7 +39,9 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
         pointers_[i].felt.proxy = std::make_unique<Proxy>(session.most_parts, ProxySettings{});
     }
     if (room.replays) {
-        twin_ = std::make_unique<SessionLoop>(session, nobody_looks_);
+        SessionSettings alike = session;
+        alike.history.ticks = 0;
+        twin_ = std::make_unique<SessionLoop>(alike, nobody_looks_);
         const std::size_t count = room.samples / std::max<std::size_t>(1, room.samples_a_memento);
         mementos_.assign(count, LoopMemento(session.most_bodies, room.memento_bytes));
         memento_of_.assign(count, no_sample);
@@ -196,7 +198,7 @@ void OperatorSide::take(const ForceSample& force) {
 void OperatorSide::follow_far_side(SessionLoop& loop) {
     for (std::size_t i = 0; i < truths_.size(); ++i) {
         if (std::exchange(truths_[i].fresh, false) && loop.body(static_cast<SessionHandle>(i))) {
-            loop.correct(static_cast<SessionHandle>(i), truths_[i].motion, true);
+            loop.put_right(static_cast<SessionHandle>(i), truths_[i].motion, true);
         }
     }
 }
@@ -334,7 +336,7 @@ void OperatorSide::apply_drags(SessionLoop& loop) const {
 
 void OperatorSide::put_in_truth() {
     for (const Target& truth : replay_truth_) {
-        twin_->correct(truth.body, truth.motion, true);
+        twin_->put_right(truth.body, truth.motion, true);
     }
     replay_truth_.clear();
 }
@@ -421,8 +423,8 @@ void OperatorSide::correct(SessionLoop& loop) {
         statistics_.cost.moved =
             std::max(statistics_.cost.moved, glm::length(target.motion.pose.position - from.position));
         const bool rides = carry(loop, target, motion);
-        loop.correct(target.body, target.motion, with_velocity, rides,
-                     target.previous ? &*target.previous : nullptr);
+        loop.put_right(target.body, target.motion, with_velocity, rides,
+                       target.previous ? &*target.previous : nullptr);
     }
     // The pointers that press go on from where the replay has led them.
     for (std::size_t i = 0; i < most_proxies; ++i) {

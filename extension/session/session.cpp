@@ -150,25 +150,42 @@ const SessionSettings& Session::settings() const {
     return impl_->settings;
 }
 
-AddResult Session::add_body(const BodyAddition& addition) {
-    if (std::string error = check_material(addition.touch_material); !error.empty()) {
-        return {no_handle, std::move(error)};
+ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) const {
+    ReadyBody ready;
+    ready.error = check_material(addition.touch_material);
+    if (ready.error.empty()) {
+        ready.error = check_texture(addition.texture.get());
     }
-    if (std::string error = check_texture(addition.texture.get()); !error.empty()) {
-        return {no_handle, std::move(error)};
+    if (!ready.error.empty()) {
+        return ready;
     }
-    const auto& touched = addition.touch_shapes.empty() ? addition.description.shapes : addition.touch_shapes;
-    TouchShapeResult touch = make_touch_shape(touched);
-    if (!touch.shape) {
-        return {no_handle, std::move(touch.error)};
+    ready.touch = addition.touch;
+    if (!ready.touch) {
+        const auto& touched =
+            addition.touch_shapes.empty() ? addition.description.shapes : addition.touch_shapes;
+        TouchShapeResult touch = make_touch_shape(touched, run);
+        ready.touch = std::move(touch.shape);
+        ready.error = std::move(touch.error);
     }
-    PreparedBody body = prepare(addition.description);
-    if (!body.ready()) {
-        return {no_handle, body.error()};
+    if (!ready.error.empty()) {
+        return ready;
     }
-    PreparedBody same_body;
-    if (impl_->has_twin) {
-        same_body = prepare(addition.description);
+    ready.body = prepare(addition.description);
+    ready.error = ready.body.error();
+    if (ready.body.ready() && (impl_->settings.history.ticks > 0 || impl_->has_twin)) {
+        ready.same_body = duplicate(ready.body);
+    }
+    ready.material = with_texture(addition.touch_material, addition.texture.get());
+    ready.texture = addition.texture;
+    ready.layer = addition.description.collision.layer;
+    ready.pose = addition.description.pose;
+    ready.motion = addition.description.motion;
+    return ready;
+}
+
+AddResult Session::add_body(ReadyBody&& body) {
+    if (!body.error.empty()) {
+        return {no_handle, std::move(body.error)};
     }
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
@@ -176,10 +193,9 @@ AddResult Session::add_body(const BodyAddition& addition) {
                                std::to_string(impl_->settings.most_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    impl_->send(command::AddBody{handle, std::move(body), std::move(same_body), std::move(touch.shape),
-                                 with_texture(addition.touch_material, addition.texture.get()),
-                                 addition.texture, addition.description.collision.layer,
-                                 addition.description.pose, addition.description.motion});
+    impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
+                                 std::move(body.touch), body.material, std::move(body.texture), body.layer,
+                                 body.pose, body.motion});
     return {handle, {}};
 }
 
@@ -322,6 +338,10 @@ void Session::settle() {
     impl_->loop.settle();
 }
 
+void Session::rest() {
+    impl_->loop.rest();
+}
+
 TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
     TickStatus status = 0;
     {
@@ -331,6 +351,19 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
         }
     }
     return status | impl_->loop.tick(now, trace);
+}
+
+bool Session::correct(std::uint64_t tick, std::span<const BodyCorrection> truth) {
+    return impl_->loop.correct(tick, truth);
+}
+bool Session::correcting() const {
+    return impl_->loop.correcting();
+}
+std::uint64_t Session::oldest_correctable_tick() const {
+    return impl_->loop.oldest_correctable_tick();
+}
+std::span<const CorrectedBody> Session::corrected() const {
+    return impl_->loop.corrected();
 }
 
 }  // namespace tactus

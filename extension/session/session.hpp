@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/ports/device.hpp"
@@ -25,8 +26,22 @@ struct BodyAddition {
     BodyDescription description;
     // What the proxy touches, in the body's frame; empty: the description's own shapes.
     std::vector<PlacedShape> touch_shapes;
+    // The same, made already and perhaps shared with other bodies; null: made from the above.
+    std::shared_ptr<const TouchShape> touch;
     TouchMaterial touch_material;
     std::shared_ptr<const HeightImage> texture;  // becomes touch_material.texture; null: none
+};
+
+// A body for which everything that takes time or memory has happened.
+struct ReadyBody {
+    PreparedBody body, same_body;
+    std::shared_ptr<const TouchShape> touch;
+    TouchMaterial material;
+    std::shared_ptr<const HeightImage> texture;
+    std::uint32_t layer = 0;
+    Pose pose;
+    Motion motion = Motion::Static;
+    std::string error;  // what is wrong and what to do; empty where it can be added
 };
 
 struct AddResult {
@@ -46,9 +61,11 @@ public:
     // --- owner side
     // -------------------------------------------------------------------------------------------------
 
-    // Builds the triangle tree and the rigid body here, then hands them to the loop. Nothing is added on an
-    // error.
-    AddResult add_body(const BodyAddition& addition);
+    // Any thread, any time: builds the triangle tree and the rigid body, the tree with the help of `run`.
+    ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially) const;
+    // Hands it to the loop. Nothing is added on an error.
+    AddResult add_body(ReadyBody&& body);
+    AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
     void remove_body(SessionHandle body);
     // Where the body is from the next tick on, without a way there: nothing is pushed.
     void teleport_body(SessionHandle body, const Pose& pose);
@@ -100,6 +117,16 @@ public:
 
     // One tick at `now`, a time that rises by the period. `trace` may be null.
     TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);
+
+    // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
+    // that is elsewhere when they go on begins anew there, without a kick.
+    void rest();
+
+    // Between two ticks: time travel, for a session that keeps a history (see SessionLoop::correct).
+    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth);
+    bool correcting() const;
+    std::uint64_t oldest_correctable_tick() const;
+    std::span<const CorrectedBody> corrected() const;
 
 private:
     struct Impl;

@@ -1,6 +1,7 @@
 // How the loop carries out each command of the owner.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "session/session_loop.hpp"
 
@@ -22,17 +23,17 @@ const SessionLoop::Body* SessionLoop::body(SessionHandle handle) const {
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body,  c.handle, std::move(c.body), std::move(c.shape), nullptr,
-                   std::move(c.texture), nullptr};
+        retired = {Retired::Kind::body, c.handle, std::move(c.body),    std::move(c.same_body),
+                   std::move(c.shape),  nullptr,  std::move(c.texture), nullptr};
         return true;
     };
-    const BodyId id = physics_.add(c.body);
+    const BodyId id = timeline_.add(c.body, c.same_body);
     if (!id.valid()) {
         return give_back();
     }
     const int slot = scene_.add(*c.shape, c.pose, c.material, c.layer);
     if (slot < 0) {
-        c.body = physics_.remove(id);
+        std::tie(c.body, c.same_body) = timeline_.remove(id);
         return give_back();
     }
     bodies_[c.handle] = {id, slot, std::move(c.shape), std::move(c.texture), c.motion, {}, 0};
@@ -51,6 +52,7 @@ void SessionLoop::show_state(SessionHandle handle) {
     state_of_[handle] = static_cast<std::uint32_t>(states_.size());
     states_.push_back(
         {handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
+    note_change(state_of_[handle]);
     states_changed_at_ = tick_ + 1;
 }
 
@@ -74,14 +76,18 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     if (const std::uint32_t state = std::exchange(state_of_[c.handle], no_handle); state != no_handle) {
         states_[state] = states_.back();
         states_.pop_back();
+        state_changes_.remove(states_.size());
         if (state < states_.size()) {
             state_of_[states_[state].handle] = state;
+            note_change(state);
         }
         states_changed_at_ = tick_ + 1;
     }
+    auto [gone, same_gone] = timeline_.remove(removed->id);
     retired = {Retired::Kind::body,
                c.handle,
-               physics_.remove(removed->id),
+               std::move(gone),
+               std::move(same_gone),
                std::move(removed->shape),
                nullptr,
                std::move(removed->texture),
@@ -93,7 +99,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
 bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
     if (Body* const moved = body(c.handle)) {
         end_travel(c.handle);
-        physics_.set_pose(moved->id, c.pose);
+        timeline_.set_pose(moved->id, c.pose);
         place(c.handle, c.pose, true);
     }
     return false;
@@ -122,7 +128,7 @@ bool SessionLoop::carry_out(command::MoveBody& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_velocity(changed->id, c.linear, c.angular);
+        timeline_.set_velocity(changed->id, c.linear, c.angular);
     }
     return false;
 }
@@ -136,27 +142,27 @@ bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired& retired) {
     if (!c.texture) {
         return false;
     }
-    retired = {Retired::Kind::texture, no_handle, {}, nullptr, nullptr, std::move(c.texture), nullptr};
+    retired = {Retired::Kind::texture, no_handle, {}, {}, nullptr, nullptr, std::move(c.texture), nullptr};
     return true;
 }
 
 bool SessionLoop::carry_out(command::SetBodySurface& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_material(changed->id, c.surface);
+        timeline_.set_material(changed->id, c.surface);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyLayers& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_collision(changed->id, c.layers);
+        timeline_.set_collision(changed->id, c.layers);
         scene_.set_layer(changed->slot, c.layers.layer);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
-    if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
+    if (Body* const changed = body(c.handle); changed && timeline_.set_motion(changed->id, c.motion)) {
         end_travel(c.handle);
         changed->motion = c.motion;
         if (c.motion != Motion::Static && state_of_[c.handle] == no_handle) {
@@ -168,20 +174,20 @@ bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyGravityScale& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_gravity_scale(changed->id, c.scale);
+        timeline_.set_gravity_scale(changed->id, c.scale);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_damping(changed->id, c.linear, c.angular);
+        timeline_.set_damping(changed->id, c.linear, c.angular);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetGravity& c, Retired&) {
-    physics_.set_gravity(c.gravity);
+    timeline_.set_gravity(c.gravity);
     return false;
 }
 
@@ -198,8 +204,11 @@ bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
+    if (devices_[c.handle].device) {
+        devices_[c.handle].device->write(time_, Vec3(0.0));
+    }
     devices_[c.handle] = {};
-    retired = {Retired::Kind::device, c.handle, {}, nullptr, nullptr, nullptr, nullptr};
+    retired = {Retired::Kind::device, c.handle, {}, {}, nullptr, nullptr, nullptr, nullptr};
     return true;
 }
 
@@ -223,8 +232,14 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
-    retired = {
-        Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr, nullptr};
+    retired = {Retired::Kind::proxy,
+               c.handle,
+               {},
+               {},
+               nullptr,
+               std::move(proxies_[c.handle].proxy),
+               nullptr,
+               nullptr};
     proxies_[c.handle] = {};
     return true;
 }
@@ -241,7 +256,7 @@ bool SessionLoop::carry_out(command::Attach& c, Retired& retired) {
     if (!c.side) {
         return false;
     }
-    retired = {Retired::Kind::side, no_handle, {}, nullptr, nullptr, nullptr, std::move(c.side)};
+    retired = {Retired::Kind::side, no_handle, {}, {}, nullptr, nullptr, nullptr, std::move(c.side)};
     return true;
 }
 

@@ -11,10 +11,15 @@ namespace tactus {
 
 namespace {
 
-PhysicsSettings with_room(const SessionSettings& settings) {
-    PhysicsSettings physics = settings.physics;
-    physics.max_bodies = settings.most_bodies;
-    return physics;
+TimelineSettings with_room(const SessionSettings& settings) {
+    TimelineSettings timeline;
+    timeline.physics = settings.physics;
+    timeline.physics.max_bodies = settings.most_bodies;
+    timeline.physics.full_rate_bodies = settings.history.ticks > 0 ? 0 : settings.full_rate_bodies;
+    timeline.ticks = settings.history.ticks;
+    timeline.ticks_a_snapshot = settings.history.ticks_a_snapshot;
+    timeline.snapshot_bytes = settings.history.snapshot_bytes;
+    return timeline;
 }
 
 // The pose that is one of `ticks` equal parts of the way on.
@@ -35,22 +40,26 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       seconds_(to_seconds(settings.period)),
       snapshots_(snapshots),
       scene_(settings.most_bodies, settings.most_parts),
-      physics_(with_room(settings)),
+      timeline_(with_room(settings)),
+      physics_(timeline_.world()),
       bodies_(settings.most_bodies),
       handle_of_slot_(settings.most_bodies, no_handle),
       handle_of_id_(settings.most_bodies, no_handle),
+      state_changes_(settings.most_bodies),
       state_of_(settings.most_bodies, no_handle) {
     travelling_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
-    awake_before_.reserve(settings.most_bodies);
-    awake_.reserve(settings.most_bodies);
+    corrected_.reserve(settings.history.ticks > 0 ? settings.most_bodies : 0);
     states_.reserve(settings.most_bodies);
+    hands_.reserve(most_proxies);
 }
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     ++tick_;
+    time_ = now;
     scene_.begin_tick();
     follow_physics();
+    follow_replay();
     travel();
     {
         const TraceScope scope(trace, TickStage::read_device);
@@ -100,24 +109,50 @@ void SessionLoop::place(SessionHandle handle, const Pose& pose, bool teleport) {
         state.pose = pose;
         state.linear_velocity = physics_.linear_velocity(placed.id);
         state.angular_velocity = physics_.angular_velocity(placed.id);
-        state.changed_at = tick_;
+        note_change(state_of_[handle]);
     }
 }
 
-// Brings what moved in the last step into the scene: what was awake before it, and what it woke.
+void SessionLoop::note_change(std::uint32_t state) {
+    states_[state].changed_at = tick_;
+    state_changes_.touch(state);
+}
+
 void SessionLoop::follow_physics() {
-    const auto follow = [this](const std::vector<BodyId>& ids) {
-        for (const BodyId id : ids) {
-            const SessionHandle handle = handle_of_id_[id.index()];
-            if (handle != no_handle && bodies_[handle].id == id) {
-                place(handle, physics_.pose(id), false);
-            }
+    for (const BodyId id : physics_.moved()) {
+        const SessionHandle handle = handle_of_id_[id.index()];
+        if (handle != no_handle && bodies_[handle].id == id) {
+            place(handle, physics_.pose(id), false);
         }
-    };
-    follow(awake_before_);
-    awake_.resize(awake_.capacity());
-    awake_.resize(physics_.awake_bodies(awake_));
-    follow(awake_);
+    }
+}
+
+bool SessionLoop::correct(std::uint64_t tick, std::span<const BodyCorrection> truth, PastInputs* inputs) {
+    std::array<BodyTruth, Timeline::most_truths> told;
+    std::size_t count = 0;
+    for (const BodyCorrection& t : truth) {
+        if (body(t.body) && count < told.size()) {
+            told[count++] = {bodies_[t.body].id, t.pose, t.linear_velocity, t.angular_velocity};
+        }
+    }
+    return tick > 0 && timeline_.correct(tick - 1, std::span(told).first(count), inputs);
+}
+
+// A replay that has caught up may have moved anything that can move, awake or asleep.
+void SessionLoop::follow_replay() {
+    corrected_.clear();
+    if (!timeline_.replaying() || !timeline_.replay(settings_.history.replayed_a_tick)) {
+        return;
+    }
+    for (const BodyState& state : states_) {
+        const Body& moved = bodies_[state.handle];
+        const Pose before = scene_.body(moved.slot).pose;
+        const Pose now = physics_.pose(moved.id);
+        if (now.position != before.position || now.rotation != before.rotation) {
+            corrected_.push_back({state.handle, before});
+        }
+        place(state.handle, now, false);
+    }
 }
 
 // Ways that the owner asked for. A kinematic body gets the velocity that takes it one tick further, so that
@@ -131,12 +166,12 @@ void SessionLoop::travel() {
                                                 : moving.target;
         if (moving.motion == Motion::Kinematic) {
             if (moving.ticks_left > 0) {
-                physics_.move_to(moving.id, pose, seconds_);
+                timeline_.move_to(moving.id, pose, seconds_);
             } else {
-                physics_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
+                timeline_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
             }
         } else if (moving.ticks_left > 0) {
-            physics_.set_pose(moving.id, pose);
+            timeline_.set_pose(moving.id, pose);
             place(handle, pose, false);
         }
         // A kinematic body needs one tick more: the last step's velocity has to be taken from it.
@@ -208,6 +243,11 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.state = {};
         return;
     }
+    // A path goes on where it stopped; a real hand may be deep inside a body by now.
+    if (std::exchange(slot.rested, false) &&
+        glm::distance(slot.hand, slot.state.hand) > slot.proxy->settings().radius) {
+        slot.proxy->restart();
+    }
     const ProxyTick tick = slot.proxy->move(scene_, slot.hand);
     HandForce& force = slot.parts;
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_);
@@ -239,8 +279,8 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
         if (press && magnet.motion == Motion::Dynamic) {
-            physics_.apply_force(magnet.id, -on_hand,
-                                 slot.proxy->position() - nearest.normal * nearest.distance);
+            timeline_.apply_force(magnet.id, -on_hand,
+                                  slot.proxy->position() - nearest.normal * nearest.distance);
         }
     }
     return pull;
@@ -265,8 +305,8 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
             const bool sticks = !slot.sliding && material.static_friction > 0.0;
-            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
-                                                     material.damping, slot.hand_velocity, sticks});
+            timeline_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
+                                                      material.damping, slot.hand_velocity, sticks});
         }
     }
 }
@@ -307,13 +347,30 @@ void SessionLoop::write_devices(Nanoseconds now) {
     }
 }
 
-void SessionLoop::step_physics() {
-    awake_before_.resize(awake_before_.capacity());
-    awake_before_.resize(physics_.awake_bodies(awake_before_));
-    if (awake_before_.empty()) {
-        return;
+void SessionLoop::rest() {
+    for (DeviceSlot& slot : devices_) {
+        if (slot.device) {
+            slot.force = Vec3(0.0);
+            slot.device->write(time_, slot.force);
+        }
     }
-    const std::uint32_t step = physics_.step(seconds_);
+    for (ProxySlot& slot : proxies_) {
+        slot.force = Vec3(0.0);
+        slot.state.force = Vec3(0.0);
+        slot.rested = true;
+    }
+    publish(time_);
+}
+
+void SessionLoop::step_physics() {
+    hands_.clear();
+    for (const ProxySlot& slot : proxies_) {
+        if (slot.proxy && slot.description.enabled) {
+            hands_.push_back(slot.proxy->position());
+        }
+    }
+    timeline_.set_hands(hands_);
+    const std::uint32_t step = timeline_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
     status_ |= step & step_memory_full ? static_cast<TickStatus>(session_step_memory_full) : 0u;
@@ -324,15 +381,16 @@ void SessionLoop::publish(Nanoseconds now) {
     // The slot holds an older snapshot: only bodies that changed since then are written, or all where some
     // came or went.
     const std::uint64_t known = states_changed_at_ >= out.tick ? 0 : out.tick;
-    for (std::size_t i = 0; i < states_.size(); ++i) {
-        if (states_[i].changed_at >= known) {
-            out.bodies[i] = states_[i];
-        }
+    for (std::size_t i = state_changes_.newest(); i != state_changes_.end() && states_[i].changed_at >= known;
+         i = state_changes_.older(i)) {
+        out.bodies[i] = states_[i];
     }
     out.body_count = states_.size();
     out.tick = tick_;
     out.time = now;
-    out.awake_bodies = awake_before_.size();
+    out.awake_bodies = physics_.awake_count();
+    out.slowed_bodies = physics_.slowed_count();
+    out.physics_steps = physics_.steps();
     out.proxy_count = 0;
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         if (proxies_[i].proxy) {

@@ -9,8 +9,10 @@
 
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
+#include "physics/timeline.hpp"
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
+#include "session/change_order.hpp"
 #include "session/session_commands.hpp"
 #include "session/teleop_side.hpp"
 
@@ -41,6 +43,7 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
+        bool rested = false;  // since the last tick
         ProxyState state;
 
         bool present() const { return proxy && description.enabled; }
@@ -53,9 +56,34 @@ public:
     bool take(Command& command, Retired& retired);
 
     // After the first bodies have come in and before the first tick.
-    void settle() { physics_.settle_broad_phase(); }
+    void settle() { timeline_.settle_broad_phase(); }
 
     TickStatus tick(Nanoseconds now, TickTrace* trace);
+
+    // See Session.
+    void rest();
+
+    // --- time travel, for sessions that keep a history (HistorySettings). All of it between ticks or in one,
+    // before its step.
+    //
+    // restore t, put the truth in, replay: `truth` is what these bodies were in tick `tick`, as that tick's
+    // snapshot shows bodies. From then on what the hand did since is replayed beside the present, a few ticks
+    // in each tick, with the hand's forces as the corrected bodies take them (physics/timeline.hpp) or, with
+    // `inputs`, as `inputs` computes them anew: there tick T of the session is step T - 1. The tick in which
+    // the replay has caught up moves every body to where it should be, finds them in corrected() and goes on.
+    // A correction under way is replaced. False, and nothing happens, when the history does not reach back
+    // to `tick`: bodies, joints or kinds of motion that changed since end it.
+    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth, PastInputs* inputs = nullptr);
+    bool correcting() const { return timeline_.replaying(); }
+    std::uint64_t oldest_correctable_tick() const { return timeline_.oldest_tick() + 1; }
+
+    // Bodies that a replay moved in this tick.
+    std::span<const CorrectedBody> corrected() const { return corrected_; }
+
+    // The body in physics, for PastInputs; invalid where there is none.
+    BodyId physics_id(SessionHandle handle) const {
+        return handle < bodies_.size() ? bodies_[handle].id : BodyId{};
+    }
 
     // Another loop that has to get every command, too.
     SessionLoop* twin() { return side_ ? side_->twin() : nullptr; }
@@ -80,8 +108,8 @@ public:
     // The body is elsewhere. With `rides`, or where a proxy rests on it, it has been elsewhere a tick ago,
     // too, and what rests on it comes along; else it runs into what is in its way. `previous`: where it was a
     // tick ago, if that is known better. Its rates change where `with_velocity` says so.
-    void correct(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides = false,
-                 const Pose* previous = nullptr);
+    void put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides = false,
+                   const Pose* previous = nullptr);
     bool rests_on(const Proxy& proxy, SessionHandle handle) const;
 
     // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
@@ -133,8 +161,10 @@ private:
     void end_travel(SessionHandle handle);
     void travel();
     void follow_physics();
+    void follow_replay();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void show_state(SessionHandle handle);
+    void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
     void touch_all(Nanoseconds now);
     void press_all();
@@ -152,15 +182,17 @@ private:
     double seconds_;  // of a tick
     TripleBuffer<SessionSnapshot>& snapshots_;
     TouchScene scene_;
-    PhysicsWorld physics_;
+    Timeline timeline_;                          // whatever changes physics goes through it
+    const PhysicsWorld& physics_;                // its present
     std::vector<Body> bodies_;                   // by handle
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
     std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
-    std::vector<BodyId> awake_before_;
-    std::vector<BodyId> awake_;
+    std::vector<CorrectedBody> corrected_;
+    std::vector<Vec3> hands_;              // where the proxies are (unit: meters)
     std::vector<BodyState> states_;        // of all bodies that are not static, dense
+    ChangeOrder state_changes_;            // of states_
     std::vector<std::uint32_t> state_of_;  // by handle; no_handle: none
     std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
     std::array<DeviceSlot, most_devices> devices_;
@@ -169,7 +201,9 @@ private:
     RecorderRing<SessionRecord>* recording_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
+    bool follows_all_ = false;  // a memento was restored: where bodies are is to be read anew
     std::uint64_t tick_ = 0;
+    Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;
 };
 

@@ -1,5 +1,6 @@
 // How a loop is corrected, and how it goes back and does a tick again.
 #include <algorithm>
+#include <utility>
 
 #include "session/session_loop.hpp"
 
@@ -21,8 +22,8 @@ bool SessionLoop::asleep(SessionHandle handle) {
 void SessionLoop::accelerate(SessionHandle handle, const Vec3& acceleration) {
     const Body& pushed = bodies_[handle];
     if (pushed.motion == Motion::Dynamic && physics_.awake(pushed.id)) {
-        physics_.apply_force(pushed.id, acceleration * physics_.mass(pushed.id),
-                             physics_.center_of_mass(pushed.id));
+        timeline_.apply_force(pushed.id, acceleration * physics_.mass(pushed.id),
+                              physics_.center_of_mass(pushed.id));
     }
 }
 
@@ -31,8 +32,8 @@ bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
     return std::ranges::any_of(proxy.touching(), [slot](const Contact& c) { return c.body == slot; });
 }
 
-void SessionLoop::correct(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,
-                          const Pose* previous) {
+void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,
+                            const Pose* previous) {
     Body* const corrected = body(handle);
     if (!corrected) {
         return;
@@ -50,9 +51,9 @@ void SessionLoop::correct(SessionHandle handle, const BodyMotion& to, bool with_
         scene_.displace(corrected->slot, motion);
     }
     scene_.set_pose(corrected->slot, to.pose);
-    physics_.set_pose(corrected->id, to.pose);
+    timeline_.set_pose(corrected->id, to.pose);
     if (with_velocity && corrected->motion == Motion::Dynamic) {
-        physics_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
+        timeline_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
     }
     if (state_of_[handle] == no_handle) {
         show_state(handle);
@@ -61,13 +62,19 @@ void SessionLoop::correct(SessionHandle handle, const BodyMotion& to, bool with_
     state.pose = to.pose;
     state.linear_velocity = physics_.linear_velocity(corrected->id);
     state.angular_velocity = physics_.angular_velocity(corrected->id);
-    state.changed_at = tick_;
+    note_change(state_of_[handle]);
 }
 
 void SessionLoop::begin_replay_tick() {
     ++tick_;
     scene_.begin_tick();
-    follow_physics();
+    if (std::exchange(follows_all_, false)) {
+        for (const BodyState& state : states_) {
+            place(state.handle, physics_.pose(bodies_[state.handle].id), false);
+        }
+    } else {
+        follow_physics();
+    }
 }
 
 void SessionLoop::end_replay_tick(Nanoseconds now) {
@@ -99,16 +106,15 @@ bool SessionLoop::save(LoopMemento& memento) {
 
 bool SessionLoop::restore(const LoopMemento& memento) {
     if (memento.physics_bytes == 0 ||
-        !physics_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
+        !timeline_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
         return false;
     }
-    awake_before_.clear();
     for (std::size_t i = 0; i < memento.place_count; ++i) {
         if (const Body* const placed = body(memento.places[i].handle)) {
             scene_.set_pose(placed->slot, memento.places[i].pose, true);
-            awake_before_.push_back(placed->id);
         }
     }
+    follows_all_ = true;
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         if (proxies_[i].proxy) {
             proxies_[i].proxy->recall(memento.pointers[i].proxy);

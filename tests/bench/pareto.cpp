@@ -8,6 +8,9 @@
 //   triangles N   the mesh's resolution; error against the smooth sphere as well
 //   closed form   the sphere as a sphere
 //   float         mesh, hand and proxy rounded to single precision, as in an engine that computes with floats
+//   physics T     the time step of the bodies that move (in milliseconds; the default is 1): errors of
+//   motions
+//                 with an exact solution (shared/physics_checks.hpp) against the run time of a second
 //   at D          everything D metres from the origin: the proxy's tolerances grow with the largest
 //   coordinate
 //                 (core/haptics/tolerances.hpp), so these are the rows of looser tolerances
@@ -25,6 +28,7 @@
 #include "shared/bench_kit.hpp"
 #include "shared/hand_paths.hpp"
 #include "shared/meshes.hpp"
+#include "shared/physics_checks.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/touch_rig.hpp"
 
@@ -150,6 +154,29 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
     return figures;
 }
 
+void physics(Report& report, int rounds) {
+    std::printf("%-18s %10s %10s %10s %10s %10s %10s\n", "physics, step", "ms a s", "fall %", "sliding %",
+                "momentum %", "energy %", "spring %");
+    for (const double milliseconds : {0.25, 0.5, 1.0, 2.0, 4.0}) {
+        shared::PhysicsCheck check = shared::check_physics(1e-3 * milliseconds);
+        for (int round = 1; round < rounds; ++round) {
+            check.run_time = std::min(check.run_time, shared::check_physics(1e-3 * milliseconds).run_time);
+        }
+        char name[32];
+        std::snprintf(name, sizeof name, "physics_%g_ms", milliseconds);
+        std::printf("%-18s %10.3f %10.4f %10.4f %10.4f %10.4f %10.4f\n", name, 1e3 * check.run_time,
+                    check.fall, check.sliding, check.momentum, check.energy, check.spring_loss);
+        const std::string row = std::string(name) + '.';
+        report.set(row + "run_ms_per_s", 1e3 * check.run_time);
+        report.set(row + "fall_error_percent", check.fall);
+        report.set(row + "sliding_error_percent", check.sliding);
+        report.set(row + "momentum_error_percent", check.momentum);
+        report.set(row + "energy_error_percent", check.energy);
+        report.set(row + "work_error_percent", check.work);
+        report.set(row + "spring_energy_loss_percent", check.spring_loss);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -196,5 +223,6 @@ int main(int argc, char** argv) {
         report.set(row.name + ".sphere_direction_max_deg", f.direction_sphere);
         report.set(row.name + ".unfinished_share", f.unfinished);
     }
+    physics(report, std::max(20, settings.rounds));
     return report.write_json(shared::result_path("pareto")) ? 0 : 1;
 }

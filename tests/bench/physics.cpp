@@ -1,6 +1,6 @@
 // Things that move: what a tick with moving bodies costs, how they feel, and how right they are.
 //
-//     physics [--quick]
+//     physics [--quick] [--only=tick|crowd|feel|rollback|checks|awake]
 //
 // Writes the file that TACTUS_BENCH_JSON names (build/bench/physics.json otherwise): one flat object. Whole
 // ticks are a Session's; Jolt's bare step is Jolt's own world of the same boxes, stepped in turns with it in
@@ -27,6 +27,8 @@
 #include "physics/timeline.hpp"
 #include "realtime/clock.hpp"
 #include "session/session.hpp"
+#include "shared/bench_kit.hpp"
+#include "shared/physics_checks.hpp"
 
 namespace {
 
@@ -35,25 +37,14 @@ using namespace tactus;
 constexpr double tick = 1e-3;  // (unit: seconds)
 constexpr Vec3 down{0.0, -9.81, 0.0};
 
+// A report that is seen to grow.
 struct Results {
-    std::vector<std::pair<std::string, double>> values;
+    shared::Report report;
 
     void add(const std::string& key, double value) {
-        values.emplace_back(key, value);
+        report.set(key, value);
         std::printf("  %-40s %.6g\n", key.c_str(), value);
         std::fflush(stdout);
-    }
-
-    bool write(const char* path) const {
-        std::FILE* file = std::fopen(path, "w");
-        if (file == nullptr)
-            return false;
-        std::fprintf(file, "{\n");
-        for (std::size_t i = 0; i < values.size(); ++i)
-            std::fprintf(file, "  \"%s\": %.6g%s\n", values[i].first.c_str(), values[i].second,
-                         i + 1 < values.size() ? "," : "");
-        std::fprintf(file, "}\n");
-        return std::fclose(file) == 0;
     }
 };
 
@@ -572,135 +563,47 @@ void rollback(Results& results, bool quick) {
 // --- how right it is
 // -------------------------------------------------------------------------------------------------
 
-double percent_off(double value, double exact) {
-    return 100.0 * std::abs(value - exact) / std::abs(exact);
-}
-
-BodyId add(PhysicsWorld& world, const BodyDescription& description) {
-    PreparedBody body = prepare(description);
-    return world.add(body);
-}
-
-int steps_of(double seconds, double step) {
-    return static_cast<int>(std::lround(seconds / step));
-}
-
-// x = g t^2 / 2 after one second.
-double fall_error(double step) {
-    PhysicsWorld world;
-    const BodyId id = add(world, box(Vec3(0.1), {0.0, 10.0, 0.0}, 1.0));
-    for (int i = 0; i < steps_of(1.0, step); ++i)
-        world.step(step);
-    return percent_off(10.0 - world.pose(id).position.y, 0.5 * 9.81);
-}
-
-// A box at 1.5 m/s comes to rest after v^2 / (2 mu g).
-double sliding_error(double step) {
-    PhysicsWorld world;
-    add(world, ground());
-    BodyDescription description = box({0.2, 0.1, 0.2}, {0.0, 0.05, 0.0}, 1.0);
-    description.material.friction = 0.3;
-    const BodyId id = add(world, description);
-    for (int i = 0; i < steps_of(0.2, step); ++i)
-        world.step(step);
-    world.set_velocity(id, {1.5, 0.0, 0.0}, Vec3(0.0));
-    const double start = world.pose(id).position.x;
-    for (int i = 0; i < steps_of(1.0, step); ++i)
-        world.step(step);
-    return percent_off(world.pose(id).position.x - start, 1.5 * 1.5 / (2.0 * 0.3 * 9.81));
-}
-
-// 5 N for half a second over ice: momentum F t, energy (F t)^2 / (2 m), work F s.
-double push_error(double step) {
-    constexpr double force = 5.0;
-    constexpr double mass = 2.0;
-    constexpr double seconds = 0.5;
-    PhysicsWorld world;
-    BodyDescription ice = ground();
-    ice.material.friction = 0.0;
-    add(world, ice);
-    BodyDescription description = box(Vec3(edge), {0.0, 0.5 * edge, 0.0}, mass);
-    description.material.friction = 0.0;
-    const BodyId id = add(world, description);
-    for (int i = 0; i < steps_of(seconds, step); ++i) {
-        world.apply_force(id, {force, 0.0, 0.0}, world.center_of_mass(id));
-        world.step(step);
-    }
-    const double momentum = force * seconds;
-    const double energy = momentum * momentum / (2.0 * mass);
-    const double speed = world.linear_velocity(id).x;
-    return std::max({percent_off(mass * speed, momentum), percent_off(0.5 * mass * speed * speed, energy),
-                     percent_off(force * world.pose(id).position.x, energy)});
-}
-
-// A hand's spring, d = 20 mm deep, throws a box over ice: m v^2 = k d^2. The implicit spring
-// (spring_push.hpp) gives stability for this loss, which is pi/2 dt sqrt(k / m) to first order.
-double spring_energy_loss(double step) {
-    constexpr double stiffness = 100.0;
-    constexpr double depth = 0.02;
-    constexpr double mass = 1.0;
-    PhysicsWorld world;
-    BodyDescription ice = ground();
-    ice.material.friction = 0.0;
-    add(world, ice);
-    BodyDescription description = box(Vec3(edge), {0.0, 0.5 * edge, 0.0}, mass);
-    description.material.friction = 0.0;
-    const BodyId id = add(world, description);
-    for (int i = 0; i < steps_of(0.5, step); ++i) {
-        const Vec3 at = world.pose(id).position;
-        const double left = depth - at.x;
-        if (left > 0.0)
-            world.apply_spring_force(
-                id, {{stiffness * left, 0.0, 0.0}, at - Vec3(0.5 * edge, 0.0, 0.0), stiffness});
-        world.step(step);
-    }
-    const double speed = world.linear_velocity(id).x;
-    return 100.0 * (1.0 - mass * speed * speed / (stiffness * depth * depth));
-}
-
+// Over other steps: the bench `pareto`.
 void checks(Results& results) {
-    const double fall = fall_error(tick);
-    const double sliding = sliding_error(tick);
-    const double push = push_error(tick);
-    results.add("check_fall_error_percent", fall);
-    results.add("check_sliding_error_percent", sliding);
+    const shared::PhysicsCheck check = shared::check_physics(tick);
+    const double push = std::max({check.momentum, check.energy, check.work});
+    results.add("check_fall_error_percent", check.fall);
+    results.add("check_sliding_error_percent", check.sliding);
     results.add("check_push_error_percent", push);
-    results.add("check_max_error_percent", std::max({fall, sliding, push}));
-    results.add("spring_energy_loss_percent", spring_energy_loss(tick));
-    for (const double milliseconds : {0.25, 0.5, 1.0, 2.0, 4.0}) {
-        char name[32];
-        std::snprintf(name, sizeof(name), "pareto_%.2fms", milliseconds);
-        const double step = milliseconds * 1e-3;
-        double worst = 0.0;
-        const double time = microseconds(
-            [&] { worst = std::max({fall_error(step), sliding_error(step), push_error(step)}); });
-        results.add(std::string(name) + ".max_error_percent", worst);
-        results.add(std::string(name) + ".spring_energy_loss_percent", spring_energy_loss(step));
-        results.add(std::string(name) + ".run_ms", time * 1e-3);
-    }
+    results.add("check_max_error_percent", std::max({check.fall, check.sliding, push}));
+    results.add("spring_energy_loss_percent", check.spring_loss);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-    const bool quick = count > 1 && std::string_view(arguments[1]) == "--quick";
+    shared::Options options(count, arguments);
+    const bool quick = options.has("quick");
+    const std::string only = options.text("only");
+    if (!options.understood())
+        return 2;
     const int rounds = quick ? 5 : 60;
-    const char* path = std::getenv("TACTUS_BENCH_JSON");
     Results results;
     prepare(ground());  // starts Jolt
-    tick_over_jolt(results, "one_box", 1, rounds);
-    tick_over_jolt(results, "ten_boxes", 10, rounds);
-    idle_crowd(results, rounds);
-    idle_crowd_step(results, rounds);
-    push(results);
-    press(results, "press_20mm", 0.02);
-    press(results, "press_5mm", 0.005);
-    rollback(results, quick);
-    checks(results);
-    awake_bodies(results, quick);
-    if (!results.write(path != nullptr ? path : "build/bench/physics.json")) {
-        std::fprintf(stderr, "cannot write the results\n");
-        return 1;
+    const auto part = [&only](std::string_view name) { return only.empty() || only == name; };
+    if (part("tick")) {
+        tick_over_jolt(results, "one_box", 1, rounds);
+        tick_over_jolt(results, "ten_boxes", 10, rounds);
     }
-    return 0;
+    if (part("crowd")) {
+        idle_crowd(results, rounds);
+        idle_crowd_step(results, rounds);
+    }
+    if (part("feel")) {
+        push(results);
+        press(results, "press_20mm", 0.02);
+        press(results, "press_5mm", 0.005);
+    }
+    if (part("rollback"))
+        rollback(results, quick);
+    if (part("checks"))
+        checks(results);
+    if (part("awake"))
+        awake_bodies(results, quick);
+    return results.report.write_json(shared::result_path("physics")) ? 0 : 1;
 }

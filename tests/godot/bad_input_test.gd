@@ -99,10 +99,45 @@ func test_a_sphere_scaled_unevenly() -> void:
 	_problem_beside_a_sound_floor(body, "scale it evenly")
 
 
+func test_a_sphere_without_a_radius() -> void:
+	_problem_beside_a_sound_floor(
+		with_shape(StaticBody3D.new(), sphere(0.0)), "radius is not a positive length"
+	)
+
+
 func test_a_shape_that_is_no_surface() -> void:
 	_problem_beside_a_sound_floor(
 		with_shape(StaticBody3D.new(), SeparationRayShape3D.new()), "cannot be touched"
 	)
+
+
+func test_a_proxy_whose_scene_gives_it_a_negative_radius() -> void:
+	var packed := PackedScene.new()
+	var drawn := ProxyPointer.new()
+	drawn.name = "Finger"
+	packed.pack(drawn)
+	drawn.free()
+	var bundle: Dictionary = packed._bundled
+	bundle.names.append("radius")
+	bundle.variants.append(-0.01)
+	# A node's part of the bundle: parent, owner, type, name, instance, properties, … groups.
+	var nodes: PackedInt32Array = bundle.nodes
+	check_equal(nodes[5], 0, "properties of the drawn node")
+	nodes[5] = 1
+	nodes.insert(6, bundle.names.size() - 1)
+	nodes.insert(7, bundle.variants.size() - 1)
+	bundle.nodes = nodes
+	packed._bundled = bundle
+	expect_error("radius = -0.01 was refused")
+	var proxy: ProxyPointer = packed.instantiate()
+	add_child(proxy)
+	check_equal(proxy.radius, 0.01, "radius")
+	check(
+		" ".join(proxy.get_warnings()).contains("'Finger' was given a radius that is no length above 0"),
+		"no warning names it: %s" % [proxy.get_warnings()]
+	)
+	proxy.radius = 0.02
+	check(not " ".join(proxy.get_warnings()).contains("radius"), "it still warns")
 
 
 func test_a_problem_that_is_repaired_is_gone() -> void:

@@ -213,18 +213,6 @@ func test_godots_own_physics_leaves_the_bodies_alone_and_gets_them_back() -> voi
 	check(body.position.y < 0.99, "Godot does not move it again: %s" % body.position)
 
 
-func test_pausing_the_tree_stops_the_real_time_loop() -> void:
-	var world := HapticWorld.new()
-	add_child(world)
-	check(await until(func() -> bool: return world.get_ticks() > 50, 5.0), "it does not tick")
-	get_tree().paused = true
-	var ticks := world.get_ticks()
-	await get_tree().create_timer(0.1).timeout
-	check_equal(world.get_ticks(), ticks, "ticks while paused")
-	get_tree().paused = false
-	check(await until(func() -> bool: return world.get_ticks() > ticks + 50, 5.0), "it does not go on")
-
-
 func test_the_clock_can_be_changed_while_running() -> void:
 	var world := add_world()
 	world.advance(0.01)

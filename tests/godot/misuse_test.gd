@@ -16,11 +16,19 @@ func test_setters_refuse_what_makes_no_sense() -> void:
 	var device := HapticDevice.new()
 	var world := HapticWorld.new()
 	var recorder := HapticRecorder.new()
+	var touched := HapticMesh.new()
 	var values := {
 		"stiffness": [HapticMaterial.new(), -1.0],
 		"damping": [HapticMaterial.new(), NAN],
 		"static_friction": [HapticMaterial.new(), -0.1],
 		"dynamic_friction": [HapticMaterial.new(), INF],
+		"texture_depth": [HapticMaterial.new(), -0.001],
+		"texture_size": [HapticMaterial.new(), 0.0],
+		"magnet_force": [HapticMaterial.new(), NAN],
+		"magnet_range": [HapticMaterial.new(), 0.0],
+		"viscosity": [HapticMaterial.new(), -1.0],
+		"vibration_frequency": [HapticMaterial.new(), -1.0],
+		"smoothing_angle": [touched, 4.0],
 		"force_limit": [device, -1.0],
 		"wheel_step": [device, 0.0],
 		"tick_rate": [world, 0],
@@ -41,6 +49,7 @@ func test_setters_refuse_what_makes_no_sense() -> void:
 	device.free()
 	world.free()
 	recorder.free()
+	touched.free()
 
 
 func test_a_proxy_whose_device_is_nowhere() -> void:

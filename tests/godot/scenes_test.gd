@@ -157,6 +157,19 @@ func test_the_recorder_says_what_it_lacks() -> void:
 	check_equal(recorder.get_rows(), 0, "rows")
 
 
+func test_a_recorder_that_a_script_starts_needs_no_path_before() -> void:
+	var world := add_world()
+	add_hand(world, null)
+	var recorder := HapticRecorder.new()
+	recorder.proxy = NodePath("../Proxy")
+	world.add_child(recorder)
+	check(recorder.get_warnings()[0].contains("writes nothing"), "no warning with autostart")
+	recorder.autostart = false
+	check_equal(Array(recorder.get_warnings()), [], "warnings without autostart")
+	expect_error("it has no file to write: set 'csv_path'")
+	check(not recorder.start(), "it started without a file")
+
+
 func test_a_file_that_cannot_be_written_is_said() -> void:
 	var recorder := HapticRecorder.new()
 	recorder.csv_path = "/proc/nowhere/file.csv"

@@ -248,5 +248,48 @@ TEST(HandContact, BallRollsUnderTheFinger) {
                 0.01 * world.linear_velocity(id).x / 0.03);
 }
 
+// A leaf of 50 g in a hinge that drags, pushed at its free edge by a hand that goes along the arc: the hand
+// feels the drag I c w / r and nothing else, and the hinge stays where it is.
+TEST(HandContact, DoorOpensUnderTheFinger) {
+    constexpr double width = 0.1;
+    constexpr double stiffness = 1000.0;
+    constexpr double drag = 20.0;  // (unit: 1/seconds)
+    constexpr double speed = 0.5;  // (unit: radians per second)
+    PhysicsWorld world;
+    BodyDescription leaf = box({width, 0.15, 0.006}, {0.5 * width, 0.0, 0.0}, 0.05);
+    leaf.angular_damping = drag;
+    leaf.gravity_scale = 0.0;
+    const BodyId id = add(world, leaf);
+    JointDescription hinge;
+    hinge.kind = JointKind::Hinge;
+    hinge.frame.rotation = Quat(std::sqrt(0.5), -std::sqrt(0.5), 0.0, 0.0);  // z to y
+    hinge.angular[2] = JointRange::free();
+    ASSERT_TRUE(world.add_joint(hinge, BodyId{}, id).valid());
+    const Vec3 at{0.4 * width, 0.0, 0.003};  // on the leaf, 0.09 m from the hinge
+    std::vector<double> forces;
+    double loosest = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+        const Pose pose = world.pose(id);
+        const Vec3 point = to_parent(pose, at);
+        const double angle = speed * tick * (i + 1);
+        const double ahead = angle - std::atan2(-to_parent(pose, Vec3(0.4 * width, 0.0, 0.0)).z,
+                                                to_parent(pose, Vec3(0.4 * width, 0.0, 0.0)).x);
+        const double force = std::max(0.0, stiffness * ahead * 0.9 * width);
+        const Vec3 way = direction_to_parent(pose, {0.0, 0.0, -1.0});
+        world.apply_spring_force(id, {force * way, point, stiffness, 0.0, 0.9 * width * speed * way});
+        world.step(tick);
+        loosest = std::max(loosest, glm::length(to_parent(world.pose(id), Vec3(-0.5 * width, 0.0, 0.0))));
+        if (i >= 1000)
+            forces.push_back(force);
+    }
+    // Jolt's damping acts on the spin about the leaf's own centre and on nothing else.
+    const double inertia = 0.05 * (width * width + 0.006 * 0.006) / 12.0;
+    const double expected = inertia * drag * speed / (0.9 * width);
+    const auto [least, most] = std::minmax_element(forces.begin(), forces.end());
+    EXPECT_NEAR(*least, expected, 0.02 * expected);
+    EXPECT_LT(*most - *least, 0.01 * expected);
+    EXPECT_LT(loosest, 1e-5);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -1,5 +1,11 @@
 // Virtual time: the same calls with the same times give the same bits.
+#include <unistd.h>
+
+#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "session_rig.hpp"
@@ -94,6 +100,74 @@ TEST(SessionDeterminism, TwoRunsAreTheSameToTheLastBit) {
         EXPECT_EQ(first.hash, second.hash);
         EXPECT_GT(first.touching, 300);
         EXPECT_GT(first.box_moved, 0.01);
+    }
+}
+
+// Two hundred boxes thrown about, most of them slowed, and a correction of the past besides.
+std::uint64_t run_a_crowd() {
+    Hash hash;
+    for (const bool history : {false, true}) {
+        SessionSettings settings;
+        settings.history.ticks = history ? 256 : 0;
+        SessionRig rig(settings);
+        rig.add(ground());
+        std::vector<SessionHandle> boxes;
+        for (int i = 0; i < (history ? 20 : 200); ++i) {
+            BodyAddition box =
+                body(BoxShape{Vec3(0.03)}, {0.07 * (i % 20), 0.04 + 0.1 * (i % 3), 0.1 * (i / 20)},
+                     Motion::Dynamic, 0.2);
+            box.description.linear_velocity = {0.1 * (i % 7), 0.5, -0.1 * (i % 5)};
+            boxes.push_back(rig.add(box));
+        }
+        rig.session.settle();
+        for (int i = 0; i < 1'500; ++i) {
+            const double a = 0.003 * i;
+            rig.device.position = {0.7 + 0.6 * std::cos(a), 0.05, 0.4 * std::sin(a)};
+            rig.device.velocity = {-1.8 * std::sin(a), 0.0, 1.2 * std::cos(a)};
+            hash.add(static_cast<std::uint64_t>(rig.tick()));
+            hash.add(rig.device.force);
+            if (history && i % 200 == 199) {
+                const BodyState& state = *rig.state_of(boxes[3]);
+                const BodyCorrection truth{state.handle, state.pose, {0.3, 0.2, 0.0}, Vec3(0.0)};
+                rig.session.correct(rig.newest().tick - 60, {&truth, 1});
+            }
+            for (const SessionHandle box : boxes) {
+                hash.add(rig.state_of(box)->pose.position);
+            }
+            hash.add(static_cast<std::uint64_t>(rig.newest().slowed_bodies));
+        }
+    }
+    return hash.value();
+}
+
+constexpr const char* hash_file = "TACTUS_TEST_HASH_FILE";
+
+// The other process of the next test.
+TEST(SessionDeterminism, InAProcessOfItsOwn) {
+    const char* const path = std::getenv(hash_file);
+    if (path == nullptr) {
+        GTEST_SKIP() << "runs as a part of EveryProcessOnAnyCoresGivesTheSameBits";
+    }
+    std::ofstream(path) << run(ForceLaw::spring).hash << ' ' << run_a_crowd();
+}
+
+std::string hashes_of_a_process(const std::string& cores) {
+    const std::string path = ::testing::TempDir() + "tactus_hash_" + std::to_string(getpid());
+    const std::string command = std::string(hash_file) + "=" + path + " taskset -c " + cores + " /proc/" +
+                                std::to_string(getpid()) +
+                                "/exe --gtest_filter=SessionDeterminism.InAProcessOfItsOwn > /dev/null";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    std::string hashes;
+    std::getline(std::ifstream(path), hashes);
+    std::remove(path.c_str());
+    return hashes;
+}
+
+TEST(SessionDeterminism, EveryProcessOnAnyCoresGivesTheSameBits) {
+    const std::string here = std::to_string(run(ForceLaw::spring).hash) + ' ' + std::to_string(run_a_crowd());
+    EXPECT_EQ(hashes_of_a_process("0"), here);
+    if (std::thread::hardware_concurrency() > 1) {
+        EXPECT_EQ(hashes_of_a_process("0,1"), here);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <limits>
+#include <thread>
 
 #include "session_rig.hpp"
 
@@ -76,6 +77,68 @@ TEST(Session, AHeldClutchKeepsTheHandWhereItIs) {
     EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.2, 0.2, 0.3)), 1e-12);
 }
 
+TEST(Session, BodiesMadeElsewhereMayShareTheirTouch) {
+    SessionRig rig;
+    BodyAddition addition = body(BoxShape{Vec3(0.1)}, {0.0, -0.1, 0.0}, Motion::Static);
+    addition.touch = make_touch_shape(addition.description.shapes).shape;
+    ReadyBody first, second;
+    std::thread other([&] { first = rig.session.prepare_body(addition); });
+    other.join();
+    addition.description.pose.position.x = 1.0;
+    second = rig.session.prepare_body(addition);
+    EXPECT_NE(rig.session.add_body(std::move(first)).handle, no_handle);
+    EXPECT_NE(rig.session.add_body(std::move(second)).handle, no_handle);
+    EXPECT_GE(addition.touch.use_count(), 3);
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, 0.0, 0.0}, 100);
+    EXPECT_NEAR(rig.device.force.y, 5.0, 1e-6);
+}
+
+TEST(Session, AtRestTheDeviceIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.rest();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    EXPECT_EQ(rig.proxy_state().force, Vec3(0.0));
+    EXPECT_EQ(rig.session.snapshot().devices[0].force, Vec3(0.0));
+}
+
+TEST(Session, AHandThatStayedGoesOnAfterARest) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    const double before = rig.device.force.y;
+    rig.session.rest();
+    rig.tick();
+    EXPECT_DOUBLE_EQ(rig.device.force.y, before);
+}
+
+TEST(Session, AHandThatWentElsewhereDuringARestIsNotKicked) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.ticks(10);
+    rig.session.rest();
+    rig.device.position = {0.0, -0.2, 0.0};
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+TEST(Session, ADeviceThatLeavesIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.remove_device(rig.hand);
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
 TEST(Session, AFingerPushesABoxAndFeelsTheOppositeForce) {
     SessionSettings settings;
     SessionRig rig(settings);
@@ -120,6 +183,97 @@ TEST(Session, AFallingBoxLiesStillOnTheGroundAndSleeps) {
     rig.ticks(3'000);
     EXPECT_NEAR(rig.state_of(box)->pose.position.y, 0.1, 2e-3);
     EXPECT_EQ(rig.newest().awake_bodies, 0u);
+}
+
+TEST(Session, ASceneAtRestTakesNoPhysicsStep) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.add(body(BoxShape{Vec3(0.1)}, {0.5, 0.1, 0.0}, Motion::Static));
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.3, -0.02, 0.1}, 500);
+    EXPECT_TRUE(rig.proxy_state().status & proxy_touching);
+    EXPECT_EQ(rig.newest().physics_steps, 0u);
+}
+
+TEST(Session, ASceneThatCameToRestTakesNoMore) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.add(body(BoxShape{Vec3(0.1)}, {0.5, 0.3, 0.0}, Motion::Dynamic));
+    rig.device.position = {0.0, 1.0, 0.0};
+    rig.ticks(3'000);
+    const std::uint64_t steps = rig.newest().physics_steps;
+    EXPECT_GT(steps, 500u);
+    EXPECT_LT(steps, 3'000u);
+    rig.ticks(500);
+    EXPECT_EQ(rig.newest().physics_steps, steps);
+}
+
+TEST(Session, ManyAwakeBodiesAreSlowedWhereNoHandIsAndSayHowMany) {
+    SessionSettings settings;
+    settings.full_rate_bodies = 16;
+    SessionRig rig(settings);
+    rig.device.position = {0.0, 0.0, 0.3};
+    std::vector<SessionHandle> boxes;
+    for (int i = 0; i < 60; ++i) {
+        BodyAddition addition = body(BoxShape{Vec3(0.05)}, {0.2 * i, 0.0, 0.0}, Motion::Dynamic);
+        addition.description.linear_velocity = {0.0, 0.0, 0.1};
+        addition.description.gravity_scale = 0.0;
+        boxes.push_back(rig.add(addition));
+    }
+    rig.ticks(100);
+    EXPECT_EQ(rig.newest().awake_bodies, 60u);
+    EXPECT_GE(rig.newest().slowed_bodies, 44u);
+    EXPECT_LE(rig.newest().slowed_bodies, 48u);
+    rig.ticks(900);
+    for (const SessionHandle box : boxes) {
+        EXPECT_NEAR(rig.state_of(box)->pose.position.z, 0.1, 2e-3);
+        EXPECT_NEAR(rig.state_of(box)->linear_velocity.z, 0.1, 1e-6);
+    }
+}
+
+// A U of three slabs. To the finger it is what it looks like, to other bodies its hull.
+TEST(Session, AMovingConcaveMeshIsTouchedInItsHollow) {
+    auto channel = std::make_shared<TriangleMesh>();
+    const auto slab = [&channel](const Vec3& low, const Vec3& high) {
+        const auto first = static_cast<std::uint32_t>(channel->vertices.size());
+        for (int i = 0; i < 8; ++i) {
+            channel->vertices.emplace_back((i & 1) ? high.x : low.x, (i & 2) ? high.y : low.y,
+                                           (i & 4) ? high.z : low.z);
+        }
+        for (const std::array<std::uint32_t, 3>& t : {std::array<std::uint32_t, 3>{0, 2, 1},
+                                                      {1, 2, 3},
+                                                      {4, 5, 6},
+                                                      {5, 7, 6},
+                                                      {0, 1, 4},
+                                                      {1, 5, 4},
+                                                      {2, 6, 3},
+                                                      {3, 6, 7},
+                                                      {0, 4, 2},
+                                                      {2, 4, 6},
+                                                      {1, 3, 5},
+                                                      {3, 7, 5}}) {
+            channel->triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    };
+    slab({-0.10, 0.0, -0.1}, {0.10, 0.02, 0.1});
+    slab({-0.10, 0.0, -0.1}, {-0.08, 0.1, 0.1});
+    slab({0.08, 0.0, -0.1}, {0.10, 0.1, 0.1});
+    SessionRig rig;
+    rig.add(ground());
+    const SessionHandle handle = rig.add(body(MeshShape{channel}, Vec3(0.0), Motion::Dynamic, 2.0));
+    const SessionHandle ball = rig.add(body(SphereShape{0.03}, {0.0, 0.15, 0.05}, Motion::Dynamic, 0.1));
+    rig.device.position = {0.0, 0.3, -0.05};
+    rig.tick();
+    rig.draw({0.0, 0.02, -0.05}, 500);
+    rig.ticks(500);
+    // The finger of 10 mm is on the floor of the hollow, the ball on its lid.
+    const Pose& pose = rig.state_of(handle)->pose;
+    EXPECT_NEAR(to_local(pose, rig.proxy_state().position).y, 0.03, 1e-5);
+    EXPECT_NEAR(to_local(pose, rig.state_of(ball)->pose.position).y, 0.13, 1e-3);
+    // And a wall holds it from the side.
+    rig.draw({0.09, 0.02, -0.05}, 500);
+    EXPECT_NEAR(to_local(rig.state_of(handle)->pose, rig.proxy_state().position).x, 0.07, 1e-5);
 }
 
 TEST(Session, AKinematicBodyMovedByItsOwnerArrivesInTime) {

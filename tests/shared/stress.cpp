@@ -330,7 +330,7 @@ public:
         const double radius = setting_.radius * setting_.scale;
         // Coordinates themselves are only so exact; the skin keeps the proxy well above that.
         const double rounding = 8.0 * 0x1p-52 * (tree_.magnitude() + glm::length(p));
-        double distance = tree_.collect(p, 0.0, 2.0 * radius, {}).nearest;
+        double distance = tree_.nearest(p, 2.0 * radius).distance;
         if (tick % 64 == 0) {
             distance = std::min(distance, static_cast<double>(slow_distance(p, setting_.mesh)));
         }
@@ -350,7 +350,7 @@ public:
         }
         const bool unfinished = at.status & proxy_unfinished;
         counts_.unfinished_ticks += unfinished;
-        if (!rough_ && proxy.touching().size() > 0 && (unfinished || tick % 257 == 0)) {
+        if (!rough_ && proxy.touching().size() > 0 && (unfinished || tick % 101 == 0)) {
             const ReferencePlace place = reference_.settle(p, hand);
             const auto error = static_cast<double>(glm::distance(place.position, SlowVec3(p)));
             ++counts_.checked_ticks;

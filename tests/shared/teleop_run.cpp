@@ -54,7 +54,7 @@ SessionSettings session_settings() {
     settings.most_parts = 256;
     settings.physics.max_touching_pairs = 512;
     settings.physics.max_contacts = 512;
-    settings.physics.remembered_wakings = 64;
+    settings.full_rate_bodies = 0;
     return settings;
 }
 

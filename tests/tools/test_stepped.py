@@ -1,5 +1,6 @@
 """In stepped time the same scene gives the same bytes: of one program, and of the exported one that stands alone."""
 
+import os
 import subprocess
 from pathlib import Path
 
@@ -29,6 +30,17 @@ def test_two_runs_write_the_same_rows(tmp_path):
     first, second = (rows(DYNAMIC, tmp_path / name) for name in ("first", "second"))
     assert first.count(b"\n") > 1000 * SECONDS
     assert first == second
+
+
+def test_one_core_writes_the_same_rows(tmp_path):
+    cores = os.sched_getaffinity(0)
+    with_all = rows(DYNAMIC, tmp_path / "all")
+    os.sched_setaffinity(0, {min(cores)})
+    try:
+        with_one = rows(DYNAMIC, tmp_path / "one")
+    finally:
+        os.sched_setaffinity(0, cores)
+    assert with_one == with_all
 
 
 @pytest.mark.parametrize("case", [STATIC, DYNAMIC, MESHES], ids=lambda case: case.name)

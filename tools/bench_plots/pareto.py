@@ -1,9 +1,13 @@
-"""build/bench/pareto.json as CSV and as a chart: run time against error, the default marked."""
+"""build/bench/pareto.json as CSV and as charts: run time against error, the defaults marked.
+
+The proxy's rows and, in a chart and table of their own (pareto_physics), those of the bodies that move.
+"""
 
 import sys
 from pathlib import Path
 
 from bench_plots import cases
+from matplotlib.ticker import LogLocator, NullLocator
 from plots import style
 
 DEFAULT = "steps_64"
@@ -13,6 +17,18 @@ GROUPS = {
     "at_": ("distance from the origin (tolerances grow with it)", style.WARNING, "^"),
     "float": ("single precision", style.INK, "D"),
     "closed_form": ("closed form", style.AXES["y"], "P"),
+}
+
+PHYSICS = "physics_"
+PHYSICS_DEFAULT = 1.0  # (unit: milliseconds)
+NO_ERROR = 2e-3  # what rounding leaves (unit: percent): named, not drawn
+PHYSICS_ERRORS = {
+    "fall_error_percent": ("way of a falling body", style.MEASURED, "-o"),
+    "sliding_error_percent": ("way of a box sliding to rest", style.REFERENCE, "-s"),
+    "work_error_percent": ("work of a push over ice, F·s", style.AXES["y"], "-^"),
+    "energy_error_percent": ("energy of a push over ice", style.QUIET, "-v"),
+    "momentum_error_percent": ("momentum of a push over ice", style.INK, "-D"),
+    "spring_energy_loss_percent": ("energy lost by a hand's spring that throws a box", style.WARNING, "-P"),
 }
 
 
@@ -50,11 +66,63 @@ def draw(table: dict[str, dict[str, float]], path: Path) -> None:
     style.save(drawn, path)
 
 
+def draw_physics(table: dict[str, dict[str, float]], path: Path) -> None:
+    drawn, ((axes,),) = style.figure(1, 1, 8.0, 5.6)
+    places = [(case["run_ms_per_s"], milliseconds_of(name)) for name, case in table.items()]
+    for metric, (label, colour, line) in PHYSICS_ERRORS.items():
+        errors = [case[metric] for case in table.values()]
+        if max(errors) < NO_ERROR:
+            axes.plot([], [], line, color=colour, label=f"{label}: below {NO_ERROR:g} %", markersize=5)
+        else:
+            axes.plot([run_time for run_time, _ in places], errors, line, color=colour, label=label, markersize=5)
+    for run_time, milliseconds in places:
+        default = milliseconds == PHYSICS_DEFAULT
+        axes.axvline(run_time, color=style.MEASURED if default else style.GRID, linewidth=1.0, linestyle=":", zorder=0)
+        axes.annotate(
+            f"{milliseconds:g} ms" + (" (default)" if default else ""),
+            (run_time, 1.0),
+            xycoords=("data", "axes fraction"),
+            textcoords="offset points",
+            xytext=(3, -10),
+            fontsize=8,
+            color=style.INK,
+        )
+    axes.axhline(0.5, color=style.INK, linewidth=1.0, linestyle="--", label="wanted at the default: 0.5 %")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        title="Moving bodies: error over time step",
+        xlabel="run time of one second of a sliding box (ms)",
+        ylabel="error (% of the exact value)",
+    )
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_locator(NullLocator())
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axes.yaxis.set_major_formatter("{x:g}")
+    axes.legend(fontsize=8, ncols=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))
+    style.save(drawn, path)
+
+
+def milliseconds_of(name: str) -> float:
+    return float(name.removeprefix(PHYSICS).removesuffix("_ms"))
+
+
+def split(table: dict[str, dict[str, float]]) -> tuple[dict, dict]:
+    """The proxy's rows and those of physics."""
+    physics = {name: case for name, case in table.items() if name.startswith(PHYSICS)}
+    return {name: case for name, case in table.items() if name not in physics}, physics
+
+
 def main(result: Path) -> None:
-    table = cases.read(result)
-    cases.write_csv(table, result.with_suffix(".csv"))
-    draw(table, result.with_suffix(".png"))
-    print(f"   {result.with_suffix('.csv').name}, {result.with_suffix('.png').name} beside it")
+    proxy, physics = split(cases.read(result))
+    for table, drawing, path in (
+        (proxy, draw, result),
+        (physics, draw_physics, result.with_stem(f"{result.stem}_physics")),
+    ):
+        if table:
+            cases.write_csv(table, path.with_suffix(".csv"))
+            drawing(table, path.with_suffix(".png"))
+            print(f"   {path.with_suffix('.csv').name}, {path.with_suffix('.png').name} beside it")
 
 
 if __name__ == "__main__":

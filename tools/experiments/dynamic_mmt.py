@@ -78,7 +78,12 @@ def best(found: dict[str, dict[str, float]]) -> str:
     candidates = {name: figures for name, figures in candidates.items() if name.split(".")[0] in CORRECTIONS[1:]}
     unfelt = {name: one for name, one in candidates.items() if one["correction_force_step_max_N"] <= 0.02}
     among = unfelt or candidates
-    return min(among, key=lambda name: among[name]["force_error_mean_N"]) if among else ""
+
+    def rank(name: str) -> tuple[float, float]:
+        # Force errors that differ by less than a thousandth of a newton are equal.
+        return round(among[name]["force_error_mean_N"], 3), among[name]["correction_force_step_max_N"]
+
+    return min(among, key=rank) if among else ""
 
 
 def _write_table(path: Path, found: dict[str, dict[str, float]]) -> None:

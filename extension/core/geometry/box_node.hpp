@@ -3,6 +3,11 @@
 // hides a triangle.
 #pragma once
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+#include <cstddef>
 #include <cstdint>
 
 #include "core/math/types.hpp"
@@ -21,6 +26,14 @@ struct alignas(32) BoxNode {
     FloatLanes high[3];               // of the upper corners; -infinity where unused
     std::uint32_t child[node_width];  // a node, or a triangle pack where leaf_bit is set, or unused
 };
+
+// A large tree does not fit into any cache: what will be looked at soon is asked for early.
+inline void fetch_early(const void* object, std::size_t bytes) {
+    constexpr std::size_t line = 64;
+    for (std::size_t offset = 0; offset < bytes; offset += line) {
+        __builtin_prefetch(static_cast<const char*>(object) + offset);
+    }
+}
 
 // A point in the tree's frame as the boxes see it.
 struct FloatPoint {
@@ -47,6 +60,20 @@ inline FloatLanes outside(FloatLanes low, FloatLanes high, FloatLanes p) {
     return most(most(low - p, p - high), splat_float(0.0f));
 }
 }  // namespace box_detail
+
+// One bit a lane: those with a value up to `limit`.
+inline unsigned lanes_up_to(FloatLanes values, float limit) {
+    const auto mask = values <= splat_float(limit);
+#if defined(__AVX__)
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#else
+    unsigned bits = 0;
+    for (int i = 0; i < node_width; ++i) {
+        bits |= mask[i] ? 1u << i : 0u;
+    }
+    return bits;
+#endif
+}
 
 // Squared distance from the point to each box; infinite for unused slots.
 inline FloatLanes squared_distance_to_boxes(const BoxNode& node, const FloatPoint& p) {

@@ -46,6 +46,10 @@ SolidDistance from_plane(double distance, const Vec3& normal) {
     return result;
 }
 
+void add_end(SolidDistance& at, const Vec3& direction, double room) {
+    at.ends[static_cast<std::size_t>(at.end_count++)] = {direction, room};
+}
+
 SolidDistance distance_to(const SphereShape& sphere, const Vec3& p) {
     return from_point(p, sphere.radius);
 }
@@ -72,12 +76,17 @@ SolidDistance distance_to(const BoxShape& box, const Vec3& p) {
         (out ? outside_axis : inside_axis) = axis;
     }
     Vec3 direction(0.0);
-    if (outside == 3) {
-        return from_point(offset, 0.0);
-    }
-    if (outside == 2) {
+    if (outside >= 2) {
         direction[inside_axis] = 1.0;
-        return from_line(offset, direction, 0.0);
+        SolidDistance result = outside == 3 ? from_point(offset, 0.0) : from_line(offset, direction, 0.0);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (offset[axis] != 0.0) {
+                Vec3 inward(0.0);
+                inward[axis] = -std::copysign(1.0, offset[axis]);
+                add_end(result, inward, std::abs(offset[axis]));
+            }
+        }
+        return result;
     }
     if (outside == 1) {
         direction[outside_axis] = std::copysign(1.0, offset[outside_axis]);
@@ -107,6 +116,8 @@ SolidDistance distance_to(const CylinderShape& cylinder, const Vec3& p) {
         result.normal = (outward * beyond_side + up * beyond_cap) / result.distance;
         result.bend_u = beyond_side / (result.distance * radial);
         result.bend_v = 1.0 / result.distance;
+        add_end(result, -outward, beyond_side);
+        add_end(result, -up, beyond_cap);
     } else if (beyond_side > beyond_cap) {
         result.distance = beyond_side;
         result.normal = outward;

@@ -3,9 +3,11 @@
 // (thesis 3.2.3, 4.3).
 #pragma once
 
+#include <array>
 #include <variant>
 
 #include "core/geometry/shape.hpp"
+#include "core/geometry/surface_end.hpp"
 
 namespace tactus {
 
@@ -15,11 +17,13 @@ using Solid = std::variant<SphereShape, BoxShape, CapsuleShape, CylinderShape, P
 // function of the point with gradient `normal` and second derivatives bend_u along u, bend_v along
 // cross(normal, u).
 struct SolidDistance {
-    double distance = 0.0;       // negative inside (unit: meters)
-    Vec3 normal{0.0, 1.0, 0.0};  // unit, away from the solid, in the solid's frame
-    Vec3 u{1.0, 0.0, 0.0};       // unit, perpendicular to normal
-    double bend_u = 0.0;         // (unit: 1/meter)
-    double bend_v = 0.0;         // (unit: 1/meter)
+    double distance = 0.0;             // negative inside (unit: meters)
+    Vec3 normal{0.0, 1.0, 0.0};        // unit, away from the solid, in the solid's frame
+    Vec3 u{1.0, 0.0, 0.0};             // unit, perpendicular to normal
+    double bend_u = 0.0;               // (unit: 1/meter)
+    double bend_v = 0.0;               // (unit: 1/meter)
+    std::array<SurfaceEnd, 3> ends{};  // where an edge or corner ends and the bends with it
+    int end_count = 0;
 };
 
 SolidDistance distance_to_solid(const Solid& solid, const Vec3& point);

@@ -92,6 +92,15 @@ inline Lanes least_distances(const PackBound& bound, const LanesVec3& point) {
     return dot(bound.normal, point) + bound.offset;
 }
 
+// How far the moving point is from being stopped, and how fast that changes.
+struct SweepLook {
+    Lanes gap;   // (unit: meters)
+    Lanes rate;  // (unit: meters per unit of t)
+};
+
+// What one sweep costs, in looks at a pack.
+constexpr int sweep_work = 4;
+
 // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle of
 // the pack, or a value above `limit` where it does not. Starting within the distance counts at t = 0 when
 // moving closer, not when moving away.
@@ -104,20 +113,32 @@ inline double sweep_to_triangles(const TrianglePack& triangles, const Vec3& star
     constexpr int most_iterations = 28;
     const LanesVec3 direction = splat(motion);
     const LanesVec3 origin = splat(start);
-    const Lanes never = splat(2.0 * limit + 1.0);
-    Lanes t = splat(0.0);
-    Lanes hit = never;
-    LaneMask open = t == t;
-    for (int i = 0; i < most_iterations && any(open); ++i) {
+    const Lanes zero = splat(0.0);
+    const auto look = [&](const Lanes& t) {
         const PackOffset at = offset_from_triangles(triangles, along(origin, direction, t));
         const Lanes length = lanes_sqrt(lanes_max(at.squared, splat(1e-300)));
-        const Lanes gap = length - splat(distance);
-        const Lanes rate = dot(at.offset, direction) / length;
-        const LaneMask approaching = rate < splat(0.0);
-        const LaneMask reached = open & approaching & (gap <= splat(slack));
+        return SweepLook{length - splat(distance), dot(at.offset, direction) / length};
+    };
+    // Most triangles are only passed by: from both ends of the way, the tangents of a convex function leave
+    // no room for a hit between them.
+    const SweepLook first = look(zero);
+    const SweepLook last = look(splat(limit));
+    const Lanes crossing = (first.gap - last.gap + last.rate * splat(limit)) / (last.rate - first.rate);
+    const Lanes lowest = select(last.rate > zero, first.gap + first.rate * crossing, last.gap);
+    LaneMask open = (first.rate < zero) & ~(lanes_min(lowest, first.gap) > splat(slack));
+
+    const Lanes never = splat(2.0 * limit + 1.0);
+    Lanes hit = select(open & (first.gap <= splat(slack)), zero, never);
+    open &= first.gap > splat(slack);
+    Lanes t = select(open, -first.gap / first.rate, zero);
+    open &= t <= splat(limit);
+    for (int i = 0; i < most_iterations && any(open); ++i) {
+        const SweepLook at = look(t);
+        const LaneMask approaching = at.rate < zero;
+        const LaneMask reached = open & approaching & (at.gap <= splat(slack));
         hit = select(reached, t, hit);
         open &= approaching & ~reached;
-        t = select(open, t - gap / rate, t);
+        t = select(open, t - at.gap / at.rate, t);
         open &= t <= splat(limit);
     }
     hit = select(open, t, hit);

@@ -1,6 +1,7 @@
 #include "core/geometry/triangle_tree.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -16,14 +17,6 @@ struct Pending {
     std::uint32_t node;
     float key;  // what the search prunes by: squared distance, or entry parameter
 };
-
-// A large tree does not fit into any cache: what will be looked at soon is asked for early.
-void fetch(const void* object, std::size_t bytes) {
-    constexpr std::size_t line = 64;
-    for (std::size_t offset = 0; offset < bytes; offset += line) {
-        __builtin_prefetch(static_cast<const char*>(object) + offset);
-    }
-}
 
 // Children in the order of their keys, nearest on top of the stack.
 template <class Visit>
@@ -42,9 +35,9 @@ void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNod
         }
         near[place] = {node.child[i], keys[i]};
         if (node.child[i] & BoxNode::leaf_bit) {
-            fetch(&packs[node.child[i] & ~BoxNode::leaf_bit], sizeof(TrianglePack));
+            fetch_early(&packs[node.child[i] & ~BoxNode::leaf_bit], sizeof(TrianglePack));
         } else {
-            fetch(&nodes[node.child[i]], sizeof(BoxNode));
+            fetch_early(&nodes[node.child[i]], sizeof(BoxNode));
         }
     }
     // Leaves are answered at once, nearest first: they tighten the bound before any deeper node is opened.
@@ -60,10 +53,10 @@ void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNod
     }
 }
 
+// At most the largest float, so that no bound ever takes in the infinite distance of unused slots.
 float square_up(double value) {
-    const double squared = value * value;
-    return squared > 1e38 ? std::numeric_limits<float>::infinity()
-                          : static_cast<float>(squared * (1.0 + 1e-6));
+    const double squared = value * value * (1.0 + 1e-6);
+    return static_cast<float>(std::min(squared, 3.4e38));
 }
 
 float inverse_for_slabs(double motion) {
@@ -86,38 +79,61 @@ double TriangleTree::float_slack(const Vec3& relative) const {
     return 4.0 * 0x1p-23 * (largest + extent_);
 }
 
-CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
-                                    std::span<NearPack> out) const {
-    CollectResult result;
-    result.nearest = far;
+FoundPacks TriangleTree::packs_within(const Vec3& point, double reach, std::span<FoundPack> out) const {
+    FoundPacks found;
+    const Vec3 relative = point - origin_;
+    const double slack = float_slack(relative);
+    const FloatPoint at = to_float_point(relative);
+    const float limit = square_up(reach + slack);
+    const float rounding = static_cast<float>(slack * (1.0 + 1e-6));
+
+    std::uint32_t stack[stack_size];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+        const BoxNode& node = nodes_[stack[--depth]];
+        const FloatLanes squared = squared_distance_to_boxes(node, at);
+        for (unsigned near = lanes_up_to(squared, limit); near != 0; near &= near - 1) {
+            const int i = std::countr_zero(near);
+            const std::uint32_t child = node.child[i];
+            if (!(child & BoxNode::leaf_bit)) {
+                fetch_early(&nodes_[child], sizeof(BoxNode));
+                stack[depth++] = child;
+            } else if (found.count < out.size()) {
+                const float distance = std::sqrt(squared[i]) * (1.0f - 1e-6f) - rounding;
+                out[found.count++] = {child & ~BoxNode::leaf_bit, std::max(distance, 0.0f)};
+            } else {
+                found.complete = false;
+                return found;
+            }
+        }
+    }
+    return found;
+}
+
+NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
+    NearestTriangle nearest{far};
     const Vec3 relative = point - origin_;
     const double slack = float_slack(relative);
     const FloatPoint at = to_float_point(relative);
     const LanesVec3 exact = splat(point);
 
-    auto bound = [&] { return square_up(std::max(reach, result.nearest) + slack); };
+    auto bound = [&] { return square_up(nearest.distance + slack); };
     auto leaf = [&](const Pending& item) {
         if (!(item.key <= bound())) {
             return;
         }
         const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
-        const PackOffset seen = offset_from_triangles(packs_[index], exact);
-        const double distance = std::sqrt(smallest(seen.squared));
-        result.nearest = std::min(result.nearest, distance);
-        if (distance > reach) {
-            return;
+        const double distance = std::sqrt(smallest(offset_from_triangles(packs_[index], exact).squared));
+        if (distance < nearest.distance) {
+            nearest = {distance, index};
         }
-        if (result.count == out.size()) {
-            result.complete = false;
-            return;
-        }
-        out[result.count++] = {bound_from(seen, exact), index};
     };
 
     Pending stack[stack_size];
     int depth = 0;
     stack[depth++] = {0, 0.0f};
-    while (depth > 0 && result.complete) {
+    while (depth > 0) {
         const Pending item = stack[--depth];
         const float limit = bound();
         if (!(item.key <= limit)) {
@@ -127,11 +143,11 @@ CollectResult TriangleTree::collect(const Vec3& point, double reach, double far,
         push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(), stack,
                     depth, leaf);
     }
-    return result;
+    return nearest;
 }
 
-double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distance, double slack,
-                           double limit) const {
+double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit,
+                           Work& work) const {
     const Vec3 relative = start - origin_;
     const Vec3 end = relative + motion * limit;
     const double rounding = std::max(float_slack(relative), float_slack(end));
@@ -147,6 +163,7 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
             return;
         }
         const TrianglePack& triangles = packs_[item.node & ~BoxNode::leaf_bit];
+        work -= sweep_work;
         const double t = sweep_to_triangles(triangles, start, motion, distance, slack, best);
         if (t <= best) {
             best = t;
@@ -162,6 +179,13 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
         const float reach = bound();
         if (!(item.key <= reach)) {
             continue;
+        }
+        if (--work <= 0) {  // nothing that is left is entered before the first of those pending
+            double free = std::min(best, static_cast<double>(item.key));
+            for (int i = 0; i < depth; ++i) {
+                free = std::min(free, static_cast<double>(stack[i].key));
+            }
+            return free * (1.0 - 1e-5);
         }
         const BoxNode& node = nodes_[item.node];
         push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(), packs_.get(),

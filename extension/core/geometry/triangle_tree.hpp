@@ -22,17 +22,25 @@ using ParallelRunner = std::function<void(std::size_t count, const std::function
 
 void run_serially(std::size_t count, const std::function<void(std::size_t)>& task);
 
-// A pack near a query point, and what the query has learnt about its distance.
-struct NearPack {
-    PackBound bound;
+// A pack whose box is near a point. Its triangles are no nearer than `distance` (unit: meters).
+struct FoundPack {
     std::uint32_t pack;
+    float distance;
 };
 
-struct CollectResult {
+struct FoundPacks {
     std::size_t count = 0;  // packs written
     bool complete = true;   // false: there were more than fit
-    double nearest = 0.0;   // distance of the nearest triangle, or `far` where none is nearer
 };
+
+struct NearestTriangle {
+    double distance = 0.0;   // `far` where nothing is nearer (unit: meters)
+    std::uint32_t pack = 0;  // the pack that holds it; meaningless where nothing is nearer
+};
+
+// What a query may still look at, in packs and nodes: it ends early, on the safe side, where this reaches
+// zero.
+using Work = std::int64_t;
 
 class TriangleTree {
 public:
@@ -43,14 +51,20 @@ public:
     // shape.
     void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
 
-    // Every pack with a triangle within `reach` of the point, and the nearest distance up to `far` >= reach.
-    CollectResult collect(const Vec3& point, double reach, double far, std::span<NearPack> out) const;
+    // Every pack with a triangle within `reach` of the point, by its box: cheap, and with some that are not.
+    FoundPacks packs_within(const Vec3& point, double reach, std::span<FoundPack> out) const;
+
+    // The nearest triangle, looked for up to the distance `far`.
+    NearestTriangle nearest(const Vec3& point, double far) const;
 
     // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a
-    // triangle; above `limit` where it does not. See sweep_to_triangles.
-    double sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit) const;
+    // triangle; above `limit` where it does not. See sweep_to_triangles. Where `work` is used up, the answer
+    // is a t up to which the way is known to be free.
+    double sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit,
+                 Work& work) const;
 
     const TrianglePack& pack(std::uint32_t index) const { return packs_[index]; }
+    void fetch_pack(std::uint32_t index) const { fetch_early(&packs_[index], sizeof(TrianglePack)); }
     // Which triangles of the mesh stand in the lanes of a pack.
     std::span<const std::uint32_t, lane_count> triangle_ids(std::uint32_t pack) const {
         return std::span<const std::uint32_t, lane_count>(&ids_[pack * lane_count], lane_count);

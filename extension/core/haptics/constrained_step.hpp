@@ -1,8 +1,6 @@
 // One step of the proxy's motion: from where it is towards the hand, as far as the surfaces around it allow.
 #pragma once
 
-#include <span>
-
 #include "core/haptics/contact.hpp"
 
 namespace tactus {
@@ -15,21 +13,17 @@ struct ConstrainedStep {
     Vec3 slide{0.0};                       // what of the pull is left along the surfaces (unit: meters)
 };
 
-// What one step leaves for the next: which curved surface it believed in, and how far.
-struct Stretch {
-    Vec3 pivot{0.0};      // the surface's centre of curvature, in the world (unit: meters)
-    double factor = 1.0;  // a curved step may be this many times as long as a flat one
-};
-
 // `pull` is hand - proxy. Every surface is convex by itself (a triangle, a box, a sphere, inflated), so the
 // half-space beyond its contact plane is free of it: the straight way along `motion` stays outside all given
 // contacts.
 //
 // The step solves min |motion - pull|^2 over the contact planes, and, where surfaces that bend hold the proxy
-// back, takes their curvature in (a Newton step on the Lagrangian), which makes a resting place on an edge or
-// in a groove of edges exact in a few steps instead of many. Violations and steps up to `tolerance` are none
-// (unit: meters).
-ConstrainedStep constrained_step(const Vec3& pull, std::span<const Contact> contacts, double tolerance,
-                                 Stretch& stretch);
+// back, takes their curvature in (a Newton step on the Lagrangian), as far as the curved piece of the surface
+// goes. That makes a resting place on an edge or in a groove of edges exact in a few steps instead of many,
+// and leads around an edge in one. Violations and steps up to `tolerance` are none (unit: meters).
+ConstrainedStep constrained_step(const Vec3& pull, const ContactList& contacts, double tolerance);
+
+// The shortest way to where no contact is below rest; zero where there is none.
+Vec3 lift_to_rest(const ContactList& contacts, double tolerance);
 
 }  // namespace tactus

@@ -17,8 +17,8 @@ public:
     void clear() { count_ = 0; }
     int count() const { return count_; }
 
-    // Takes in one lane of a pack; `center` is the proxy's, in the part's frame. Triangles beyond the
-    // capacity are left out: sweeps still see them.
+    // Takes in one lane of a pack, lanes in their order; `center` is the proxy's, in the part's frame.
+    // Triangles beyond the capacity are left out: sweeps still see them.
     void add(const TriangleTree& tree, std::uint32_t pack, int lane_index, const Vec3& center);
 
     // An edge or corner counts only where it is nearest to the sphere on every triangle that shares it. Where
@@ -28,11 +28,11 @@ public:
     // from either side. Distances that differ by at most `same` are equal (unit: meters).
     bool is_covered(int index, double same) const;
 
-    // The contact of a sphere whose centre rests at distance `rest` (unit: meters).
-    Contact contact(int index, const ScenePart& part, double rest) const;
+    // The contact of a sphere whose centre rests at distance `rest` (unit: meters), added to `out`.
+    void add_contact(int index, const ScenePart& part, double rest, double same, ContactList& out) const;
 
 private:
-    static constexpr int capacity = 48;
+    static constexpr int capacity = ContactList::capacity;
 
     struct Item {
         TriangleClosestPoint closest;
@@ -41,6 +41,9 @@ private:
         std::uint32_t id;
         Vec3 a, b, c;
     };
+
+    static Vec3 normal_of(const Item& near);
+    void add_ends(const Item& near, const ScenePart& part, double same, ContactList& out) const;
 
     const Item& item(int index) const { return items_[static_cast<std::size_t>(index)]; }
 

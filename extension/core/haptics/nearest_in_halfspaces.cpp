@@ -1,6 +1,9 @@
 #include "core/haptics/nearest_in_halfspaces.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -15,11 +18,23 @@ bool violates(const HalfSpace& h, const Vec3& point, double tolerance) {
     return glm::dot(h.normal, point) < h.offset - tolerance;
 }
 
+// The half-spaces in the order in which they are taken.
+struct Ordered {
+    std::span<const HalfSpace> all;
+    std::array<std::uint16_t, most_halfspaces> order;
+
+    int index(int place) const { return order[static_cast<std::size_t>(place)]; }
+    const HalfSpace& operator[](int place) const { return all[order[static_cast<std::size_t>(place)]]; }
+    void move_to_front(int place) {
+        std::rotate(order.begin(), order.begin() + place, order.begin() + place + 1);
+    }
+};
+
 // Best on the border of both first and second, subject to the half-spaces before second.
-NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace> halfspaces, int first,
-                                    int second, double tolerance) {
-    const HalfSpace& p = halfspaces[static_cast<std::size_t>(first)];
-    const HalfSpace& q = halfspaces[static_cast<std::size_t>(second)];
+NearestInHalfSpaces nearest_on_line(const Vec3& goal, const Ordered& halfspaces, int first, int second,
+                                    double tolerance) {
+    const HalfSpace& p = halfspaces[first];
+    const HalfSpace& q = halfspaces[second];
     const Vec3 across = glm::cross(p.normal, q.normal);
     const double squared_sine = glm::dot(across, across);
     NearestInHalfSpaces best;
@@ -28,18 +43,18 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace>
         // between.
         best.feasible = glm::dot(p.normal, q.normal) > 0.0;
         best.point = goal + q.normal * (q.offset - glm::dot(q.normal, goal));
-        best.active[0] = second;
+        best.active[0] = halfspaces.index(second);
         best.active_count = 1;
         return best;
     }
-    // The goal's nearest point on the line: goal + a p + b q with both borders met.
+    // The goal's nearest point on the line. Its part across comes from the offsets alone: they are of the
+    // size of the gaps, whereas the goal may be far away, and 1 / sin^2 would blow up its rounding.
     const double cosine = glm::dot(p.normal, q.normal);
-    const double to_p = p.offset - glm::dot(p.normal, goal);
-    const double to_q = q.offset - glm::dot(q.normal, goal);
-    const double a = (to_p - cosine * to_q) / squared_sine;
-    const double b = (to_q - cosine * to_p) / squared_sine;
-    const Vec3 on_line = goal + p.normal * a + q.normal * b;
     const Vec3 direction = across / std::sqrt(squared_sine);
+    const Vec3 base =
+        (p.normal * (p.offset - cosine * q.offset) + q.normal * (q.offset - cosine * p.offset)) /
+        squared_sine;
+    const Vec3 on_line = base + direction * glm::dot(direction, goal);
 
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -51,7 +66,7 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace>
         if (k == first) {
             continue;
         }
-        const HalfSpace& h = halfspaces[static_cast<std::size_t>(k)];
+        const HalfSpace& h = halfspaces[k];
         const double slope = glm::dot(h.normal, direction);
         const double missing = h.offset - glm::dot(h.normal, on_line);
         if (std::abs(slope) * 1e11 < 1.0) {
@@ -73,31 +88,31 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, std::span<const HalfSpace>
         best.feasible = best.feasible && (low - high) * std::min(low_slope, high_slope) <= tolerance;
         low = high = low_slope > high_slope ? low : high;
     }
-    best.active[0] = first;
-    best.active[1] = second;
+    best.active[0] = halfspaces.index(first);
+    best.active[1] = halfspaces.index(second);
     best.active_count = 2;
     double along = 0.0;
     if (low > 0.0) {
         along = low;
-        best.active[best.active_count++] = low_plane;
+        best.active[best.active_count++] = halfspaces.index(low_plane);
     } else if (high < 0.0) {
         along = high;
-        best.active[best.active_count++] = high_plane;
+        best.active[best.active_count++] = halfspaces.index(high_plane);
     }
     best.point = on_line + direction * along;
     return best;
 }
 
 // Best on the border of `first`, subject to the half-spaces before it.
-NearestInHalfSpaces nearest_on_plane(const Vec3& goal, std::span<const HalfSpace> halfspaces, int first,
+NearestInHalfSpaces nearest_on_plane(const Vec3& goal, const Ordered& halfspaces, int first,
                                      double tolerance) {
-    const HalfSpace& p = halfspaces[static_cast<std::size_t>(first)];
+    const HalfSpace& p = halfspaces[first];
     NearestInHalfSpaces best;
     best.point = goal + p.normal * (p.offset - glm::dot(p.normal, goal));
-    best.active[0] = first;
+    best.active[0] = halfspaces.index(first);
     best.active_count = 1;
     for (int j = 0; j < first && best.feasible; ++j) {
-        if (violates(halfspaces[static_cast<std::size_t>(j)], best.point, tolerance)) {
+        if (violates(halfspaces[j], best.point, tolerance)) {
             best = nearest_on_line(goal, halfspaces, first, j, tolerance);
         }
     }
@@ -137,9 +152,16 @@ NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const Half
                                           double tolerance) {
     NearestInHalfSpaces best;
     best.point = goal;
-    for (int i = 0; i < static_cast<int>(halfspaces.size()) && best.feasible; ++i) {
-        if (violates(halfspaces[static_cast<std::size_t>(i)], best.point, tolerance)) {
-            best = nearest_on_plane(goal, halfspaces, i, tolerance);
+    const int count = static_cast<int>(std::min<std::size_t>(halfspaces.size(), most_halfspaces));
+    Ordered ordered;
+    ordered.all = halfspaces;
+    for (int i = 0; i < count; ++i) {
+        ordered.order[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
+    }
+    for (int i = 0; i < count && best.feasible; ++i) {
+        if (violates(ordered[i], best.point, tolerance)) {
+            best = nearest_on_plane(goal, ordered, i, tolerance);
+            ordered.move_to_front(i);
         }
     }
     find_multipliers(goal, halfspaces, best);

@@ -1,6 +1,7 @@
 // The point of an intersection of half-spaces nearest to a goal: where the contact planes let the proxy go.
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "core/math/types.hpp"
@@ -21,10 +22,13 @@ struct NearestInHalfSpaces {
     bool feasible = true;  // false: the half-spaces have no common point; `point` is then meaningless
 };
 
+constexpr std::size_t most_halfspaces = 256;  // those beyond are left out
+
 // Takes the half-spaces one by one (Seidel's incremental method for three dimensions): while the best point
 // so far satisfies the next one nothing changes; otherwise the new best lies on its border, a problem of one
-// dimension less. Exact up to rounding, at most cubic in their number, no iteration that could cycle.
-// Violations up to `tolerance` are none.
+// dimension less. One that mattered is taken earlier from then on (Welzl's move to front), which keeps the
+// time close to linear in their number. Exact up to rounding, no iteration that could cycle. Violations up to
+// `tolerance` are none.
 NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces,
                                           double tolerance);
 

@@ -1,20 +1,14 @@
 #include "core/haptics/nearest_surface.hpp"
 
-#include <array>
 #include <glm/geometric.hpp>
 
 namespace tactus {
 
 namespace {
 
-// Direction from the triangles nearest to the point, which are known to be `distance` away.
-Vec3 normal_of_nearest(const TriangleTree& tree, const Vec3& point, double distance) {
-    std::array<NearPack, 1> nearest;
-    const double reach = distance * (1.0 + 1e-12);
-    if (tree.collect(point, reach, reach, nearest).count == 0) {
-        return {0.0, 1.0, 0.0};
-    }
-    const PackOffset offset = offset_from_triangles(tree.pack(nearest[0].pack), splat(point));
+// Direction from the triangle of the pack that is nearest to the point.
+Vec3 normal_of_nearest(const TrianglePack& pack, const Vec3& point) {
+    const PackOffset offset = offset_from_triangles(pack, splat(point));
     int best = 0;
     for (int i = 1; i < lane_count; ++i) {
         best = offset.squared[i] < offset.squared[best] ? i : best;
@@ -36,10 +30,10 @@ NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& p
             continue;
         }
         if (const TriangleTree* const tree = placed.part->tree()) {
-            const double distance = tree->collect(local, 0.0, nearest.distance, {}).nearest;
-            if (distance < nearest.distance) {
-                nearest = {distance,
-                           direction_to_parent(placed.pose, normal_of_nearest(*tree, local, distance))};
+            const NearestTriangle found = tree->nearest(local, nearest.distance);
+            if (found.distance < nearest.distance) {
+                const Vec3 normal = normal_of_nearest(tree->pack(found.pack), local);
+                nearest = {found.distance, direction_to_parent(placed.pose, normal)};
             }
         } else if (const SolidDistance at = distance_to_solid(placed.part->solid(), local);
                    at.distance < nearest.distance) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace tactus {
@@ -17,6 +18,7 @@ bool Proxy::appear(const Vec3& hand) {
     position_ = hand;
     present_ = surroundings_.clearance(hand, 2.0 * room) >= room;
     surroundings_.invalidate();
+    contacts_hold_ = false;
     return present_;
 }
 
@@ -91,6 +93,45 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
     }
 }
 
+// Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
+// Friction has no say in that. False where there is nothing to lift.
+bool Proxy::lift() {
+    const Tolerances& tolerances = surroundings_.tolerances();
+    const auto below_rest = [&](const Contact& contact) { return contact.gap < -0.25 * tolerances.skin; };
+    if (!std::ranges::any_of(contacts_.all(), below_rest)) {
+        return false;
+    }
+    const Vec3 motion = lift_to_rest(contacts_, tolerances.same);
+    if (glm::length(motion) <= tolerances.step) {
+        return false;
+    }
+    const Vec3 before = position_;
+    bool free = true;
+    advance(motion, free);
+    return position_ != before;
+}
+
+// What friction leaves of a step.
+void Proxy::brake(ConstrainedStep& step) {
+    const double limit = friction_limit(step);
+    const double slide = glm::length(step.slide);
+    if (limit <= 0.0 || slide <= 0.0) {
+        return;
+    }
+    double left = std::max(0.0, slide - limit);
+    if (left > surroundings_.tolerances().step && !sliding_) {
+        sliding_ = true;  // static friction has given way: what is left is held by the dynamic one
+        left = std::max(0.0, slide - friction_limit(step));
+    }
+    step.motion *= left / slide;
+}
+
+// How far a step of that length along a surface may end above it: no surface bends more than the sphere
+// itself does.
+double Proxy::drop_after(double length) const {
+    return std::min(length * length / settings_.radius, 0.1 * settings_.radius);
+}
+
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Tolerances& tolerances = surroundings_.tolerances();
     touching_.clear();
@@ -98,36 +139,37 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         position_ = hand;
         surroundings_.travelled(way);
         sliding_ = false;
+        contacts_hold_ = false;
         return;
     }
     bool slid = false;
     bool keep_all = false;
+    double beyond = 0.0;
     ConstrainedStep step;
     for (tick.steps = 0; tick.steps < settings_.most_steps; ++tick.steps) {
-        surroundings_.find_contacts(position_, contacts_, keep_all);
-        step = constrained_step(hand - position_, contacts_.all(), tolerances.same, stretch_);
-        double wanted = glm::length(step.motion);
-        if (const double limit = friction_limit(step); limit > 0.0) {
-            const double slide = glm::length(step.slide);
-            const double left = std::max(0.0, slide - limit);
-            step.motion *= slide > 0.0 ? left / slide : 0.0;
-            wanted *= slide > 0.0 ? left / slide : 0.0;
-            if (wanted > tolerances.step && !sliding_) {
-                sliding_ = true;  // static friction has given way: what is left is held by the dynamic one
-                continue;
-            }
+        if (!contacts_hold_) {
+            surroundings_.find_contacts(position_, contacts_, beyond, keep_all);
+            contacts_hold_ = !keep_all;
         }
-        tick.residual = wanted;
-        if (wanted <= tolerances.step) {
+        if (lift()) {
+            contacts_hold_ = false;
+            continue;
+        }
+        step = constrained_step(hand - position_, contacts_, tolerances.same);
+        brake(step);
+        tick.residual = glm::length(step.motion);
+        if (tick.residual <= tolerances.step || !surroundings_.may_go_on()) {
             break;
         }
         slid = slid || step.pressing_count > 0;
         bool free = true;
         const Vec3 before = position_;
         advance(step.motion, free);
+        contacts_hold_ = false;
+        beyond = drop_after(glm::distance(before, position_));
         // Stopped without having moved by something that is no contact: look at every edge and corner there
         // is.
-        keep_all = !free && position_ == before && contacts_.count < ContactList::capacity;
+        keep_all = !free && position_ == before;
         if (free && step.pressing_count == 0) {
             ++tick.steps;
             tick.residual = 0.0;
@@ -142,10 +184,16 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     }
 }
 
-ProxyTick Proxy::move(const TouchScene& scene, const Vec3& hand) {
+ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     ProxyTick tick;
     scene_ = &scene;
-    surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
+    // Devices do send numbers that are none: the hand stays where it was last.
+    constexpr double farthest = 1e9;
+    const Vec3 size = glm::abs(given_hand);
+    hand_ = size.x <= farthest && size.y <= farthest && size.z <= farthest ? given_hand : hand_;
+    const Vec3 hand = hand_;
+    const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
+    contacts_hold_ = contacts_hold_ && !changed;
     if (!present_) {
         touching_.clear();
         if (!appear(hand)) {

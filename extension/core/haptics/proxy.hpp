@@ -42,7 +42,7 @@ struct ProxyMemory {
     Vec3 position{0.0};  // in the world (unit: meters)
     bool present = false;
     bool sliding = false;
-    Stretch stretch;
+    Vec3 hand{0.0};  // in the world (unit: meters)
     ContactList touching;
 };
 
@@ -64,20 +64,24 @@ public:
     void displace(const Vec3& offset) {
         position_ += offset;
         surroundings_.travelled(glm::length(offset));
+        contacts_hold_ = false;
     }
     // The proxy as it was, to move it again from there.
-    ProxyMemory memory() const { return {position_, present_, sliding_, stretch_, touching_}; }
+    ProxyMemory memory() const { return {position_, present_, sliding_, hand_, touching_}; }
     void recall(const ProxyMemory& memory) {
         displace(memory.position - position_);
         present_ = memory.present;
         sliding_ = memory.sliding;
-        stretch_ = memory.stretch;
+        hand_ = memory.hand;
         touching_ = memory.touching;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
-    bool pass_through(int body) { return surroundings_.pass_through(body); }
+    bool pass_through(int body) {
+        contacts_hold_ = false;
+        return surroundings_.pass_through(body);
+    }
 
     // As if just started: present again as soon as the hand is in a free place.
     void restart() {
@@ -92,6 +96,9 @@ private:
     void advance(const Vec3& motion, bool& free, int except = -1);
     int carrier() const;
     void descend(const Vec3& hand, ProxyTick& tick);
+    bool lift();
+    void brake(ConstrainedStep& step);
+    double drop_after(double length) const;
     double friction_limit(const ConstrainedStep& step) const;
     void keep_touching(const ConstrainedStep& step);
 
@@ -101,8 +108,9 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Stretch stretch_;
+    Vec3 hand_{0.0};  // the last that was a place
     ContactList contacts_;
+    bool contacts_hold_ = false;  // contacts_ are those at position_
     ContactList touching_;
 };
 

@@ -15,30 +15,20 @@ constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles
 
 // A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means
 // looking at more packs in between. Chosen by the bench `proxy`.
-constexpr double ticks_remembered = 5.0;
+constexpr double ticks_remembered = 4.0;
 
 }  // namespace
 
-void ContactList::add(const Contact& contact) {
-    if (count < capacity) {
-        items[static_cast<std::size_t>(count++)] = contact;
-        return;
-    }
-    const auto widest =
-        std::ranges::max_element(items, [](const Contact& p, const Contact& q) { return p.gap < q.gap; });
-    if (contact.gap < widest->gap) {
-        *widest = contact;
-    }
-}
-
 Surroundings::Surroundings(std::size_t most_parts)
-    : records_(most_parts), hoods_(hood_count), near_triangles_(std::make_unique<NearTriangles>()) {
+    : records_(most_parts),
+      hoods_(std::make_unique<Neighbourhood[]>(hood_count)),
+      near_triangles_(std::make_unique<NearTriangles>()) {
     far_.reserve(2 * most_parts + 1);
     near_.reserve(most_parts);
     free_hoods_.reserve(hood_count);
 }
 
-void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius,
+bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius,
                               std::uint32_t mask) {
     const bool changed =
         scene_ != &scene || revision_ != scene.revision() || mask_ != mask || radius_ != radius;
@@ -49,6 +39,7 @@ void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
         revision_ = scene.revision();
         forget(center);
     }
+    work_left_ = most_work;
     pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
     odometer_at_tick_ = odometer_;
     for (const int index : scene.moved_bodies()) {
@@ -67,31 +58,37 @@ void Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     }
     return_passed(center);
     retire_distant_parts();
+    return changed || passed_count_ > 0 || !scene.moved_bodies().empty();
 }
 
 bool Surroundings::pass_through(int body) {
     if (passed_count_ == most_passed) {
         return false;
     }
-    passed_[passed_count_++] = body;
+    passed_[passed_count_++] = {body, false};
     return true;
 }
 
 bool Surroundings::is_passed(std::uint32_t body) const {
     for (std::size_t i = 0; i < passed_count_; ++i) {
-        if (passed_[i] == static_cast<int>(body)) {
+        if (passed_[i].body == static_cast<int>(body)) {
             return true;
         }
     }
     return false;
 }
 
+// A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it.
 void Surroundings::return_passed(const Vec3& center) {
     const double room = radius_ + tolerances_.skin;
     for (std::size_t i = 0; i < passed_count_;) {
-        const bool gone = !scene_->body(passed_[i]).shape;
-        if (gone || nearest_surface(*scene_, passed_[i], center, 2.0 * room).distance >= room) {
-            passed_[i] = passed_[--passed_count_];
+        Passed& passed = passed_[i];
+        const bool gone = !scene_->body(passed.body).shape;
+        const double distance =
+            gone ? 0.0 : nearest_surface(*scene_, passed.body, center, 2.0 * room).distance;
+        passed.entered = passed.entered || distance < room - tolerances_.skin;
+        if (gone || distance >= (passed.entered ? room : 1.5 * room)) {
+            passed = passed_[--passed_count_];
         } else {
             ++i;
         }
@@ -103,7 +100,7 @@ void Surroundings::forget(const Vec3& center) {
     far_.clear();
     near_.clear();
     free_hoods_.clear();
-    for (std::size_t i = 0; i < hoods_.size(); ++i) {
+    for (std::size_t i = 0; i < hood_count; ++i) {
         free_hoods_.push_back(static_cast<std::int16_t>(i));
     }
     double magnitude = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius_});
@@ -173,7 +170,7 @@ double Surroundings::distance_bound(std::uint32_t index, const Vec3& center) con
     if (to_ball > margin + placed.part->radius) {
         return to_ball - margin;
     }
-    return placed.part->tree()->collect(local, 0.0, 1e30, {}).nearest - margin;
+    return placed.part->tree()->nearest(local, 1e30).distance - margin;
 }
 
 // Makes sure that every part within `length` of the sphere is on the near list.
@@ -204,7 +201,7 @@ Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local,
     Record& record = records_[index];
     const double now = odometer_for(record);
     const double needed = radius_ + tolerances_.skin + tolerances_.reach + way;
-    if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_until - now >= needed) {
+    if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_until() - now >= needed) {
         return &hoods_[static_cast<std::size_t>(record.hood)];
     }
     if (record.hood < 0) {
@@ -213,12 +210,13 @@ Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local,
         }
         record.hood = free_hoods_.back();
         free_hoods_.pop_back();
+        hoods_[static_cast<std::size_t>(record.hood)].clear();
     }
     Neighbourhood& hood = hoods_[static_cast<std::size_t>(record.hood)];
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
     double margin = std::max(ticks_remembered * pace_, 4.0 * tolerances_.reach);
     for (int attempt = 0; attempt < 4; ++attempt) {
-        if (hood.gather(tree, local, needed + margin, now)) {
+        if (hood.gather(tree, local, needed + margin, needed, now)) {
             return &hood;
         }
         margin *= 0.25;
@@ -226,13 +224,14 @@ Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local,
     return nullptr;
 }
 
-void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, ContactList& out) {
+void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, double beyond,
+                                      ContactList& out) {
     const ScenePart& placed = scene_->parts()[index];
     const SolidDistance at = distance_to_solid(placed.part->solid(), local);
     Record& record = records_[index];
-    const double rest = radius_ + tolerances_.skin;
-    record.clear_until = odometer_for(record) + at.distance - rest - tolerances_.reach;
-    if (at.distance - rest > tolerances_.reach) {
+    const double gap = at.distance - (radius_ + tolerances_.skin);
+    record.clear_until = odometer_for(record) + gap - tolerances_.reach;
+    if (gap > tolerances_.reach + beyond) {
         return;
     }
     Contact contact;
@@ -240,62 +239,74 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     contact.force_direction = contact.normal;
     contact.u = direction_to_parent(placed.pose, at.u);
     contact.point = to_parent(placed.pose, local - at.normal * at.distance);
-    contact.gap = at.distance - rest;
+    contact.gap = gap;
     contact.bend_u = at.bend_u;
     contact.bend_v = at.bend_v;
-    contact.pivot = at.bend_u > 0.0 ? to_parent(placed.pose, local - at.normal / at.bend_u) : contact.point;
+    contact.first_end = out.end_count;
+    for (int i = 0; i < at.end_count; ++i) {
+        const SurfaceEnd& end = at.ends[static_cast<std::size_t>(i)];
+        out.add_end({direction_to_parent(placed.pose, end.direction), end.room});
+    }
+    contact.end_count = out.end_count - contact.first_end;
     contact.body = static_cast<int>(placed.body);
     out.add(contact);
 }
 
-void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, ContactList& out,
+// Adds the triangles within `limit` of the centre to near_triangles_. Returns a lower bound of the distance
+// to the nearest one, exact where it is below `limit`.
+double Surroundings::look_around(Neighbourhood& hood, const TriangleTree& tree, double now, const Vec3& local,
+                                 double limit) {
+    const LanesVec3 center = splat(local);
+    double nearest = std::numeric_limits<double>::infinity();
+    const double others = hood.visit_within(limit, now, [&](std::size_t i) {
+        --work_left_;
+        const Lanes distances = hood.distances(i, tree, center, limit, now);
+        for (int k = 0; k < lane_count; ++k) {
+            if (distances[k] <= limit) {
+                near_triangles_->add(tree, hood.pack(i), k, local);
+            }
+        }
+        nearest = std::min(nearest, smallest(distances));
+    });
+    return std::min(nearest, others);
+}
+
+// The same where too many triangles are near to remember them.
+double Surroundings::look_everywhere(const TriangleTree& tree, const Vec3& local, double limit) {
+    std::array<FoundPack, 1024> packs;
+    const FoundPacks found = tree.packs_within(local, limit, packs);
+    const LanesVec3 center = splat(local);
+    double nearest = limit;
+    for (std::size_t i = 0; i < found.count; ++i) {
+        --work_left_;
+        const PackOffset seen = offset_from_triangles(tree.pack(packs[i].pack), center);
+        for (int k = 0; k < lane_count; ++k) {
+            const double distance = std::sqrt(seen.squared[k]);
+            if (distance <= limit) {
+                near_triangles_->add(tree, packs[i].pack, k, local);
+            }
+            nearest = std::min(nearest, distance);
+        }
+    }
+    return nearest;
+}
+
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double beyond, ContactList& out,
                                       bool keep_all) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = *placed.part->tree();
     const double rest = radius_ + tolerances_.skin;
-    const double limit = rest + tolerances_.reach;
-    const double squared_limit = limit * limit;
-    const LanesVec3 center = splat(local);
-    NearTriangles& near = *near_triangles_;
-    near.clear();
-    double nearest = std::numeric_limits<double>::infinity();
-
-    Neighbourhood* const hood = hood_around(index, local, 0.0);
+    const double limit = rest + tolerances_.reach + beyond;
+    near_triangles_->clear();
+    Neighbourhood* const hood = hood_around(index, local, beyond);
     Record& record = records_[index];
     const double now = odometer_for(record);
-    const auto look = [&](std::uint32_t pack) {
-        const PackOffset seen = offset_from_triangles(tree.pack(pack), center);
-        for (int i = 0; i < lane_count; ++i) {
-            if (seen.squared[i] <= squared_limit) {
-                near.add(tree, pack, i, local);
-            }
-        }
-        return seen;
-    };
-    if (hood) {
-        Lanes least = splat(hood->covered_until - now);
-        for (std::size_t i = 0; i < hood->count; ++i) {
-            NearPack& remembered = hood->packs[i];
-            Lanes distances = least_distances(remembered.bound, center);
-            if (any(distances <= splat(limit))) {
-                remembered.bound = bound_from(look(remembered.pack), center);
-                distances = least_distances(remembered.bound, center);
-            }
-            least = lanes_min(least, distances);
-        }
-        nearest = smallest(least);
-    } else {
-        std::array<NearPack, Neighbourhood::capacity> packs;
-        const CollectResult found = tree.collect(local, limit, limit, packs);
-        for (std::size_t i = 0; i < found.count; ++i) {
-            look(packs[i].pack);
-        }
-        nearest = found.nearest;
-    }
-    record.clear_until = now + nearest - limit;
-    for (int i = 0; i < near.count(); ++i) {
-        if (keep_all || !near.is_covered(i, tolerances_.same)) {
-            out.add(near.contact(i, placed, rest));
+    const double nearest =
+        hood ? look_around(*hood, tree, now, local, limit) : look_everywhere(tree, local, limit);
+    record.clear_until = now + nearest - rest - tolerances_.reach;
+    for (int i = 0; i < near_triangles_->count(); ++i) {
+        if (keep_all || !near_triangles_->is_covered(i, tolerances_.same)) {
+            near_triangles_->add_contact(i, placed, rest, tolerances_.same, out);
         }
     }
 }
@@ -309,12 +320,12 @@ bool Surroundings::is_clear(double length) const {
     });
 }
 
-void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep_all) {
+void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond, bool keep_all) {
     out.clear();
-    bring_near(2.0 * tolerances_.reach, center);
+    bring_near(2.0 * tolerances_.reach + beyond, center);
     for (const std::uint32_t index : near_) {
         const Record& record = records_[index];
-        if (record.clear_until > odometer_for(record)) {
+        if (record.clear_until > odometer_for(record) + beyond) {
             continue;
         }
         const ScenePart& placed = scene_->parts()[index];
@@ -323,9 +334,9 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, bool keep
         }
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
-            find_tree_contacts(index, local, out, keep_all);
+            find_tree_contacts(index, local, beyond, out, keep_all);
         } else {
-            find_solid_contact(index, local, out);
+            find_solid_contact(index, local, beyond, out);
         }
     }
 }
@@ -340,45 +351,49 @@ double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Ve
         if (way > 2.0 * ticks_remembered * pace_) {
             break;
         }
-        const Neighbourhood* const hood = hood_around(index, start, way);
+        Neighbourhood* const hood = hood_around(index, start, way);
         if (!hood) {
             break;
         }
         const double now = odometer_for(records_[index]);
-        const double reached = (hood->covered_until - now - stop - tolerances_.arrival) / length;
+        const double reached = (hood->covered_until() - now - stop - tolerances_.arrival) / length;
         const double covered = std::min(limit, std::max(reached, 0.0));
-        const double t = sweep_hood(*hood, tree, start, motion, covered);
+        const double t = sweep_hood(*hood, tree, now, start, motion, covered);
         if (t <= covered || reached >= limit) {
             return t <= covered ? t : 2.0 * limit + 1.0;
         }
     }
-    return tree.sweep(start, motion, stop, tolerances_.arrival, limit);
+    return tree.sweep(start, motion, stop, tolerances_.arrival, limit, work_left_);
 }
 
-double Surroundings::sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
-                                const Vec3& motion, double limit) const {
+double Surroundings::sweep_hood(Neighbourhood& hood, const TriangleTree& tree, double now, const Vec3& start,
+                                const Vec3& motion, double limit) {
     const double stop = radius_ + tolerances_.stop;
-    const Lanes reached = splat(stop + tolerances_.arrival);
+    const double reach = stop + tolerances_.arrival;
+    const double length = glm::length(motion);
     double best = limit;
     bool found = false;
-    // Bounds are linear: a pack that neither end of the way can touch is not touched between them.
     const LanesVec3 from = splat(start);
     LanesVec3 to = splat(start + motion * best);
-    for (std::size_t i = 0; i < hood.count; ++i) {
-        const NearPack& remembered = hood.packs[i];
-        const Lanes least =
-            lanes_min(least_distances(remembered.bound, from), least_distances(remembered.bound, to));
-        if (!any(least <= reached)) {
-            continue;
+    hood.visit_within(reach + length * limit, now, [&](std::size_t i) {
+        if (!hood.may_meet(i, from, to, reach)) {
+            return;
         }
+        // A tangent plane from here is cheaper than a sweep, and mostly enough.
+        hood.look_at(i, tree, from, now);
+        --work_left_;
+        if (!hood.may_meet(i, from, to, reach)) {
+            return;
+        }
+        work_left_ -= sweep_work;
         const double t =
-            sweep_to_triangles(tree.pack(remembered.pack), start, motion, stop, tolerances_.arrival, best);
+            sweep_to_triangles(tree.pack(hood.pack(i)), start, motion, stop, tolerances_.arrival, best);
         if (t <= best) {
             best = t;
             found = true;
             to = splat(start + motion * best);
         }
-    }
+    });
     return found ? best : 2.0 * limit + 1.0;
 }
 
@@ -425,7 +440,7 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
         const double stop = radius_ + tolerances_.stop;
         const double t =
             placed.part->tree()
-                ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0)
+                ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0, work_left_)
                 : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
         if (t < 1.0) {
             push = {static_cast<int>(placed.body), to_parent(placed.pose, before + way * t) - center};

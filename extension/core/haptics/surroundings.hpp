@@ -21,25 +21,13 @@
 
 namespace tactus {
 
-struct ContactList {
-    static constexpr int capacity = 40;
-
-    std::array<Contact, capacity> items;
-    int count = 0;
-
-    void clear() { count = 0; }
-    // Where it is full, the contact with the widest gap gives way.
-    void add(const Contact& contact);
-    std::span<Contact> all() { return {items.data(), static_cast<std::size_t>(count)}; }
-    std::span<const Contact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
-};
-
 class Surroundings {
 public:
     explicit Surroundings(std::size_t most_parts);
 
-    // Opens a tick: takes in what the scene says has changed. `center` is where the proxy is.
-    void begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
+    // Opens a tick: takes in what the scene says has changed. `center` is where the proxy is. False where
+    // nothing near the proxy has changed since the last tick.
+    bool begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
 
     // The proxy has moved by `length`, or a way of that length is about to be asked for.
     void travelled(double length) { odometer_ += length; }
@@ -47,9 +35,9 @@ public:
     // True where nothing can be met within `length` of the centre, as far as is already known.
     bool is_clear(double length) const;
 
-    // Contacts with a gap of at most `tolerances.reach` around the centre. `keep_all` also keeps edges and
-    // corners that another triangle covers (see NearTriangles).
-    void find_contacts(const Vec3& center, ContactList& out, bool keep_all = false);
+    // Contacts with a gap of at most `tolerances.reach + beyond` around the centre. `keep_all` also keeps
+    // edges and corners that another triangle covers (see NearTriangles).
+    void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0, bool keep_all = false);
 
     // The earliest t in [0, 1] at which the sphere moving from center to center + motion is stopped; above 1:
     // free. The body `except` is not in the way: the one that causes the motion.
@@ -64,9 +52,12 @@ public:
     };
     bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
 
-    // The body is no longer in the way, until the sphere is clear of its surface again. At most four at a
-    // time; false where there are four already.
+    // The body is no longer in the way, until the sphere has gone through its surface and is clear of it
+    // again. At most four at a time; false where there are four already.
     bool pass_through(int body);
+
+    // False where this tick has looked at so much that it must end: what is still missing is for the next.
+    bool may_go_on() const { return work_left_ > 0; }
 
     // Everything remembered is void: the proxy has been put elsewhere.
     void invalidate() { revision_ = 0; }
@@ -94,6 +85,11 @@ private:
     };
 
     void forget(const Vec3& center);
+    struct Passed {
+        int body;
+        bool entered;  // the sphere has been within its surface since
+    };
+
     bool is_passed(std::uint32_t body) const;
     void return_passed(const Vec3& center);
     void bring_near(double length, const Vec3& center);
@@ -104,12 +100,18 @@ private:
     double distance_bound(std::uint32_t part, const Vec3& center) const;
     Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
-    double sweep_hood(const Neighbourhood& hood, const TriangleTree& tree, const Vec3& start,
-                      const Vec3& motion, double limit) const;
-    void find_tree_contacts(std::uint32_t part, const Vec3& local, ContactList& out, bool keep_all);
-    void find_solid_contact(std::uint32_t part, const Vec3& local, ContactList& out);
+    double sweep_hood(Neighbourhood& hood, const TriangleTree& tree, double now, const Vec3& start,
+                      const Vec3& motion, double limit);
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, double beyond, ContactList& out,
+                            bool keep_all);
+    void find_solid_contact(std::uint32_t part, const Vec3& local, double beyond, ContactList& out);
+    double look_around(Neighbourhood& hood, const TriangleTree& tree, double now, const Vec3& local,
+                       double limit);
+    double look_everywhere(const TriangleTree& tree, const Vec3& local, double limit);
 
     static constexpr std::size_t most_passed = 4;
+    // What one tick may look at, in packs of four triangles: some 30 ns each, below half a millisecond.
+    static constexpr Work most_work = 16'384;
 
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
@@ -122,9 +124,10 @@ private:
     std::vector<Record> records_;
     std::vector<Far> far_;  // a heap, soonest due on top
     std::vector<std::uint32_t> near_;
-    std::array<int, most_passed> passed_{};
+    std::array<Passed, most_passed> passed_{};
     std::size_t passed_count_ = 0;
-    std::vector<Neighbourhood> hoods_;
+    Work work_left_ = 0;
+    std::unique_ptr<Neighbourhood[]> hoods_;
     std::vector<std::int16_t> free_hoods_;
     std::unique_ptr<NearTriangles>
         near_triangles_;  // scratch of find_tree_contacts, too large to make anew each time

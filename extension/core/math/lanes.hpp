@@ -35,8 +35,9 @@ inline Lanes lanes_sqrt(Lanes a) {
 inline Lanes select(LaneMask mask, Lanes yes, Lanes no) {
     return _mm256_blendv_pd(no, yes, reinterpret_cast<__m256d>(mask));
 }
-inline bool any(LaneMask mask) {
-    return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+// One bit a lane.
+inline unsigned lane_bits(LaneMask mask) {
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
 }
 #else
 inline Lanes lanes_min(Lanes a, Lanes b) {
@@ -51,10 +52,14 @@ inline Lanes lanes_sqrt(Lanes a) {
 inline Lanes select(LaneMask mask, Lanes yes, Lanes no) {
     return mask ? yes : no;
 }
-inline bool any(LaneMask mask) {
-    return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+inline unsigned lane_bits(LaneMask mask) {
+    return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 }
 #endif
+
+inline bool any(LaneMask mask) {
+    return lane_bits(mask) != 0;
+}
 
 // a * b + c and a * b - c, rounded once where the processor can: written out, so that every build gives the
 // same bits.

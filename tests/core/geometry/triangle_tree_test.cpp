@@ -84,25 +84,29 @@ TEST(TriangleTree, NearestDistanceIsThatOfBruteForce) {
         for (int i = 0; i < 200; ++i) {
             const Vec3 p = extent.center + random.in_ball(2.0 * extent.radius);
             const auto expected = static_cast<double>(shared::slow_distance(p, sample.mesh));
-            ASSERT_NEAR(tree.collect(p, 0.0, 1e30, {}).nearest, expected, rounding(tree)) << sample.name;
+            ASSERT_NEAR(tree.nearest(p, 1e30).distance, expected, rounding(tree)) << sample.name;
         }
     }
 }
 
-TEST(TriangleTree, CollectFindsEveryTriangleWithinReach) {
+TEST(TriangleTree, FindsEveryPackWithinReach) {
     RandomValues random(42);
-    std::vector<NearPack> found(4096);
+    std::vector<FoundPack> found(4096);
     for (const Sample& sample : samples()) {
         const TriangleTree tree = TriangleTree::build(sample.mesh);
         const Extent extent = extent_of(sample.mesh);
         for (int i = 0; i < 100; ++i) {
             const Vec3 p = extent.center + random.in_ball(1.5 * extent.radius);
             const double reach = extent.radius * random.magnitude(1e-3, 1.0);
-            const CollectResult result = tree.collect(p, reach, reach, found);
+            const FoundPacks result = tree.packs_within(p, reach, found);
             ASSERT_TRUE(result.complete);
             std::set<std::uint32_t> ids;
             for (std::size_t k = 0; k < result.count; ++k) {
                 const auto lanes = tree.triangle_ids(found[k].pack);
+                for (const std::uint32_t id : lanes) {
+                    ASSERT_GE(shared::slow_distance(p, shared::corners_of(sample.mesh, id)),
+                              found[k].distance - rounding(tree));
+                }
                 ids.insert(lanes.begin(), lanes.end());
             }
             for (std::size_t t = 0; t < sample.mesh.triangles.size(); ++t) {
@@ -115,10 +119,32 @@ TEST(TriangleTree, CollectFindsEveryTriangleWithinReach) {
     }
 }
 
-TEST(TriangleTree, CollectSaysWhenThereWasMoreThanRoom) {
+TEST(TriangleTree, SaysWhenThereWereMorePacksThanRoom) {
     const TriangleTree tree = TriangleTree::build(shared::icosphere(3, 1.0));
-    std::vector<NearPack> room(3);
-    EXPECT_FALSE(tree.collect(Vec3(0.0), 1.1, 1.1, room).complete);
+    std::vector<FoundPack> room(3);
+    EXPECT_FALSE(tree.packs_within(Vec3(0.0), 1.1, room).complete);
+}
+
+constexpr Work plenty = 1'000'000;
+
+// Whatever a sweep may look at, its answer is on the safe side.
+TEST(TriangleTree, ASweepThatMayNotLookFurtherEndsEarly) {
+    RandomValues random(48);
+    const TriangleMesh mesh = shared::icosphere(5, 1.0);
+    const TriangleTree tree = TriangleTree::build(mesh);
+    int cut = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 start = 3.0 * random.direction();
+        const Vec3 motion = 2.0 * (random.in_ball(0.8) - start);
+        Work all = plenty;
+        const double whole = tree.sweep(start, motion, 0.05, 1e-12, 1.0, all);
+        Work little = random.below(30);
+        const double part = tree.sweep(start, motion, 0.05, 1e-12, 1.0, little);
+        ASSERT_LE(part, whole);
+        ASSERT_GE(part, 0.0);
+        cut += part < whole;
+    }
+    EXPECT_GT(cut, 50);
 }
 
 TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
@@ -136,7 +162,8 @@ TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
             const Vec3 motion =
                 (extent.center + random.in_ball(extent.radius) - start) * random.between(0.2, 2.0);
             const auto expected = static_cast<double>(shared::slow_sweep(start, motion, radius, sample.mesh));
-            const double found = tree.sweep(start, motion, radius, slack, 1.0);
+            Work work = plenty;
+            const double found = tree.sweep(start, motion, radius, slack, 1.0, work);
             const double tolerance = 4.0 * slack / glm::length(motion) + 1e-12;
             if (expected > 1.0 && found > 1.0) {
                 continue;
@@ -158,7 +185,8 @@ TEST(TriangleTree, SweepAlongAnAxisMissesNothing) {
             Vec3 motion(0.0);
             start[axis] = 5.0 * side;
             motion[axis] = -10.0 * side;
-            EXPECT_NEAR(tree.sweep(start, motion, 0.1, 1e-12, 1.0), 0.39, 1e-12);
+            Work work = plenty;
+            EXPECT_NEAR(tree.sweep(start, motion, 0.1, 1e-12, 1.0, work), 0.39, 1e-12);
         }
     }
 }
@@ -166,7 +194,8 @@ TEST(TriangleTree, SweepAlongAnAxisMissesNothing) {
 TEST(TriangleTree, SweepWithinAFaceOfABoxIsSeenAsContactNotLost) {
     const TriangleTree tree = TriangleTree::build(shared::box(Vec3(1.0)));
     // The centre glides in the very plane that bounds the box in the tree, towards an edge.
-    EXPECT_NEAR(tree.sweep({-3.0, 1.0, 0.0}, {4.0, 0.0, 0.0}, 0.1, 1e-12, 1.0), 1.9 / 4.0, 1e-12);
+    Work work = plenty;
+    EXPECT_NEAR(tree.sweep({-3.0, 1.0, 0.0}, {4.0, 0.0, 0.0}, 0.1, 1e-12, 1.0, work), 1.9 / 4.0, 1e-12);
 }
 
 TEST(TriangleTree, TheRunnerDoesNotChangeTheTree) {
@@ -186,13 +215,13 @@ TEST(TriangleTree, TheRunnerDoesNotChangeTheTree) {
     const TriangleTree parallel = TriangleTree::build(mesh, threads);
     ASSERT_EQ(serial.bytes(), parallel.bytes());
     RandomValues random(44);
-    std::vector<NearPack> first(4096), second(4096);
+    std::vector<FoundPack> first(4096), second(4096);
     for (int i = 0; i < 500; ++i) {
         const Vec3 p(random.between(-5.0, 5.0), random.between(-1.0, 1.0), random.between(-5.0, 5.0));
-        const CollectResult a = serial.collect(p, 0.3, 0.3, first);
-        const CollectResult b = parallel.collect(p, 0.3, 0.3, second);
+        const FoundPacks a = serial.packs_within(p, 0.3, first);
+        const FoundPacks b = parallel.packs_within(p, 0.3, second);
         ASSERT_EQ(a.count, b.count);
-        ASSERT_EQ(a.nearest, b.nearest);
+        ASSERT_EQ(serial.nearest(p, 1.0).distance, parallel.nearest(p, 1.0).distance);
         for (std::size_t k = 0; k < a.count; ++k) {
             ASSERT_EQ(first[k].pack, second[k].pack);
             ASSERT_TRUE(std::ranges::equal(serial.triangle_ids(first[k].pack),
@@ -211,8 +240,8 @@ TEST(TriangleTree, RefitAnswersForTheMovedTriangles) {
     tree.refit(mesh);
     for (int i = 0; i < 200; ++i) {
         const Vec3 p = Vec3(3.0, 0.0, 0.0) + random.in_ball(4.0);
-        ASSERT_NEAR(tree.collect(p, 0.0, 1e30, {}).nearest,
-                    static_cast<double>(shared::slow_distance(p, mesh)), 1e-13);
+        ASSERT_NEAR(tree.nearest(p, 1e30).distance, static_cast<double>(shared::slow_distance(p, mesh)),
+                    1e-13);
     }
 }
 

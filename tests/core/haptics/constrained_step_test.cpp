@@ -21,10 +21,12 @@ Contact flat(const Vec3& normal, double gap = 0.0) {
     return contact;
 }
 
-// A surface that has been believed in for long: steps may be as long as its curvature says.
 ConstrainedStep step_over(const Vec3& pull, std::span<const Contact> contacts) {
-    Stretch stretch{Vec3(0.0), 1e6};
-    return constrained_step(pull, contacts, 1e-12, stretch);
+    ContactList list;
+    for (const Contact& contact : contacts) {
+        list.add(contact);
+    }
+    return constrained_step(pull, list, 1e-12);
 }
 
 TEST(ConstrainedStep, GoesAllTheWayWithoutContacts) {
@@ -94,6 +96,35 @@ TEST(ConstrainedStep, CurvatureMakesTheStepOntoAnEdgeSecondOrderAcrossAndExactAl
     const Vec3 reached = radius * normal + step.motion;
     EXPECT_NEAR(reached.z, 0.03, 1e-12);
     EXPECT_LT(std::abs(reached.x), radius * 2.0 * angle * angle);
+}
+
+// Around an edge that the hand is behind, a step leads to where the edge ends and not beyond.
+TEST(ConstrainedStep, AnEdgeIsBelievedInUpToItsEnd) {
+    constexpr double radius = 0.1;
+    ContactList list;
+    list.add_end({Vec3(0.5, 0.0, 0.0), 0.5 * 0.02});
+    list.add_end({Vec3(-1.0, 0.0, 0.0), 0.03});
+    Contact contact = flat({0.0, 1.0, 0.0});
+    contact.u = Vec3(1.0, 0.0, 0.0);
+    contact.bend_u = 1.0 / radius;
+    contact.end_count = 2;
+    list.add(contact);
+    for (const double side : {1.0, -1.0}) {
+        const Vec3 pull(side * 1e-3, -3.0 * radius, 0.0);
+        const double reached = constrained_step(pull, list, 1e-12).motion.x * side;
+        const double end = side > 0.0 ? 0.02 : 0.03;
+        EXPECT_GE(reached, end);
+        EXPECT_LE(reached, 1.01 * end);
+    }
+}
+
+TEST(ConstrainedStep, LiftIsTheShortestWayToRest) {
+    ContactList list;
+    list.add(flat({0.0, 1.0, 0.0}, -1e-6));
+    list.add(flat({1.0, 0.0, 0.0}, 2.0));
+    EXPECT_LT(glm::distance(lift_to_rest(list, 1e-12), Vec3(0.0, 1e-6, 0.0)), 1e-15);
+    list.add(flat({1.0, 0.0, 0.0}, -2e-6));
+    EXPECT_LT(glm::distance(lift_to_rest(list, 1e-12), Vec3(2e-6, 1e-6, 0.0)), 1e-15);
 }
 
 // Whatever the contacts: no step may cross a contact plane, as the surfaces behind them are convex.

@@ -309,5 +309,19 @@ TEST(ProxyRest, AfterARestartElsewhereSurfacesAreThere) {
     EXPECT_NEAR(rig.draw({50.0, 0.1, 0.0}, {50.0, -0.1, 0.0}, 10).position.y, radius, 1e-6);
 }
 
+TEST(ProxyRest, AHandThatIsNoNumberIsPassedOver) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {nan, infinity, -infinity, 1e300}) {
+        for (const double height : {0.5, 0.8}) {  // in touch, and in the open
+            TouchRig rig(radius);
+            rig.add(shared::box(Vec3(0.5)));
+            const Vec3 before = rig.draw({0.0, 0.9, 0.0}, {0.0, height, 0.0}, 10).position;
+            EXPECT_LT(glm::distance(rig.tick({0.0, bad, 0.0}).position, before), 1e-9) << bad;
+            EXPECT_LT(glm::distance(rig.tick({0.0, height, 0.0}).position, before), 1e-9) << bad;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -37,5 +37,9 @@ TEST(ProxyStress, NoPenetrationNoPassNoNan) {
     EXPECT_EQ(counts().nans, 0u);
 }
 
+TEST(ProxyStress, NoTickIsStuck) {
+    EXPECT_EQ(counts().stuck_ticks, 0u);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -1,0 +1,116 @@
+#include "nodes/body_building.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "core/geometry/smooth_normals.hpp"
+#include "nodes/conversions.hpp"
+
+namespace tactus {
+
+namespace {
+
+std::size_t triangle_count(const Shape& shape) {
+    if (const auto* field = std::get_if<HeightFieldShape>(&shape)) {
+        return 2 * std::size_t{field->columns} * field->rows;
+    }
+    const auto* hull = std::get_if<ConvexHullShape>(&shape);
+    return hull != nullptr ? hull->hull->triangles.size() : 0;
+}
+
+void add_part(TouchShape& touch, TouchPart part) {
+    touch.reach = std::max(touch.reach, glm::length(to_parent(part.pose, part.center)) + part.radius);
+    touch.parts.push_back(std::move(part));
+}
+
+// What becomes of one mesh: how it is touched and what it is made of.
+struct BuiltDraft {
+    TouchPart part;
+    PlacedShape shape;
+};
+
+BuiltDraft build_draft(const MeshDraft& draft, const ParallelRunner& run) {
+    const BuiltMesh built = draft.source->built(draft.scaling, run);
+    BuiltDraft result{{draft.pose, built.tree, built.tree->center(), built.tree->radius(), nullptr},
+                      {MeshShape{built.mesh, draft.smooth_below}, draft.pose}};
+    if (draft.smooth_below > 0.0) {
+        result.part.smooth_normals = std::make_shared<const std::vector<CornerNormals>>(
+            smooth_normals(*built.mesh, draft.smooth_below));
+    }
+    return result;
+}
+
+// The sound ones among the meshes; of the others, what is wrong.
+std::vector<BuiltDraft> build_drafts(const std::vector<MeshDraft>& drafts, const ParallelRunner& run,
+                                     std::vector<std::string>& problems) {
+    std::vector<BuiltDraft> built;
+    for (const MeshDraft& draft : drafts) {
+        if (std::string problem = problem_of(draft); !problem.empty()) {
+            problems.push_back(std::move(problem));
+        } else {
+            built.push_back(build_draft(draft, run));
+        }
+    }
+    return built;
+}
+
+}  // namespace
+
+std::size_t triangle_count(const BodyReading& reading) {
+    std::size_t count = 0;
+    for (const PlacedShape& placed : reading.shapes) {
+        count += triangle_count(placed.shape);
+    }
+    for (const std::vector<MeshDraft>* drafts : {&reading.meshes, &reading.touched}) {
+        for (const MeshDraft& draft : *drafts) {
+            count += draft.source->triangle_count();
+        }
+    }
+    return count;
+}
+
+BuiltBody build_body(const Session& session, const BodyPlan& plan, const ParallelRunner& run) {
+    BuiltBody result;
+    result.problems = plan.reading.problems;
+    const std::vector<BuiltDraft> colliding = build_drafts(plan.reading.meshes, run, result.problems);
+    const std::vector<BuiltDraft> touched = build_drafts(plan.reading.touched, run, result.problems);
+
+    BodyAddition addition;
+    BodyDescription& description = addition.description;
+    description.shapes = plan.reading.shapes;
+    for (const BuiltDraft& mesh : colliding) {
+        description.shapes.push_back(mesh.shape);
+    }
+    auto touch = std::make_shared<TouchShape>();
+    if (touched.empty() && !plan.reading.shapes.empty()) {
+        const TouchShapeResult made = make_touch_shape(plan.reading.shapes, run);
+        if (made.shape == nullptr) {
+            result.problems.push_back(made.error);
+            return result;
+        }
+        *touch = *made.shape;
+    }
+    for (const BuiltDraft& mesh : touched.empty() ? colliding : touched) {
+        add_part(*touch, mesh.part);
+    }
+    if (description.shapes.empty()) {
+        for (const BuiltDraft& mesh : touched) {
+            description.shapes.push_back(mesh.shape);
+        }
+    }
+    result.buildable = !touch->parts.empty();
+    if (!result.buildable) {
+        return result;
+    }
+    addition.touch = std::move(touch);
+    put_into(addition, plan.values);
+    put_into(description, plan.makings);
+    description.pose = pose_of(plan.place);
+    description.may_move = plan.may_move;
+    description.linear_velocity = from_godot(plan.linear_velocity);
+    description.angular_velocity = from_godot(plan.angular_velocity);
+    result.body = session.prepare_body(addition, run);
+    return result;
+}
+
+}  // namespace tactus
