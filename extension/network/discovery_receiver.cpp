@@ -4,6 +4,11 @@
 #include <cstring>
 
 namespace tactus {
+namespace {
+
+constexpr std::size_t most_removals_remembered = 65'536;
+
+}  // namespace
 
 DiscoveryReceiver::DiscoveryReceiver(const DiscoverySettings& settings)
     : settings_(settings), pieces_(settings.pieces_waiting), acknowledgements_(settings.pieces_waiting) {}
@@ -25,6 +30,7 @@ bool DiscoveryReceiver::put(const ObjectRemoval& removal) {
     Piece piece;
     piece.kind = Piece::Kind::removal;
     piece.object = removal.object;
+    piece.revision = removal.revision;
     piece.hash = removal.hash;
     return pieces_.try_push(piece);
 }
@@ -99,7 +105,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::take_fragment(const Piece& piec
 DiscoveryReceiver::Object* DiscoveryReceiver::object_for(const Piece& piece, Nanoseconds now) {
     const auto found = objects_.find(piece.object);
     bool known = found != objects_.end();
-    if (is_removed(piece.object) || (known && piece.revision < found->second.revision)) {
+    if (is_outdated(piece)) {
         ++counts_.outdated;
         return nullptr;
     }
@@ -184,13 +190,13 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::finish(ObjectId id, Object& obj
 
 std::optional<DiscoveryEvent> DiscoveryReceiver::remove(const Piece& piece) {
     acknowledge(piece.object, piece.hash, DiscoveryVerdict::removed);
-    if (is_removed(piece.object)) {
+    if (is_outdated(piece)) {
         return std::nullopt;
     }
-    removed_.push_back(piece.object);
-    if (removed_.size() > settings_.most_objects) {
-        removed_.pop_front();
+    if (removed_.size() >= most_removals_remembered) {
+        removed_.erase(removed_.begin());
     }
+    removed_[piece.object] = piece.revision;
     const auto found = objects_.find(piece.object);
     if (found == objects_.end()) {
         return std::nullopt;
@@ -200,8 +206,12 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::remove(const Piece& piece) {
     return DiscoveryEvent{DiscoveryEvent::Kind::removed, piece.object, {}};
 }
 
-bool DiscoveryReceiver::is_removed(ObjectId object) const {
-    return std::find(removed_.begin(), removed_.end(), object) != removed_.end();
+// Whether something newer is known of its object.
+bool DiscoveryReceiver::is_outdated(const Piece& piece) const {
+    const auto removed = removed_.find(piece.object);
+    const auto known = objects_.find(piece.object);
+    return (removed != removed_.end() && piece.revision <= removed->second) ||
+           (known != objects_.end() && piece.revision < known->second.revision);
 }
 
 void DiscoveryReceiver::answer(ObjectId object, DiscoveryVerdict verdict) {

@@ -5,7 +5,6 @@
 // same thread.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -106,14 +105,15 @@ private:
     bool make_room(std::size_t bytes, Nanoseconds now);
     void begin(Object& object, const Piece& piece);
     void release(Object& object);
-    bool is_removed(ObjectId object) const;
+    bool is_outdated(const Piece& piece) const;
     void acknowledge(ObjectId object, const ContentHash& hash, DiscoveryVerdict verdict);
 
     DiscoverySettings settings_;
     SpscRing<Piece> pieces_;
     SpscRing<DiscoveryAcknowledgement> acknowledgements_;
     std::unordered_map<ObjectId, Object> objects_;
-    std::deque<ObjectId> removed_;  // of late: a delayed piece does not bring them back
+    // Revisions of removals: a delayed piece does not bring an object back.
+    std::unordered_map<ObjectId, std::uint32_t> removed_;
     std::size_t incomplete_bytes_ = 0;
     DiscoveryReceiverCounts counts_;
 };

@@ -27,24 +27,24 @@ bool DiscoverySender::announce(PreparedDiscovery& prepared) {
         }
         entry = &entries_.emplace_back();
         ++counts_.waiting;
-    } else if (entry->progress == Progress::removing) {
-        return false;
-    } else if (entry->prepared.hash == prepared.hash) {
+    } else if (entry->prepared.hash == prepared.hash && entry->progress != Progress::removing) {
         return true;
     } else {
-        ++entry->revision;
         set_progress(*entry, Progress::waiting);
     }
     std::swap(entry->prepared, prepared);
+    entry->revision = ++revision_;
     entry->offset = 0;
     entry->due = 0;
     return true;
 }
 
 void DiscoverySender::withdraw(ObjectId object, std::shared_ptr<const std::vector<std::byte>>& released) {
-    if (Entry* entry = find(object)) {
+    Entry* const entry = find(object);
+    if (entry != nullptr && entry->progress != Progress::removing) {
         released = std::move(entry->prepared.content);
         set_progress(*entry, Progress::removing);
+        entry->revision = ++revision_;
         entry->due = 0;
     }
 }
@@ -109,7 +109,7 @@ bool DiscoverySender::next(Nanoseconds now, Message& message) {
 void DiscoverySender::fill(Entry& entry, Nanoseconds now, Message& message) {
     const PreparedDiscovery& prepared = entry.prepared;
     if (entry.progress == Progress::removing) {
-        message = ObjectRemoval{prepared.object, prepared.hash};
+        message = ObjectRemoval{prepared.object, entry.revision, prepared.hash};
         entry.due = now + repeat_after_;
         return;
     }

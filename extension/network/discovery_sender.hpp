@@ -37,7 +37,7 @@ public:
     explicit DiscoverySender(std::size_t most_objects = 4096) { entries_.reserve(most_objects); }
 
     // Describes a new object, or a known one anew. `prepared` comes back with what is to be destroyed off the
-    // loop. False where there is no room, or the object was withdrawn.
+    // loop. False where there is no room. An id that was withdrawn may be described again: another object.
     bool announce(PreparedDiscovery& prepared);
 
     // The object is gone. What is to be destroyed off the loop is left in `released`.
@@ -62,7 +62,7 @@ private:
 
     struct Entry {
         PreparedDiscovery prepared;
-        std::uint32_t revision = 1;
+        std::uint32_t revision = 0;
         Progress progress = Progress::waiting;
         std::uint32_t offset = 0;  // of the next piece
         Nanoseconds due = 0;
@@ -79,6 +79,7 @@ private:
 
     std::vector<Entry> entries_;
     std::size_t cursor_ = 0;
+    std::uint32_t revision_ = 0;  // given last, of all objects
     Nanoseconds repeat_after_ = 200'000'000;
     DiscoveryCounts counts_;
 };

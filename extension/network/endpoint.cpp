@@ -140,7 +140,7 @@ void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
         return;  // overtaken by a newer one
     }
     hello_sequence_ = header.sequence;
-    peer_hello_ = hello;
+    statistics_.peer_hello = hello;
     if (hello.side == settings_.side) {
         statistics_.peer = PeerState::wrong_side;
     } else {

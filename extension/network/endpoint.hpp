@@ -44,6 +44,7 @@ struct TrafficRate {
 struct LinkStatistics {
     PeerState peer = PeerState::silent;
     std::uint64_t peer_epoch = 0;     // 0: none
+    Hello peer_hello;                 // the newest one of that epoch
     std::uint64_t peer_restarts = 0;  // times that another epoch has followed one
     std::uint64_t vanishings = 0;
 
@@ -108,7 +109,6 @@ public:
     bool hears_peer() const { return statistics_.peer == PeerState::one_way || connected(); }
     std::uint64_t epoch() const { return settings_.epoch; }
     std::uint64_t peer_epoch() const { return statistics_.peer_epoch; }
-    const Hello& peer_hello() const { return peer_hello_; }  // of the current epoch
     const ClockSync& clock() const { return clock_; }
     const LinkStatistics& statistics() const { return statistics_; }
 
@@ -131,7 +131,6 @@ private:
     ClockSync clock_;
     SequenceWindow window_;
     Hello own_hello_;
-    Hello peer_hello_;
     std::uint64_t hello_sequence_ = 0;  // of that
     Received received_;
     std::array<std::byte, most_datagram_bytes> buffer_;

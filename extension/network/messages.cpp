@@ -88,6 +88,7 @@ template <typename Stream>
 void fields(Stream& s, auto& m, const ObjectRemoval&) {
     s.integer(m.object);
     s.require(m.object != no_object);
+    s.integer(m.revision);
     hash_fields(s, m.hash);
 }
 

@@ -25,7 +25,7 @@ namespace tactus {
 
 inline constexpr std::uint8_t wire_version = 1;
 
-// Given by the teleoperator; within one of its epochs an id that was removed never comes back.
+// Given by the teleoperator. One that was removed may be given to another object, with a higher revision.
 using ObjectId = std::uint32_t;
 inline constexpr ObjectId no_object = 0xffff'ffffu;
 
@@ -72,7 +72,7 @@ using ContentHash = std::array<std::uint8_t, 16>;
 // A piece of an encoded ObjectDescription. All pieces but the last are of most_fragment_bytes.
 struct DiscoveryFragment {
     ObjectId object = no_object;
-    std::uint32_t revision = 0;  // of the object's description: the highest is the one that holds
+    std::uint32_t revision = 0;  // the highest for an object is the one that holds
     ContentHash hash{};
     std::uint32_t total_bytes = 0;     // of the whole description, 1 … most_description_bytes
     std::uint32_t offset = 0;          // of this piece in it, a multiple of most_fragment_bytes
@@ -84,6 +84,7 @@ inline constexpr std::uint32_t most_description_bytes = 16u << 20;
 // The object does not exist any more. `hash`: of its last description.
 struct ObjectRemoval {
     ObjectId object = no_object;
+    std::uint32_t revision = 0;  // higher than that of its description
     ContentHash hash{};
 };
 
@@ -194,7 +195,8 @@ struct ObjectDescription {
     ObjectId object = no_object;
     std::string name;  // UTF-8, at most most_name_bytes: the node's path below its HapticWorld
     BodyDescription body;
-    TouchMaterial touch;  // its texture, if any, points to `texture`
+    std::vector<PlacedShape> touch_shapes;  // what is touched, in the body's frame; empty: the body's shapes
+    TouchMaterial touch;                    // its texture, if any, points to `texture`
     std::shared_ptr<const HeightImage> texture;
 };
 inline constexpr std::size_t most_name_bytes = 1024;

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double no_limit = 1e12;          // above every stiffness, mass and friction there is
 constexpr std::size_t most_shapes = 4096;  // of one body
+constexpr std::size_t least_bytes_per_shape = 57;
 constexpr std::size_t bytes_per_corner = 24;
 constexpr std::size_t bytes_per_triangle = 12;
 
@@ -186,6 +187,16 @@ void placed_shape(Stream& s, auto& placed) {
 }
 
 template <typename Stream>
+void shape_list(Stream& s, auto& shapes) {
+    make_room<Stream>(shapes, count(s, shapes.size(), most_shapes, least_bytes_per_shape));
+    for (auto& shape : shapes) {
+        if (s.good()) {
+            placed_shape(s, shape);
+        }
+    }
+}
+
+template <typename Stream>
 void optional_vector(Stream& s, auto& value, double least) {
     bool present = value.has_value();
     s.flag(present);
@@ -227,14 +238,8 @@ void body_fields(Stream& s, auto& body) {
     for (auto& locked : body.lock_angular) {
         s.flag(locked);
     }
-    const std::size_t shapes = count(s, body.shapes.size(), most_shapes, 57);
-    s.require(shapes >= 1);
-    make_room<Stream>(body.shapes, shapes);
-    for (auto& shape : body.shapes) {
-        if (s.good()) {
-            placed_shape(s, shape);
-        }
-    }
+    shape_list(s, body.shapes);
+    s.require(!body.shapes.empty());
 }
 
 void touch_fields(auto& s, auto& touch) {
@@ -275,6 +280,7 @@ void description_fields(Stream& s, auto& description) {
     touch_fields(s, description.touch);
     texture_fields(s, description.texture);
     body_fields(s, description.body);
+    shape_list(s, description.touch_shapes);
 }
 
 }  // namespace

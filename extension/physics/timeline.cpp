@@ -236,6 +236,13 @@ void Timeline::set_velocity(BodyId id, const Vec3& linear, const Vec3& angular) 
     record({Input::Kind::velocity, id, {linear}, {}, angular});
 }
 
+bool Timeline::restore(std::span<const std::byte> snapshot) {
+    if (!present_.restore(snapshot))
+        return false;
+    forget_past();
+    return true;
+}
+
 std::uint32_t Timeline::step(double seconds) {
     if (!has_past()) {
         ++tick_;

@@ -87,6 +87,9 @@ public:
     void set_pose(BodyId id, const Pose& pose);
     void set_velocity(BodyId id, const Vec3& linear, const Vec3& angular);
 
+    // See PhysicsWorld; the past is forgotten.
+    bool restore(std::span<const std::byte> snapshot);
+
     void set_hands(std::span<const Vec3> hands) { present_.set_hands(hands); }
     std::uint32_t step(double seconds);  // as PhysicsWorld::step()
     std::uint64_t tick() const {

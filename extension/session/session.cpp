@@ -29,7 +29,11 @@ public:
         free_.pop_back();
         return handle;
     }
-    void give_back(SessionHandle handle) { free_.push_back(handle); }
+    void give_back(SessionHandle handle) {
+        if (handle != no_handle) {
+            free_.push_back(handle);
+        }
+    }
 
 private:
     std::vector<SessionHandle> free_;
@@ -106,12 +110,20 @@ struct Session::Impl {
     // Loop side. A command whose remains might find no room waits.
     std::uint32_t take_commands(std::uint32_t most) {
         std::uint32_t taken = 0;
-        while (taken < most && retired.size() < retired.capacity()) {
+        while (taken < most && retired.size() + 1 < retired.capacity()) {
             Command* const command = commands.front();
             if (!command) {
                 break;
             }
             Retired remains;
+            if (SessionLoop* const twin = loop.twin()) {
+                Command same;
+                if (duplicate(*command, same) && twin->take(same, remains)) {
+                    remains.handle = no_handle;  // given back once, by the loop itself
+                    retired.try_push(std::move(remains));
+                    remains = {};
+                }
+            }
             if (loop.take(*command, remains)) {
                 retired.try_push(std::move(remains));
             }
@@ -128,6 +140,7 @@ struct Session::Impl {
     SessionLoop loop;
 
     HandlePool bodies, devices, proxies, joints;
+    bool has_twin = false;  // the side that was attached last has one
     std::deque<Command> backlog;
 };
 
@@ -160,7 +173,7 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(addition.description);
     ready.error = ready.body.error();
-    if (ready.body.ready() && impl_->settings.history.ticks > 0) {
+    if (ready.body.ready() && (impl_->settings.history.ticks > 0 || impl_->has_twin)) {
         ready.same_body = duplicate(ready.body);
     }
     ready.material = with_texture(addition.touch_material, addition.texture.get());
@@ -281,8 +294,10 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(most_proxies) + " proxies: remove one"};
     }
-    impl_->send(command::AddProxy{
-        handle, std::make_unique<Proxy>(impl_->settings.most_parts, description.settings), description});
+    const auto make = [&] {
+        return std::make_unique<Proxy>(impl_->settings.most_parts, description.settings);
+    };
+    impl_->send(command::AddProxy{handle, make(), impl_->has_twin ? make() : nullptr, description});
     return {handle, {}};
 }
 
@@ -298,6 +313,11 @@ void Session::remove_proxy(SessionHandle proxy) {
 
 void Session::record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object) {
     impl_->send(command::Record{ring, proxy, object});
+}
+
+void Session::attach(std::unique_ptr<TeleopSide> side) {
+    impl_->has_twin = side && side->twin();
+    impl_->send(command::Attach{std::move(side)});
 }
 
 bool Session::collect() {
@@ -317,6 +337,7 @@ bool Session::collect() {
                 impl_->joints.give_back(remains.handle);
                 break;
             case Retired::Kind::texture:
+            case Retired::Kind::side:
                 break;
         }
         remains = {};

@@ -18,6 +18,7 @@
 #include "realtime/tick_status.hpp"
 #include "realtime/tick_trace.hpp"
 #include "session/session_types.hpp"
+#include "session/teleop_side.hpp"
 
 namespace tactus {
 
@@ -100,6 +101,10 @@ public:
     // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner
     // drains. One recording at a time; null stops. The ring must live until the change has been carried out.
     void record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object);
+
+    // A side of a teleoperation (operator_side.hpp, teleoperator_side.hpp), in place of the one before; null:
+    // none. Before anything else is added, or a twin does not know it.
+    void attach(std::unique_ptr<TeleopSide> side);
 
     // Destroys what the loop has given back; call it now and then, as each of Godot's frames does. True while
     // commands are still on their way to the loop.

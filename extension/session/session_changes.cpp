@@ -15,12 +15,16 @@ SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
     return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
 }
 
+const SessionLoop::Body* SessionLoop::body(SessionHandle handle) const {
+    return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
+}
+
 // Enters the touch scene and the physics world together, or neither.
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body, c.handle, std::move(c.body),   std::move(c.same_body),
-                   std::move(c.shape),  nullptr,  std::move(c.texture)};
+        retired = {Retired::Kind::body, c.handle, std::move(c.body),    std::move(c.same_body),
+                   std::move(c.shape),  nullptr,  std::move(c.texture), nullptr};
         return true;
     };
     const BodyId id = timeline_.add(c.body, c.same_body);
@@ -87,7 +91,8 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
                std::move(same_gone),
                std::move(removed->shape),
                nullptr,
-               std::move(removed->texture)};
+               std::move(removed->texture),
+               nullptr};
     *removed = {};
     return true;
 }
@@ -138,7 +143,7 @@ bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired& retired) {
     if (!c.texture) {
         return false;
     }
-    retired = {Retired::Kind::texture, no_handle, {}, {}, nullptr, nullptr, std::move(c.texture)};
+    retired = {Retired::Kind::texture, no_handle, {}, {}, nullptr, nullptr, std::move(c.texture), nullptr};
     return true;
 }
 
@@ -242,12 +247,14 @@ bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
         devices_[c.handle].device->write(time_, Vec3(0.0));
     }
     devices_[c.handle] = {};
-    retired = {Retired::Kind::device, c.handle, {}, {}, nullptr, nullptr, nullptr};
+    retired = {Retired::Kind::device, c.handle, {}, {}, nullptr, nullptr, nullptr, nullptr};
     return true;
 }
 
 bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
-    proxies_[c.handle] = {std::move(c.proxy), c.description, Vec3(0.0), {}, false, {}};
+    proxies_[c.handle] = {};
+    proxies_[c.handle].proxy = std::move(c.proxy);
+    proxies_[c.handle].description = c.description;
     return false;
 }
 
@@ -264,7 +271,14 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
-    retired = {Retired::Kind::proxy, c.handle, {}, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr};
+    retired = {Retired::Kind::proxy,
+               c.handle,
+               {},
+               {},
+               nullptr,
+               std::move(proxies_[c.handle].proxy),
+               nullptr,
+               nullptr};
     proxies_[c.handle] = {};
     return true;
 }
@@ -274,6 +288,45 @@ bool SessionLoop::carry_out(command::Record& c, Retired&) {
     recorded_proxy_ = c.proxy;
     recorded_object_ = c.object;
     return false;
+}
+
+bool SessionLoop::carry_out(command::Attach& c, Retired& retired) {
+    std::swap(side_, c.side);
+    if (!c.side) {
+        return false;
+    }
+    retired = {Retired::Kind::side, no_handle, {}, {}, nullptr, nullptr, nullptr, std::move(c.side)};
+    return true;
+}
+
+namespace {
+
+struct Duplicate {
+    Command& same;
+
+    bool operator()(command::AddBody& c) {
+        same = command::AddBody{
+            c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion};
+        return true;
+    }
+    bool operator()(command::AddProxy& c) {
+        same = command::AddProxy{c.handle, std::move(c.same_proxy), nullptr, c.description};
+        return true;
+    }
+    bool operator()(command::MoveBody&) { return false; }
+    bool operator()(command::Record&) { return false; }
+    bool operator()(command::Attach&) { return false; }
+    template <typename Plain>
+    bool operator()(Plain& c) {
+        same = c;
+        return true;
+    }
+};
+
+}  // namespace
+
+bool duplicate(Command& command, Command& same) {
+    return std::visit(Duplicate{same}, command);
 }
 
 }  // namespace tactus

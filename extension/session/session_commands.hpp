@@ -8,12 +8,13 @@
 #include "core/ports/device.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
+#include "session/teleop_side.hpp"
 
 namespace tactus::command {
 
 struct AddBody {
     SessionHandle handle;
-    PreparedBody body, same_body;  // the second where the session keeps a history
+    PreparedBody body, same_body;  // the second where the session keeps a history or a twin
     std::shared_ptr<const TouchShape> shape;
     TouchMaterial material;
     std::shared_ptr<const HeightImage> texture;  // keeps material.texture alive
@@ -92,6 +93,7 @@ struct RemoveDevice {
 struct AddProxy {
     SessionHandle handle;
     std::unique_ptr<Proxy> proxy;
+    std::unique_ptr<Proxy> same_proxy;  // for a twin; else null
     ProxyDescription description;
 };
 struct SetProxy {
@@ -105,27 +107,35 @@ struct Record {
     RecorderRing<SessionRecord>* ring;
     SessionHandle proxy, object;
 };
+struct Attach {
+    std::unique_ptr<TeleopSide> side;  // null: detach
+};
 
 }  // namespace tactus::command
 
 namespace tactus {
 
-using Command =
-    std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
-                 command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
-                 command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
-                 command::SetBodyDamping, command::SetBodyPush, command::AddJoint, command::RemoveJoint,
-                 command::SetGravity, command::AddDevice, command::SetWorkspace, command::RemoveDevice,
-                 command::AddProxy, command::SetProxy, command::RemoveProxy, command::Record>;
+using Command = std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
+                             command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
+                             command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
+                             command::SetBodyDamping, command::SetBodyPush, command::AddJoint,
+                             command::RemoveJoint, command::SetGravity, command::AddDevice,
+                             command::SetWorkspace, command::RemoveDevice, command::AddProxy,
+                             command::SetProxy, command::RemoveProxy, command::Record, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, device, proxy, texture, joint } kind = Kind::body;
+    enum class Kind { body, device, proxy, texture, joint, side } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body, same_body;
     std::shared_ptr<const TouchShape> shape;
     std::unique_ptr<Proxy> proxy;
     std::shared_ptr<const HeightImage> texture;
+    std::unique_ptr<TeleopSide> side;
 };
+
+// The same command for a twin, where it concerns one: what it owns is taken from `command`. False where it
+// does not.
+bool duplicate(Command& command, Command& same);
 
 }  // namespace tactus

@@ -67,21 +67,30 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         const TraceScope scope(trace, TickStage::read_device);
         read_devices(now);
     }
+    if (side_) {
+        const TraceScope scope(trace, TickStage::receive_link);
+        side_->set_hands(*this, now);
+    }
     {
         const TraceScope scope(trace, TickStage::move_proxy);
-        for (ProxySlot& slot : proxies_) {
-            if (slot.proxy) {
-                touch(slot, now);
-            }
-        }
+        touch_all(now);
     }
+    if (side_) {
+        const TraceScope scope(trace, TickStage::correct_model);
+        side_->set_forces(*this, now);
+    }
+    press_all();
     {
         const TraceScope scope(trace, TickStage::write_device);
         write_devices(now);
     }
-    {
+    if (!side_ || side_->simulates()) {
         const TraceScope scope(trace, TickStage::step_physics);
         step_physics();
+    }
+    if (side_) {
+        const TraceScope scope(trace, TickStage::send_link);
+        side_->report(*this, now);
     }
     {
         const TraceScope scope(trace, TickStage::publish_snapshot);
@@ -197,41 +206,67 @@ void SessionLoop::read_devices(Nanoseconds now) {
                 : direction_to_parent(slot.workspace.pose, slot.sample.velocity * slot.workspace.scale);
         slot.force = Vec3(0.0);
     }
+    for (ProxySlot& slot : proxies_) {
+        if (slot.proxy && slot.description.device < most_devices) {
+            slot.hand = devices_[slot.description.device].hand;
+            slot.hand_velocity = devices_[slot.description.device].hand_velocity;
+        }
+    }
+}
+
+void SessionLoop::touch_all(Nanoseconds now) {
+    if (side_ && !side_->simulates()) {
+        return;
+    }
+    for (ProxySlot& slot : proxies_) {
+        if (slot.proxy) {
+            slot.force_before = slot.force;
+            touch(slot, now);
+        }
+    }
+}
+
+// Bodies get their part only now: what a correction of this tick changes is in it.
+void SessionLoop::press_all() {
+    for (ProxySlot& slot : proxies_) {
+        if (slot.proxy) {
+            press_bodies(slot);
+            attract(slot, true);
+        }
+    }
 }
 
 void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
-    if (!slot.description.enabled || slot.description.device >= most_devices ||
+    slot.parts = {};
+    if (!slot.description.enabled || slot.idle || slot.description.device >= most_devices ||
         !devices_[slot.description.device].device) {
         slot.force = Vec3(0.0);
         slot.proxy->restart();
         slot.state = {};
         return;
     }
-    DeviceSlot& device = devices_[slot.description.device];
     // A path goes on where it stopped; a real hand may be deep inside a body by now.
     if (std::exchange(slot.rested, false) &&
-        glm::distance(device.hand, slot.state.hand) > slot.proxy->settings().radius) {
+        glm::distance(slot.hand, slot.state.hand) > slot.proxy->settings().radius) {
         slot.proxy->restart();
     }
-    const ProxyTick tick = slot.proxy->move(scene_, device.hand);
-    HandForce force =
-        contact_force(scene_, slot.proxy->touching(), tick.slide, device.hand_velocity, seconds_);
+    const ProxyTick tick = slot.proxy->move(scene_, slot.hand);
+    HandForce& force = slot.parts;
+    force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_);
     break_surfaces(slot, force);
-    add_surface_effects(scene_, slot.proxy->touching(), {device.hand, device.hand_velocity}, now, seconds_,
+    add_surface_effects(scene_, slot.proxy->touching(), {slot.hand, slot.hand_velocity}, now, seconds_,
                         slot.effects, force);
     if (slot.description.force_law == ForceLaw::smoothed) {
-        smooth(force, slot.force);
+        smooth(force, slot.force_before);
     }
-    force.total += attract(slot);
-    slot.force = force.total;
-    device.force += force.total;
+    slot.force = force.total + attract(slot, false);
+    slot.sliding = (tick.status & proxy_sliding) != 0;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
-    press_bodies(force, device.hand_velocity, (tick.status & proxy_sliding) != 0);
-    describe(slot, tick, force);
+    describe(slot, tick);
 }
 
-// Magnetic surfaces pull from a distance, and are pulled.
-Vec3 SessionLoop::attract(const ProxySlot& slot) {
+// Magnetic surfaces pull from a distance, and are pulled where `press` says so.
+Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
     Vec3 pull(0.0);
     const ProxySettings& proxy = slot.proxy->settings();
     for (const SessionHandle handle : magnets_) {
@@ -245,7 +280,7 @@ Vec3 SessionLoop::attract(const ProxySlot& slot) {
         const double strength = magnet_pull(surface.material, nearest.distance - proxy.radius);
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
-        if (magnet.motion == Motion::Dynamic) {
+        if (press && magnet.motion == Motion::Dynamic) {
             timeline_.apply_force(magnet.id, -on_hand,
                                   slot.proxy->position() - nearest.normal * nearest.distance);
         }
@@ -275,24 +310,24 @@ void SessionLoop::push_bodies() {
 }
 
 // The opposite of what the hand feels goes to what it touches, where it touches it.
-void SessionLoop::press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding) {
-    for (int i = 0; i < force.contact_count; ++i) {
-        const ContactForce& part = force.contacts[i];
+void SessionLoop::press_bodies(const ProxySlot& slot) {
+    for (int i = 0; i < slot.parts.contact_count; ++i) {
+        const ContactForce& part = slot.parts.contacts[i];
         const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(part.body)]];
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
-            const bool sticks = !sliding && material.static_friction > 0.0;
+            const bool sticks = !slot.sliding && material.static_friction > 0.0;
             timeline_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
-                                                      material.damping, hand_velocity, sticks});
+                                                      material.damping, slot.hand_velocity, sticks});
         }
     }
 }
 
-void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick, const HandForce& force) {
+void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     ProxyState& state = slot.state;
     state.position = tick.position;
-    state.hand = devices_[slot.description.device].hand;
-    state.force = force.total;
+    state.hand = slot.hand;
+    state.force = slot.force;
     state.residual = tick.residual;
     state.status = tick.status;
     state.contact_count = 0;
@@ -308,6 +343,11 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick, const HandFor
 }
 
 void SessionLoop::write_devices(Nanoseconds now) {
+    for (const ProxySlot& slot : proxies_) {
+        if (slot.proxy && slot.description.device < most_devices) {
+            devices_[slot.description.device].force += slot.state.force;
+        }
+    }
     for (DeviceSlot& slot : devices_) {
         if (!slot.device) {
             continue;

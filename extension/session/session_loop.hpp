@@ -14,11 +14,43 @@
 #include "realtime/triple_buffer.hpp"
 #include "session/change_order.hpp"
 #include "session/session_commands.hpp"
+#include "session/teleop_side.hpp"
 
 namespace tactus {
 
 class SessionLoop {
 public:
+    struct Body {
+        BodyId id;
+        int slot = -1;  // in the touch scene; -1: not in the loop
+        std::shared_ptr<const TouchShape> shape;
+        std::shared_ptr<const HeightImage> texture;
+        Motion motion = Motion::Static;
+        // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
+        Pose target;
+        int ticks_left = 0;
+        Vec3 push{0.0};  // in every tick, see Session::set_body_push
+        Vec3 twist{0.0};
+    };
+
+    struct ProxySlot {
+        std::unique_ptr<Proxy> proxy;
+        ProxyDescription description;
+        Vec3 hand{0.0};           // in the world (unit: meters)
+        Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
+        Vec3 force{0.0};          // of the scene as it is here; what the hand is given is state.force
+                                  // (unit: newtons)
+        Vec3 force_before{0.0};   // one tick ago
+        HandForce parts;
+        bool sliding = false;
+        bool idle = false;  // a side says that nobody holds it: it touches nothing
+        EffectMemory effects;
+        bool rested = false;  // since the last tick
+        ProxyState state;
+
+        bool present() const { return proxy && description.enabled; }
+    };
+
     SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
 
     // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is
@@ -55,20 +87,46 @@ public:
         return handle < bodies_.size() ? bodies_[handle].id : BodyId{};
     }
 
-private:
-    struct Body {
-        BodyId id;
-        int slot = -1;  // in the touch scene; -1: not in the loop
-        std::shared_ptr<const TouchShape> shape;
-        std::shared_ptr<const HeightImage> texture;
-        Motion motion = Motion::Static;
-        // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
-        Pose target;
-        int ticks_left = 0;
-        Vec3 push{0.0};  // in every tick, see Session::set_body_push
-        Vec3 twist{0.0};
-    };
+    // Another loop that has to get every command, too.
+    SessionLoop* twin() { return side_ ? side_->twin() : nullptr; }
 
+    // --- for a side of teleoperation, inside its three calls (teleop_side.hpp)
+
+    double seconds() const { return seconds_; }
+    std::size_t most_bodies() const { return bodies_.size(); }
+    Body* body(SessionHandle handle);  // null where there is none
+    const Body* body(SessionHandle handle) const;
+    ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
+    const TouchScene& scene() const { return scene_; }
+    SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
+    DeviceSample device_sample(SessionHandle device) const;
+
+    // Where physics has the body after the last step.
+    BodyMotion motion(SessionHandle handle);
+    bool asleep(SessionHandle handle);
+    // In this tick, besides all other forces; a body at rest is left alone (unit: meters per second squared).
+    void accelerate(SessionHandle handle, const Vec3& acceleration);
+
+    // The body is elsewhere. With `rides`, or where a proxy rests on it, it has been elsewhere a tick ago,
+    // too, and what rests on it comes along; else it runs into what is in its way. `previous`: where it was a
+    // tick ago, if that is known better. Its rates change where `with_velocity` says so.
+    void put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides = false,
+                   const Pose* previous = nullptr);
+    bool rests_on(const Proxy& proxy, SessionHandle handle) const;
+
+    // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
+    void touch(ProxySlot& slot, Nanoseconds now);
+
+    // One tick of what does not face the world: no devices, no snapshots, no side. Corrections and the slots'
+    // hands are set in between.
+    void begin_replay_tick();
+    void end_replay_tick(Nanoseconds now);
+
+    // All that a replay starts from. False where `memory` is too small or the bodies are others now.
+    bool save(LoopMemento& memento);
+    bool restore(const LoopMemento& memento);
+
+private:
     struct DeviceSlot {
         Device* device = nullptr;
         Workspace workspace;
@@ -78,15 +136,6 @@ private:
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
         bool was_held = false;
-    };
-
-    struct ProxySlot {
-        std::unique_ptr<Proxy> proxy;
-        ProxyDescription description;
-        Vec3 force{0.0};  // on the hand, in the world (unit: newtons)
-        EffectMemory effects;
-        bool rested = false;  // since the last tick
-        ProxyState state;
     };
 
     bool carry_out(command::AddBody& c, Retired& retired);
@@ -111,8 +160,8 @@ private:
     bool carry_out(command::SetProxy& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
     bool carry_out(command::Record& c, Retired&);
+    bool carry_out(command::Attach& c, Retired& retired);
 
-    Body* body(SessionHandle handle);
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
     void end_travel(SessionHandle handle);
     void travel();
@@ -122,17 +171,18 @@ private:
     void show_state(SessionHandle handle);
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
-    void touch(ProxySlot& slot, Nanoseconds now);
-    Vec3 attract(const ProxySlot& slot);
+    void touch_all(Nanoseconds now);
+    void press_all();
+    Vec3 attract(const ProxySlot& slot, bool press);
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);
     void push_bodies();
-    void press_bodies(const HandForce& force, const Vec3& hand_velocity, bool sliding);
+    void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
     void step_physics();
     void publish(Nanoseconds now);
     void append_record(Nanoseconds now);
-    void describe(ProxySlot& slot, const ProxyTick& tick, const HandForce& force);
+    void describe(ProxySlot& slot, const ProxyTick& tick);
 
     SessionSettings settings_;
     double seconds_;  // of a tick
@@ -155,9 +205,11 @@ private:
     std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
     std::array<DeviceSlot, most_devices> devices_;
     std::array<ProxySlot, most_proxies> proxies_;
+    std::unique_ptr<TeleopSide> side_;  // null: nobody at the far side
     RecorderRing<SessionRecord>* recording_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
+    bool follows_all_ = false;  // a memento was restored: where bodies are is to be read anew
     std::uint64_t tick_ = 0;
     Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;

@@ -243,12 +243,43 @@ TEST(Discovery, ADelayedPieceDoesNotBringAnObjectBack) {
     const DiscoveryFragment piece{
         1, 1, discovery.hash, static_cast<std::uint32_t>(discovery.content->size()), 0, *discovery.content};
     receiver.put(piece);
-    receiver.put(ObjectRemoval{1, discovery.hash});
+    receiver.put(ObjectRemoval{1, 2, discovery.hash});
     receiver.put(piece);
     EXPECT_EQ(receiver.next(0)->kind, DiscoveryEvent::Kind::described);
     EXPECT_EQ(receiver.next(0)->kind, DiscoveryEvent::Kind::removed);
     EXPECT_FALSE(receiver.next(0));
     EXPECT_EQ(receiver.counts().outdated, 1u);
+}
+
+TEST(Discovery, AnIdMayBeGivenToAnotherObject) {
+    DiscoveryRig rig;
+    rig.announce(samples::object_of_size(1, 50));
+    rig.run(500 * ms);
+    rig.withdraw(1);
+    rig.run(500 * ms);
+    ASSERT_TRUE(rig.model.empty());
+    rig.announce(samples::object_of_size(1, 60));
+    rig.run(500 * ms);
+    EXPECT_EQ(rig.model.size(), 1u);
+    // At once, before the removal is through.
+    rig.withdraw(1);
+    rig.announce(samples::object_of_size(1, 70));
+    rig.run(500 * ms);
+    ASSERT_EQ(rig.model.size(), 1u);
+    EXPECT_EQ(std::get<MeshShape>(rig.model[1].body.shapes[0].shape).mesh->vertices.size(), 70u);
+    EXPECT_EQ(rig.sender.counts().known, 1u);
+}
+
+TEST(Discovery, ADelayedRemovalDoesNotTakeWhatFollowedIt) {
+    DiscoveryReceiver receiver;
+    const PreparedDiscovery next = prepared(samples::object_of_size(1, 4));
+    receiver.put(DiscoveryFragment{1, 3, next.hash, static_cast<std::uint32_t>(next.content->size()), 0,
+                                   *next.content});
+    receiver.put(ObjectRemoval{1, 2, {}});
+    EXPECT_TRUE(receiver.next(0));
+    EXPECT_FALSE(receiver.next(0));
+    DiscoveryAcknowledgement answer;
+    EXPECT_TRUE(receiver.next_acknowledgement(answer)) << "it is settled all the same";
 }
 
 TEST(Discovery, RemovingWhatIsStillBeingToldStopsTheTelling) {
@@ -380,7 +411,7 @@ TEST(Discovery, TheHapticThreadsPartAllocatesLocksAndAsksForNothing) {
         }
     }
     receiver.put_restart();
-    receiver.put(ObjectRemoval{1, {}});
+    receiver.put(ObjectRemoval{1, 9, {}});
     receiver.next_acknowledgement(answer);
     sender.take(answer);
     sender.withdraw(1, released);

@@ -132,7 +132,8 @@ TEST(ObjectDescription, APromiseOfGigabytesIsRefusedAtOnce) {
     description.object = 1;
     description.body.shapes = {{MeshShape{mesh, 0.0}, {}}};
     Bytes bytes = encode_description(description);
-    const std::size_t count_at = bytes.size() - 12 - 4 - 3 * 24 - 4;
+    // From the end: no touch shapes, one triangle and its count, three corners.
+    const std::size_t count_at = bytes.size() - 4 - 12 - 4 - 3 * 24 - 4;
     const std::uint32_t promise = 16'000'000;
     std::memcpy(&bytes[count_at], &promise, 4);
     EXPECT_EQ(refusal_of(bytes), Refusal::truncated);

@@ -60,6 +60,7 @@ inline ObjectDescription object_of_all_shapes(ObjectId id) {
                    {ConvexHullShape{tetrahedron()}, aside},
                    {MeshShape{tetrahedron(), 0.7}, {}},
                    {field, aside}};
+    object.touch_shapes = {{MeshShape{tetrahedron(), 0.25}, aside}};
     return object;
 }
 

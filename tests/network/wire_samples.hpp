@@ -59,7 +59,7 @@ inline std::vector<Message> one_of_each() {
         ClockRequest{12, 1'000'000'007},
         ClockAnswer{12, 1'000'000'007, -5, 6},
         DiscoveryFragment{7, 3, hash(), 1024 + 5, 1024, piece},
-        ObjectRemoval{8, hash()},
+        ObjectRemoval{8, 4, hash()},
         DiscoveryAcknowledgement{9, hash(), DiscoveryVerdict::no_room},
         states,
         samples,

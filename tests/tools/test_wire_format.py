@@ -44,7 +44,7 @@ EXPECTED = {
     "discovery_fragment": ("piece of a description", {
         "object": 7, "revision": 3, "hash": HASH, "total_bytes": 1029, "offset": 1024, "bytes": bytes([1, 2, 3, 4, 5]),
     }),
-    "removal": ("removal", {"object": 8, "hash": HASH}),
+    "removal": ("removal", {"object": 8, "revision": 4, "hash": HASH}),
     "acknowledge": ("acknowledgement", {"object": 9, "hash": HASH, "verdict": 2}),
     "object_states": ("object states", {
         "true_at": 5_000_000, "newest_operator_sample": 42, "states": [_state(3), _state(4)],
@@ -86,6 +86,7 @@ def test_description_is_read():
     assert (read["layer"], read["mask"]) == (5, 0x80000003)
     assert (read["lock_linear"], read["lock_angular"]) == ([True, False, False], [False, False, True])
     assert [shape["kind"] for shape in read["shapes"]] == [name for name, _ in wire.SHAPES]
+    assert [shape["smooth_below"] for shape in read["touch_shapes"]] == [0.25]
     assert read["shapes"][2]["half_segment"] == 0.2
     assert read["shapes"][6]["triangles"] == [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
     assert read["shapes"][7]["heights"] == [0.0, 1.0, -2.0, 3.0, 4.0, 5.0]

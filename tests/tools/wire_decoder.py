@@ -137,7 +137,7 @@ def _piece(r: Reader) -> Fields:
 
 
 def _removal(r: Reader) -> Fields:
-    return {"object": r.object(), "hash": r.take(16)}
+    return {"object": r.object(), "revision": r.u32(), "hash": r.take(16)}
 
 
 def _acknowledgement(r: Reader) -> Fields:
@@ -274,9 +274,9 @@ def _body(r: Reader) -> Fields:
         "continuous": r.flag(), "can_sleep": r.flag(),
         "lock_linear": [r.flag() for _ in range(3)], "lock_angular": [r.flag() for _ in range(3)],
     }  # fmt: skip
-    shapes = r.counted(lambda: _shape(r), 57, 4096)
-    _require(len(shapes) >= 1, "no shape")
-    return body | {"shapes": shapes}
+    body |= {"shapes": r.counted(lambda: _shape(r), 57, 4096), "touch_shapes": r.counted(lambda: _shape(r), 57, 4096)}
+    _require(len(body["shapes"]) >= 1, "no shape")
+    return body
 
 
 def _mesh(r: Reader) -> Fields:

@@ -37,6 +37,15 @@ struct ProxyTick {
     int steps = 0;
 };
 
+// Everything of a proxy that its next move depends on, besides the scene.
+struct ProxyMemory {
+    Vec3 position{0.0};  // in the world (unit: meters)
+    bool present = false;
+    bool sliding = false;
+    Vec3 hand{0.0};  // in the world (unit: meters)
+    ContactList touching;
+};
+
 class Proxy {
 public:
     Proxy(std::size_t most_parts, const ProxySettings& settings);
@@ -57,6 +66,17 @@ public:
         surroundings_.travelled(glm::length(offset));
         contacts_hold_ = false;
     }
+    // The proxy as it was, to move it again from there.
+    ProxyMemory memory() const { return {position_, present_, sliding_, hand_, touching_}; }
+    void recall(const ProxyMemory& memory) {
+        displace(memory.position - position_);
+        present_ = memory.present;
+        sliding_ = memory.sliding;
+        hand_ = memory.hand;
+        touching_ = memory.touching;
+    }
+    // Whether dynamic or static friction holds it next, where another proxy knows.
+    void set_sliding(bool sliding) { sliding_ = sliding; }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
     bool pass_through(int body) {
         contacts_hold_ = false;

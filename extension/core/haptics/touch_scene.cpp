@@ -103,6 +103,12 @@ void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {
     }
 }
 
+void TouchScene::displace(int index, const Pose& motion) {
+    const TouchBody displaced = body(index);
+    set_pose(index, compose(motion, displaced.previous), true);
+    set_pose(index, compose(motion, displaced.pose));
+}
+
 void TouchScene::set_layer(int body, std::uint32_t layer) {
     body_at(body).layer = layer;
     ++revision_;

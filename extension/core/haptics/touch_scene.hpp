@@ -46,6 +46,8 @@ public:
     void begin_tick();
     // Where the body is this tick. Proxies sweep along the way it took; `teleport` says that it took none.
     void set_pose(int body, const Pose& pose, bool teleport = false);
+    // The body, and the way it took this tick, is rigidly moved elsewhere: a correction, not a motion.
+    void displace(int body, const Pose& motion);
     void set_material(int body, const TouchMaterial& material) { body_at(body).material = material; }
     void set_layer(int body, std::uint32_t layer);
 

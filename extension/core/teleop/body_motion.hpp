@@ -1,0 +1,37 @@
+// Where a body is and how it moves, and how far apart two such states are.
+#pragma once
+
+#include "core/math/pose.hpp"
+
+namespace tactus {
+
+struct BodyMotion {
+    Pose pose;                   // of the body in the world
+    Vec3 linear_velocity{0.0};   // of the centre of mass (unit: meters per second)
+    Vec3 angular_velocity{0.0};  // (unit: radians per second)
+};
+
+// A difference that is worth a correction. Below all of them the model counts as right.
+struct MotionThreshold {
+    double position = 1e-5;          // (unit: meters), >= 0
+    double angle = 1e-4;             // (unit: radians), >= 0
+    double linear_velocity = 1e-3;   // (unit: meters per second), >= 0
+    double angular_velocity = 1e-2;  // (unit: radians per second), >= 0
+};
+
+// The angle of the turn that takes `from` to `to`, 0 … pi (unit: radians).
+double angle_between(const Quat& from, const Quat& to);
+
+// The turn of length |w| t about w.
+Quat turn_by(const Vec3& angular_velocity, double seconds);
+
+bool poses_differ(const Pose& a, const Pose& b, const MotionThreshold& threshold);
+bool differs(const BodyMotion& a, const BodyMotion& b, const MotionThreshold& threshold);
+
+// The rigid motion D of the world that takes a body at `from` to `to`: to = D from.
+inline Pose displacement(const Pose& from, const Pose& to) {
+    const Quat turn = to.rotation * glm::conjugate(from.rotation);
+    return {to.position - turn * from.position, turn};
+}
+
+}  // namespace tactus

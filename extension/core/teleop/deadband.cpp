@@ -1,0 +1,18 @@
+#include "core/teleop/deadband.hpp"
+
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+bool position_needs_sending(const DeadbandSettings& settings, const Vec3& guessed, const Vec3& actual,
+                            const Vec3& velocity) {
+    const double allowed = settings.position + settings.position_weber * 0.1 * glm::length(velocity);
+    return !settings.enabled || glm::length(actual - guessed) > allowed;
+}
+
+bool force_needs_sending(const DeadbandSettings& settings, const Vec3& last_sent, const Vec3& actual) {
+    const double allowed = settings.force + settings.force_weber * glm::length(last_sent);
+    return !settings.enabled || glm::length(actual - last_sent) > allowed;
+}
+
+}  // namespace tactus

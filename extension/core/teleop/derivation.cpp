@@ -1,0 +1,57 @@
+#include "core/teleop/derivation.hpp"
+
+#include <algorithm>
+
+namespace tactus {
+
+namespace {
+
+BodyMotion extrapolated(const BodyMotion& from, const Vec3& linear_rate, const Vec3& angular_rate,
+                        double seconds) {
+    return {{from.pose.position + linear_rate * seconds,
+             glm::normalize(turn_by(angular_rate, seconds) * from.pose.rotation)},
+            linear_rate,
+            angular_rate};
+}
+
+// The mean rate over the way is x' + x'' dt / 2, the rate at its end x' + x'' dt.
+BodyMotion accelerated(const DerivationInput& in, double seconds) {
+    const BodyMotion& r = in.received;
+    BodyMotion now = extrapolated(r, r.linear_velocity + in.linear_acceleration * (0.5 * seconds),
+                                  r.angular_velocity + in.angular_acceleration * (0.5 * seconds), seconds);
+    now.linear_velocity = r.linear_velocity + in.linear_acceleration * seconds;
+    now.angular_velocity = r.angular_velocity + in.angular_acceleration * seconds;
+    return now;
+}
+
+BodyMotion with_own_changes(const DerivationInput& in) {
+    const Quat turned = in.own_now.pose.rotation * glm::conjugate(in.own_then.pose.rotation);
+    return {{in.received.pose.position + (in.own_now.pose.position - in.own_then.pose.position),
+             glm::normalize(turned * in.received.pose.rotation)},
+            in.received.linear_velocity + (in.own_now.linear_velocity - in.own_then.linear_velocity),
+            in.received.angular_velocity + (in.own_now.angular_velocity - in.own_then.angular_velocity)};
+}
+
+}  // namespace
+
+BodyMotion derive(Derivation derivation, const DerivationInput& in) {
+    const double seconds = std::min(in.seconds, in.most_extrapolation);
+    const BodyMotion& r = in.received;
+    switch (derivation) {
+        case Derivation::none:
+            return r;
+        case Derivation::velocity:
+            return extrapolated(r, r.linear_velocity, r.angular_velocity, seconds);
+        case Derivation::acceleration:
+            return accelerated(in, seconds);
+        case Derivation::averaged:
+            return extrapolated(r, 0.5 * (r.linear_velocity + in.own_then.linear_velocity),
+                                0.5 * (r.angular_velocity + in.own_then.angular_velocity), seconds);
+        case Derivation::history:
+        case Derivation::resimulate:
+            return with_own_changes(in);
+    }
+    return r;
+}
+
+}  // namespace tactus

@@ -1,0 +1,128 @@
+// How a loop is corrected, and how it goes back and does a tick again.
+#include <algorithm>
+#include <utility>
+
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+DeviceSample SessionLoop::device_sample(SessionHandle device) const {
+    return device < most_devices && devices_[device].device ? devices_[device].sample : DeviceSample{};
+}
+
+BodyMotion SessionLoop::motion(SessionHandle handle) {
+    const BodyId id = bodies_[handle].id;
+    return {physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id)};
+}
+
+bool SessionLoop::asleep(SessionHandle handle) {
+    return !physics_.awake(bodies_[handle].id);
+}
+
+void SessionLoop::accelerate(SessionHandle handle, const Vec3& acceleration) {
+    const Body& pushed = bodies_[handle];
+    if (pushed.motion == Motion::Dynamic && physics_.awake(pushed.id)) {
+        timeline_.apply_force(pushed.id, acceleration * physics_.mass(pushed.id),
+                              physics_.center_of_mass(pushed.id));
+    }
+}
+
+bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
+    const int slot = bodies_[handle].slot;
+    return std::ranges::any_of(proxy.touching(), [slot](const Contact& c) { return c.body == slot; });
+}
+
+void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,
+                            const Pose* previous) {
+    Body* const corrected = body(handle);
+    if (!corrected) {
+        return;
+    }
+    const Pose motion = displacement(scene_.body(corrected->slot).pose, to.pose);
+    for (ProxySlot& slot : proxies_) {
+        if (slot.proxy && rests_on(*slot.proxy, handle)) {
+            slot.proxy->displace(to_parent(motion, slot.proxy->position()) - slot.proxy->position());
+            rides = true;
+        }
+    }
+    if (previous) {
+        scene_.set_pose(corrected->slot, *previous, true);
+    } else if (rides) {
+        scene_.displace(corrected->slot, motion);
+    }
+    scene_.set_pose(corrected->slot, to.pose);
+    timeline_.set_pose(corrected->id, to.pose);
+    if (with_velocity && corrected->motion == Motion::Dynamic) {
+        timeline_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
+    }
+    if (state_of_[handle] == no_handle) {
+        show_state(handle);
+    }
+    BodyState& state = states_[state_of_[handle]];
+    state.pose = to.pose;
+    state.linear_velocity = physics_.linear_velocity(corrected->id);
+    state.angular_velocity = physics_.angular_velocity(corrected->id);
+    note_change(state_of_[handle]);
+}
+
+void SessionLoop::begin_replay_tick() {
+    ++tick_;
+    scene_.begin_tick();
+    if (std::exchange(follows_all_, false)) {
+        for (const BodyState& state : states_) {
+            place(state.handle, physics_.pose(bodies_[state.handle].id), false);
+        }
+    } else {
+        follow_physics();
+    }
+}
+
+void SessionLoop::end_replay_tick(Nanoseconds now) {
+    touch_all(now);
+    press_all();
+    step_physics();
+}
+
+bool SessionLoop::save(LoopMemento& memento) {
+    memento.place_count = 0;
+    memento.physics_bytes = 0;
+    if (states_.size() > memento.places.size()) {
+        return false;
+    }
+    for (const BodyState& state : states_) {
+        if (bodies_[state.handle].motion == Motion::Static) {
+            continue;
+        }
+        memento.places[memento.place_count++] = {state.handle, scene_.body(bodies_[state.handle].slot).pose};
+    }
+    for (std::size_t i = 0; i < proxies_.size(); ++i) {
+        if (proxies_[i].proxy) {
+            memento.pointers[i] = {proxies_[i].proxy->memory(), proxies_[i].effects, proxies_[i].force};
+        }
+    }
+    memento.physics_bytes = physics_.save_everything(memento.physics);
+    return memento.physics_bytes > 0;
+}
+
+bool SessionLoop::restore(const LoopMemento& memento) {
+    if (memento.physics_bytes == 0 ||
+        !timeline_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
+        return false;
+    }
+    for (std::size_t i = 0; i < memento.place_count; ++i) {
+        if (const Body* const placed = body(memento.places[i].handle)) {
+            scene_.set_pose(placed->slot, memento.places[i].pose, true);
+        }
+    }
+    follows_all_ = true;
+    for (std::size_t i = 0; i < proxies_.size(); ++i) {
+        if (proxies_[i].proxy) {
+            proxies_[i].proxy->recall(memento.pointers[i].proxy);
+            proxies_[i].effects = memento.pointers[i].effects;
+            proxies_[i].force = memento.pointers[i].force;
+        }
+    }
+    return true;
+}
+
+}  // namespace tactus

@@ -1,0 +1,82 @@
+// What the owner of a session and a side of its teleoperation say to each other while the loop runs.
+//
+// Threads: into settings, bindings, announced and withdrawn the owner writes and the loop reads; statistics
+// and released go the other way; `discovery` says itself who calls what. Nobody waits.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/ports/link.hpp"
+#include "core/teleop/control_scheme.hpp"
+#include "core/teleop/deadband.hpp"
+#include "core/teleop/derivation.hpp"
+#include "core/teleop/drag_estimate.hpp"
+#include "core/teleop/errors.hpp"
+#include "core/teleop/jitter_buffer.hpp"
+#include "core/teleop/stealth.hpp"
+#include "network/discovery_receiver.hpp"
+#include "network/discovery_sender.hpp"
+#include "network/endpoint.hpp"
+#include "realtime/spsc_ring.hpp"
+#include "realtime/triple_buffer.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+// All of it may change while the loop runs.
+struct TeleopSettings {
+    bool traditional = false;  // scenarios 2 and 3: positions one way, forces back
+    Derivation derivation = Derivation::resimulate;
+    Correction correction = Correction::stealthy_direction;
+    ControlScheme control = ControlScheme::spring;
+    MotionThreshold threshold;
+    StealthSettings stealth;
+    DragSettings drag;  // with re-simulation
+    StandInSettings stand_in;
+    DeadbandSettings deadband;
+    std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
+    std::uint32_t states_every = 10;    // ticks between states of what moves, >= 1
+    std::uint32_t refresh_every = 200;  // ticks between states of everything, >= 1
+    std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
+    std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
+};
+
+struct TeleopStatistics {
+    std::uint64_t sample = 0;  // operator: the newest of its own; far side: the newest applied
+    LinkStatistics link;
+    DiscoveryCounts discovery;          // far side
+    std::uint64_t unknown_objects = 0;  // states of objects that are not there
+    std::uint64_t stale_states = 0;     // older than what is known
+    std::uint64_t corrections = 0;      // ticks in which the model was corrected
+    std::uint64_t replays = 0;          // that were begun
+    double round_trip = 0.0;            // from a sample to what answers it (unit: seconds)
+    CorrectionCost cost;                // of the last tick
+    double largest_force_step = 0.0;    // (unit: newtons)
+    double offset = 0.0;                // how far the pointers are carried (unit: meters)
+    BufferCounts buffer;
+    std::uint64_t buffer_depth = 0;
+};
+
+// An object of the far side and the body that it is here.
+struct ObjectBinding {
+    ObjectId object = no_object;
+    SessionHandle body = no_handle;
+};
+
+struct TeleopPort {
+    TripleBuffer<TeleopSettings> settings;
+    TripleBuffer<TeleopStatistics> statistics;
+
+    // Operator: what the far side describes, and which body that is here.
+    DiscoveryReceiver discovery;
+    SpscRing<ObjectBinding> bindings{1024};
+
+    // Far side: what is to be described, what is gone, and contents to be destroyed.
+    SpscRing<PreparedDiscovery> announced{1024};
+    SpscRing<ObjectId> withdrawn{1024};
+    SpscRing<std::shared_ptr<const std::vector<std::byte>>> released{2048};
+};
+
+}  // namespace tactus

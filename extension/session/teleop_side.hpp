@@ -1,0 +1,62 @@
+// One side of a teleoperation, as the loop sees it: three calls a tick. Private to session/; made by its
+// owner (operator_side.hpp, teleoperator_side.hpp) and handed to Session::attach().
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "core/haptics/proxy.hpp"
+#include "core/haptics/surface_effects.hpp"
+#include "core/teleop/body_motion.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+class SessionLoop;
+
+// Runs inside the tick: no allocation, no lock, no clock.
+class TeleopSide {
+public:
+    virtual ~TeleopSide() = default;
+
+    // The devices have been read. What the link has delivered is taken; hands may be put elsewhere.
+    virtual void set_hands(SessionLoop& loop, Nanoseconds now) = 0;
+
+    // The proxies have moved; neither bodies nor devices have got their force yet. The model is corrected,
+    // forces may be others.
+    virtual void set_forces(SessionLoop& loop, Nanoseconds now) = 0;
+
+    // The step is done: what the far side is to know.
+    virtual void report(SessionLoop& loop, Nanoseconds now) = 0;
+
+    // False: bodies stay where they are put and nothing touches them; everything comes from the far side.
+    virtual bool simulates() const { return true; }
+
+    // A second loop with the same bodies, in which the past is replayed; null where there is none.
+    virtual SessionLoop* twin() { return nullptr; }
+};
+
+// A moment of a loop. All memory is taken once.
+struct LoopMemento {
+    LoopMemento(std::size_t most_bodies, std::size_t bytes_of_physics)
+        : places(most_bodies), physics(bytes_of_physics) {}
+
+    struct Place {
+        SessionHandle handle = no_handle;
+        Pose pose;  // in the touch scene
+    };
+    struct Pointer {
+        ProxyMemory proxy;
+        EffectMemory effects;
+        Vec3 force{0.0};
+    };
+
+    std::size_t place_count = 0;
+    std::vector<Place> places;
+    std::size_t physics_bytes = 0;  // 0: nothing is saved here
+    std::vector<std::byte> physics;
+    std::array<Pointer, most_proxies> pointers;
+};
+
+}  // namespace tactus

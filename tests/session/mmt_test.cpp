@@ -1,0 +1,150 @@
+// Scenarios 2 and 4 with both sides in one process and virtual time.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "shared/teleop_run.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace shared;
+
+TeleopBody body(const char* name, const Shape& shape, const Vec3& position, Motion motion) {
+    TeleopBody made;
+    made.name = name;
+    made.addition.description.shapes = {PlacedShape{shape, Pose{}}};
+    made.addition.description.pose.position = position;
+    made.addition.description.motion = motion;
+    made.addition.description.mass = 0.3;
+    made.addition.description.material.friction = 0.5;
+    made.addition.touch_material = {500.0, 0.5, 0.3, 0.2};
+    return made;
+}
+
+// The thesis's path over a ground, with a ball to slide over, or a box to push.
+TeleopScene scene(bool movable) {
+    TeleopScene made;
+    made.bodies.push_back(body("Ground", BoxShape{{0.5, 0.05, 0.5}}, {0.0, -0.05, 0.0}, Motion::Static));
+    made.bodies.push_back(movable ? body("Box", BoxShape{Vec3(0.075)}, {0.0, 0.075, 0.25}, Motion::Dynamic)
+                                  : body("Ball", SphereShape{0.06}, {-0.106, 0.03, 0.1575}, Motion::Static));
+    CircleWave path;
+    path.centre = {0.0, 0.035, 0.0};
+    path.amplitude = 0.04;
+    made.path = path;
+    made.force_limit = 10.0;
+    return made;
+}
+
+TeleopCase with_delay(double milliseconds, double seconds) {
+    TeleopCase made;
+    made.forth.delay = made.back.delay = from_seconds(0.5e-3 * milliseconds);
+    made.seconds = seconds;
+    return made;
+}
+
+TeleopCase wrong_box(double milliseconds) {
+    TeleopCase made = with_delay(milliseconds, 5.0);
+    made.object = "Box";
+    made.wrong["Box"].mass = 1.2;
+    made.wrong["Box"].friction = made.wrong["Ground"].friction = 0.7;
+    return made;
+}
+
+TEST(Mmt, ARightModelHasNoErrorAtAnyDelay) {
+    for (const double delay : {0.0, 33.3, 100.0, 500.0}) {
+        const TeleopFigures figures = run_teleop(scene(false), with_delay(delay, 4.0));
+        EXPECT_EQ(figures.at("force_error_max_N"), 0.0) << delay << " ms";
+        EXPECT_EQ(figures.at("corrections"), 0.0) << delay << " ms";
+    }
+}
+
+TEST(Mmt, ARightModelOfWhatMovesIsNotDraggedBackByTheDelay) {
+    TeleopCase right = with_delay(100.0, 5.0);
+    right.object = "Box";
+    const TeleopFigures figures = run_teleop(scene(true), right);
+    EXPECT_EQ(figures.at("force_error_max_N"), 0.0);
+    EXPECT_EQ(figures.at("corrections"), 0.0);
+    EXPECT_LT(figures.at("box_position_error_max_mm"), 1e-3);
+}
+
+TEST(Mmt, TheSameRunGivesTheSameBits) {
+    TeleopCase noisy = wrong_box(60.0);
+    noisy.forth.loss = noisy.back.loss = 0.2;
+    noisy.forth.jitter = noisy.back.jitter = 3'000'000;
+    noisy.seconds = 3.0;
+    EXPECT_EQ(run_teleop(scene(true), noisy), run_teleop(scene(true), noisy));
+}
+
+TEST(Mmt, AnotherSeedGivesAnotherRun) {
+    TeleopCase noisy = wrong_box(60.0);
+    noisy.forth.loss = noisy.back.loss = 0.2;
+    noisy.seconds = 3.0;
+    const TeleopFigures first = run_teleop(scene(true), noisy);
+    noisy.seed = 2;
+    EXPECT_NE(first, run_teleop(scene(true), noisy));
+}
+
+TEST(Mmt, TraditionalTouchIsLateByTheDelay) {
+    TeleopCase traditional = with_delay(100.0, 3.0);
+    traditional.settings.traditional = true;
+    const TeleopFigures figures = run_teleop(scene(false), traditional);
+    EXPECT_GT(figures.at("force_error_mean_N"), 0.3);
+    EXPECT_LT(figures.at("force_error_shifted_mean_N"), 0.02);
+    EXPECT_EQ(figures.at("round_trip_ms"), 100.0);
+}
+
+TEST(Mmt, ReSimulationWithStealthBeatsPoseAlone) {
+    TeleopCase pose = wrong_box(100.0);
+    pose.settings.correction = Correction::pose;
+    pose.settings.derivation = Derivation::none;
+    const TeleopFigures thesis = run_teleop(scene(true), pose);
+    const TeleopFigures ours = run_teleop(scene(true), wrong_box(100.0));
+    EXPECT_LT(ours.at("box_position_error_rms_mm"), 0.1 * thesis.at("box_position_error_rms_mm"));
+    EXPECT_LT(ours.at("force_error_mean_N"), 0.2 * thesis.at("force_error_mean_N"));
+    EXPECT_LT(ours.at("correction_force_step_max_N"), 0.02);
+    EXPECT_LT(ours.at("box_right_after_letting_go_s"), 0.15);
+}
+
+TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
+    TeleopCase lossy = wrong_box(100.0);
+    lossy.forth.loss = lossy.back.loss = 0.5;
+    const TeleopFigures figures = run_teleop(scene(true), lossy);
+    EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
+}
+
+TEST(Mmt, AStillModelThatIsWrongIsRightSoonAfterTheFirstTouch) {
+    TeleopCase tilted = with_delay(100.0, 4.0);
+    tilted.wrong["Ground"].turn = glm::angleAxis(0.05, Vec3(1.0, 0.0, 0.0));
+    tilted.correct_from_touch = true;
+    const TeleopFigures figures = run_teleop(scene(false), tilted);
+    EXPECT_EQ(figures.at("corrections"), 1.0);
+    EXPECT_LT(figures.at("seconds_until_right"), 1.0);
+    EXPECT_LT(figures.at("correction_force_step_max_N"), 0.02);
+}
+
+// Every derivation, with every correction that takes the rates along (pose alone leaves the box flying).
+TEST(Mmt, EverySchemeWithRatesBringsTheBoxWhereItIs) {
+    for (int correction = 2; correction <= 4; ++correction) {
+        for (int derivation = 0; derivation <= 5; ++derivation) {
+            TeleopCase one = wrong_box(50.0);
+            one.settings.correction = static_cast<Correction>(correction);
+            one.settings.derivation = static_cast<Derivation>(derivation);
+            const TeleopFigures figures = run_teleop(scene(true), one);
+            EXPECT_LT(figures.at("box_position_error_final_mm"), 1.0) << correction << ' ' << derivation;
+        }
+    }
+}
+
+TEST(Mmt, ADeadbandSendsAFewPackets) {
+    TeleopCase sparse = wrong_box(100.0);
+    sparse.settings.deadband.enabled = true;
+    sparse.settings.states_every = 20;
+    const TeleopFigures figures = run_teleop(scene(true), sparse);
+    EXPECT_LT(figures.at("packets_forth_per_s"), 100.0);
+    EXPECT_LT(figures.at("packets_back_per_s"), 100.0);
+    EXPECT_LT(figures.at("force_error_mean_N"), 0.1);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,64 @@
+"""Cases of teleoperation in virtual time: both sides and a hand that touches directly tick in one thread of
+tests/bench/teleop.cpp, faster than real time, and the same case gives the same figures to the bit.
+"""
+
+import json
+import os
+import subprocess
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import build
+from measuring.teleop_scene import Scene
+from project import FOLDER
+from setup import cache
+
+Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "name"
+
+
+def description(name: str) -> dict:
+    """demo_project/experiments/NAME.json: which scene, which body is followed, what the model gets wrong."""
+    return json.loads((FOLDER / "experiments" / f"{name}.json").read_text())
+
+
+def wrong(given: dict[str, dict[str, object]]) -> Case:
+    """{"Box": {"mass": 1.2, "turn": [1, 0, 0, 10]}} as keys of a case."""
+    keys: Case = {}
+    for body, properties in given.items():
+        for what, value in properties.items():
+            keys[f"wrong.{body}.{what}"] = ",".join(map(str, value)) if isinstance(value, list) else value
+    return keys
+
+
+def run(scene: str, cases: list[Case], folder: Path) -> dict[str, dict[str, float]]:
+    """The figures of each case by its name. `folder` gets the rows of those that ask for them by "rows"."""
+    build.build("template_release", "build/template_release/bench/teleop")
+    program = cache.clone() / "build/template_release/bench/teleop"
+    folder.mkdir(parents=True, exist_ok=True)
+    scene_file = folder / "scene.txt"
+    scene_file.write_text(Scene(scene).lines())
+    workers = os.cpu_count() or 1
+    shares = [cases[number::workers] for number in range(workers) if cases[number::workers]]
+
+    def work(numbered: tuple[int, list[Case]]) -> list[dict]:
+        number, share = numbered
+        cases_file = folder / f"cases_{number}.txt"
+        cases_file.write_text("".join(_line(case) for case in share))
+        done = subprocess.run(
+            [program, f"--scene={scene_file}", f"--cases={cases_file}"], text=True, stdout=subprocess.PIPE
+        )
+        if done.returncode != 0:
+            raise RuntimeError(f"{cases_file} could not be run")
+        return [json.loads(line) for line in done.stdout.splitlines()]
+
+    with ThreadPoolExecutor(workers) as pool:
+        results = [result for share in pool.map(work, enumerate(shares)) for result in share]
+    by_name = {result.pop("case"): result for result in results}
+    for leftover in (scene_file, *folder.glob("cases_*.txt")):
+        leftover.unlink()
+    return {str(case["name"]): by_name[str(case["name"])] for case in cases}
+
+
+def _line(case: Case) -> str:
+    words = [f"{key}={value}" for key, value in case.items() if key != "name"]
+    return " ".join(["case", str(case["name"]), *words]) + "\n"

@@ -1,0 +1,142 @@
+"""Forces and places over a network: what the hand felt against what it should have felt."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from plots import style
+
+Rows = dict[str, np.ndarray]
+
+
+def read(path: Path) -> Rows:
+    """The columns of what tests/bench/teleop.cpp wrote; time in seconds."""
+    with path.open(newline="") as file:
+        header = next(csv.reader(file))
+        rows = np.loadtxt(file, delimiter=",", ndmin=2)
+    columns = {name: rows[:, index] for index, name in enumerate(header)}
+    columns["time"] = columns.pop("time_us") * 1e-6
+    return columns
+
+
+def force_error(rows: Rows) -> np.ndarray:
+    return np.sqrt(sum((rows[f"force_{axis}"] - rows[f"direct_{axis}"]) ** 2 for axis in "xyz"))
+
+
+def _legend(axes) -> None:
+    axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+
+
+def draw_static(folder: Path) -> None:
+    """The thesis's figure 5.4: the force's vertical part, and the size of its error."""
+    traditional = read(folder / "traditional_100ms.csv")
+    right, wrong = read(folder / "mmt_right_100ms.csv"), read(folder / "mmt_wrong_100ms.csv")
+    drawn, ((force,), (error,)) = style.figure(2, 1, 9.0, 6.0, sharex=True)
+    force.plot(right["time"], right["direct_y"], color=style.QUIET, linewidth=3.0, alpha=0.5, label="direct touch")
+    force.plot(right["time"], traditional["force_y"], color=style.WARNING, linewidth=1.1, label="traditional, 100 ms")
+    force.plot(right["time"], wrong["force_y"], color=style.REFERENCE, linewidth=1.1, label="wrong model")
+    force.plot(right["time"], right["force_y"], color=style.MEASURED, linewidth=1.1, label="right model")
+    force.set(ylabel="force, vertical (N)", xlim=(0.0, 3.0))
+    force.set_title("Touch of what stands still, 100 ms away", pad=24)
+    _legend(force)
+    for rows, colour in ((traditional, style.WARNING), (wrong, style.REFERENCE), (right, style.MEASURED)):
+        error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.2)
+    error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None))
+    style.save(drawn, folder / "forces.png")
+    _draw_correction(folder)
+
+
+def _draw_correction(folder: Path) -> None:
+    rows, wrong = read(folder / "mmt_wrong_corrected_100ms.csv"), read(folder / "mmt_wrong_100ms.csv")
+    drawn, ((error,), (offset,)) = style.figure(2, 1, 9.0, 4.6, sharex=True, height_ratios=[2, 1])
+    error.plot(wrong["time"], force_error(wrong), color=style.REFERENCE, linewidth=1.1, label="left wrong")
+    error.plot(rows["time"], force_error(rows), color=style.MEASURED, label="corrected from the first touch on")
+    error.set(ylabel="force error (N)", xlim=(0.0, 3.0), ylim=(0, None))
+    error.set_title("A wrong model becomes right", pad=24)
+    _legend(error)
+    offset.plot(rows["time"], rows["offset_m"] * 1e3, color=style.INK, linewidth=1.2)
+    offset.set(ylabel="pointers\ncarried (mm)", xlabel="time (s)", ylim=(0, None))
+    style.save(drawn, folder / "correction.png")
+
+
+LABELS = {"none": "never corrected", "pose": "pose alone (thesis)", "stealthy_direction": "stealthy, re-simulated"}
+COLOURS = {"none": style.QUIET, "pose": style.WARNING, "stealthy_direction": style.MEASURED}
+
+
+def draw_dynamic(folder: Path, names: tuple[str, ...]) -> None:
+    """The thesis's figure 5.5 and the force plots that it lacks."""
+    drawn, ((place,), (force,), (error,)) = style.figure(3, 1, 9.0, 8.0, sharex=True)
+    direct_drawn = False
+    for name in names:
+        path = folder / f"{name}.csv"
+        if not path.is_file():
+            continue
+        rows, scheme = read(path), name.split(".")[0]
+        if not direct_drawn:
+            size = np.sqrt(sum(rows[f"direct_{axis}"] ** 2 for axis in "xyz"))
+            force.plot(rows["time"], size, color=style.INK, linewidth=3.0, alpha=0.25, label="direct touch")
+            direct_drawn = True
+        size = np.sqrt(sum(rows[f"force_{axis}"] ** 2 for axis in "xyz"))
+        colour, label = COLOURS[scheme], LABELS[scheme]
+        known = rows["box_error_m"] > 0.0
+        place.semilogy(rows["time"][known], rows["box_error_m"][known] * 1e3, color=colour, linewidth=1.2, label=label)
+        force.plot(rows["time"], size, color=colour, linewidth=1.0, label=label)
+        error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.0, label=label)
+    place.set(ylabel="box off by (mm)", ylim=(1e-4, 3e3))
+    place.set_title("A box that is pushed 100 ms away, its model 20 % too heavy and too slippery", pad=24)
+    _legend(place)
+    force.set(ylabel="force (N)", ylim=(0, None))
+    error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None), xlim=(1.0, 5.0))
+    style.save(drawn, folder / "dynamic.png")
+
+
+def draw_schemes(found: dict, corrections: tuple, derivations: tuple, path: Path) -> None:
+    """Every scheme at 100 ms without loss."""
+    figures = (
+        ("force_error_mean_N", "force error, mean (N)"),
+        ("box_position_error_rms_mm", "box off by, RMS (mm)"),
+        ("correction_force_step_max_N", "largest step (N)"),
+    )
+    drawn, axes = style.figure(1, 3, 12.0, 4.2, sharey=True)
+    for (key, title), one in zip(figures, axes[0]):
+        values = np.array(
+            [[found.get(f"{c}.{d}.100ms.0pct", {}).get(key, np.nan) for c in corrections] for d in derivations]
+        )
+        one.imshow(np.log10(np.maximum(values, 1e-4)), cmap="YlOrRd", aspect="auto")
+        middle = np.nanmean(np.log10(np.maximum(values, 1e-4)))
+        for (row, column), value in np.ndenumerate(values):
+            dark = np.log10(max(value, 1e-4)) > middle + 1.0
+            text = f"{value:.2g}" if value >= 1e-4 else "0"
+            one.text(column, row, text, ha="center", va="center", color="white" if dark else style.INK, fontsize=9)
+        one.set(title=title, xticks=range(len(corrections)), yticks=range(len(derivations)))
+        one.set_xticklabels([c.replace("_", "\n") for c in corrections], fontsize=8)
+        one.set_yticklabels(derivations)
+        one.grid(False)
+    drawn.suptitle("100 ms, no loss: how a correction is brought in, and how the present is derived", fontsize=11)
+    style.save(drawn, path)
+
+
+def draw_delays(found: dict, path: Path) -> None:
+    schemes = {
+        "traditional": "traditional", "none.none": "never corrected", "pose.none": "pose alone (thesis)",
+        "pose_velocity.velocity": "velocity (eq. 3.1)", "stealthy_direction.resimulate": "stealthy, re-simulated",
+    }  # fmt: skip
+    colours = (style.INK, style.QUIET, style.WARNING, style.REFERENCE, style.MEASURED)
+    drawn, axes = style.figure(1, 2, 10.0, 4.0)
+    for (key, title), one in zip(
+        (("force_error_mean_N", "force error, mean (N)"), ("box_position_error_rms_mm", "box off by, RMS (mm)")), axes[0]
+    ):
+        for (scheme, label), colour in zip(schemes.items(), colours):
+            for loss, dash in (("0", "-"), ("50", ":")):
+                points = sorted(
+                    (float(name.split(".")[-2].removesuffix("ms")), figures[key])
+                    for name, figures in found.items()
+                    if name.rsplit(".", 2)[0] == scheme and name.endswith(f".{loss}pct") and key in figures
+                )
+                if points:
+                    one.plot(*zip(*points), dash, color=colour, marker="o", markersize=3, label=label if dash == "-" else None)
+        one.set(title=title, xlabel="delay there and back (ms)", yscale="log")
+    axes[0][0].legend(fontsize=8)
+    axes[0][1].text(0.98, 0.02, "dotted: half of all packets lost", transform=axes[0][1].transAxes, ha="right", fontsize=8)
+    style.save(drawn, path)
