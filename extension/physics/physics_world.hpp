@@ -165,6 +165,10 @@ public:
     // `remembered_wakings`.
     bool restore(std::span<const std::byte> snapshot);
 
+    // One body as it is in another world that was made by the same calls, to the last bit: place, velocities,
+    // sleep. Contacts and joints stay as they are here. Nothing where one of the worlds has no such body.
+    void take_state(BodyId id, const PhysicsWorld& other);
+
     // --- looking at it
 
     Pose pose(BodyId id) const;

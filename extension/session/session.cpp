@@ -118,6 +118,7 @@ struct Session::Impl {
             Retired remains;
             if (SessionLoop* const twin = loop.twin()) {
                 Command same;
+                twin->follow(loop, *command);
                 if (duplicate(*command, same) && twin->take(same, remains)) {
                     remains.handle = no_handle;  // given back once, by the loop itself
                     retired.try_push(std::move(remains));
