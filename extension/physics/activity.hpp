@@ -23,6 +23,7 @@ class PhysicsSystem;
 namespace tactus {
 
 class FarIslands;
+class SoundPlaces;
 struct BodyRecord;
 
 // Bodies that woke or fell asleep move to the other tree a few a step, so that a thousand falling asleep at
@@ -77,8 +78,9 @@ private:
 
 class ActivityListener final : public JPH::BodyActivationListener {
 public:
-    ActivityListener(TreeKeeper& trees, WakeJournal& journal, FarIslands& far, std::vector<BodyId>& moved)
-        : trees_(trees), journal_(journal), far_(far), moved_(moved) {}
+    ActivityListener(TreeKeeper& trees, WakeJournal& journal, FarIslands& far, SoundPlaces& places,
+                     std::vector<BodyId>& moved)
+        : trees_(trees), journal_(journal), far_(far), places_(places), moved_(moved) {}
 
     // What wakes during a step is part of what the step moved.
     void in_step(bool begins) { in_step_ = begins; }
@@ -90,6 +92,7 @@ private:
     TreeKeeper& trees_;
     WakeJournal& journal_;
     FarIslands& far_;
+    SoundPlaces& places_;
     std::vector<BodyId>& moved_;
     bool in_step_ = false;
 };

@@ -67,6 +67,7 @@ enum StepStatus : std::uint32_t {
     step_pairs_full = 1u << 1,     // raise max_touching_pairs; some bodies passed through others
     step_contacts_full = 1u << 2,  // raise max_contacts; likewise
     step_memory_full = 1u << 3,    // the world's memory was used up and the system's had to help
+    step_body_lost = 1u << 4,  // a body left the range of numbers and was put back, asleep (sound_places.hpp)
 };
 
 class PhysicsWorld {

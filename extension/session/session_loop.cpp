@@ -386,6 +386,7 @@ void SessionLoop::step_physics() {
     const std::uint32_t step = timeline_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
+    status_ |= step & step_body_lost ? static_cast<TickStatus>(session_body_lost) : 0u;
     status_ |= step & step_memory_full ? static_cast<TickStatus>(session_step_memory_full) : 0u;
 }
 
