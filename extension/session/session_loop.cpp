@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/haptics/nearest_surface.hpp"
+#include "physics/limits.hpp"
 
 namespace tactus {
 
@@ -192,7 +193,14 @@ void SessionLoop::read_devices(Nanoseconds now) {
         if (!slot.device) {
             continue;
         }
-        slot.sample = slot.device->read(now);
+        const DeviceSample sample = slot.device->read(now);
+        if (limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
+            limits::is_rotation(sample.rotation)) {
+            slot.sample = sample;
+        } else {
+            slot.sample.velocity = Vec3(0.0);  // nonsense: it stays where it was
+            slot.sample.connected = false;
+        }
         const Vec3 before = slot.hand;
         const Vec3 reached = into_scene(slot.workspace, slot.sample.position);
         if (slot.workspace.clutch && slot.was_held) {
