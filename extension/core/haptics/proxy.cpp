@@ -132,16 +132,21 @@ double Proxy::drop_after(double length) const {
     return std::min(length * length / settings_.radius, 0.1 * settings_.radius);
 }
 
+// Where nothing can be in the way, there is nothing to do.
+bool Proxy::fly(const Vec3& hand) {
+    const double way = glm::length(hand - position_);
+    if (!surroundings_.is_clear(way)) {
+        return false;
+    }
+    position_ = hand;
+    surroundings_.travelled(way);
+    sliding_ = false;
+    contacts_hold_ = false;
+    return true;
+}
+
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Tolerances& tolerances = surroundings_.tolerances();
-    touching_.clear();
-    if (const double way = glm::length(hand - position_); surroundings_.is_clear(way)) {
-        position_ = hand;
-        surroundings_.travelled(way);
-        sliding_ = false;
-        contacts_hold_ = false;
-        return;
-    }
     bool slid = false;
     bool keep_all = false;
     double beyond = 0.0;
@@ -195,8 +200,8 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
     contacts_hold_ = contacts_hold_ && !changed;
     if (!present_) {
-        touching_.clear();
         if (!appear(hand)) {
+            touching_.clear();
             tick.position = hand;
             tick.status = proxy_absent;
             return tick;
@@ -204,7 +209,10 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
         surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
     }
     ride_along(tick);
-    descend(hand, tick);
+    touching_.clear();
+    if (!fly(hand)) {
+        descend(hand, tick);
+    }
     tick.position = position_;
     tick.status |= touching_.count > 0 ? static_cast<std::uint32_t>(proxy_touching) : 0u;
     tick.status |= sliding_ ? static_cast<std::uint32_t>(proxy_sliding) : 0u;

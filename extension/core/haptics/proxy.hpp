@@ -95,6 +95,7 @@ private:
     void ride_along(ProxyTick& tick);
     void advance(const Vec3& motion, bool& free, int except = -1);
     int carrier() const;
+    bool fly(const Vec3& hand);
     void descend(const Vec3& hand, ProxyTick& tick);
     bool lift();
     void brake(ConstrainedStep& step);

@@ -258,7 +258,7 @@ double Surroundings::look_around(Neighbourhood& hood, const TriangleTree& tree, 
                                  double limit) {
     const LanesVec3 center = splat(local);
     double nearest = std::numeric_limits<double>::infinity();
-    const double others = hood.visit_within(limit, now, [&](std::size_t i) {
+    const double others = hood.visit_between(center, center, 0.0, limit, now, [&](std::size_t i) {
         --work_left_;
         const Lanes distances = hood.distances(i, tree, center, limit, now);
         for (int k = 0; k < lane_count; ++k) {
@@ -375,14 +375,9 @@ double Surroundings::sweep_hood(Neighbourhood& hood, const TriangleTree& tree, d
     bool found = false;
     const LanesVec3 from = splat(start);
     LanesVec3 to = splat(start + motion * best);
-    hood.visit_within(reach + length * limit, now, [&](std::size_t i) {
-        if (!hood.may_meet(i, from, to, reach)) {
-            return;
-        }
-        // A tangent plane from here is cheaper than a sweep, and mostly enough.
-        hood.look_at(i, tree, from, now);
+    hood.visit_between(from, to, length * limit, reach, now, [&](std::size_t i) {
         --work_left_;
-        if (!hood.may_meet(i, from, to, reach)) {
+        if (!hood.may_meet(i, tree, from, to, length * best, reach, now)) {
             return;
         }
         work_left_ -= sweep_work;
