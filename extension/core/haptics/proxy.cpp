@@ -13,11 +13,9 @@ Proxy::Proxy(std::size_t most_parts, const ProxySettings& settings)
 // A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins
 // without a kick. Until then it is absent and follows the hand. A hand that starts by just touching has room
 // enough: the first step lifts the sphere off by the thousandth of its radius that may be missing.
-bool Proxy::appear(const Vec3& hand) {
+bool Proxy::appear() {
     const double room = settings_.radius * (1.0 - 1e-3);
-    position_ = hand;
-    present_ = surroundings_.clearance(hand, 2.0 * room) >= room;
-    surroundings_.invalidate();
+    present_ = surroundings_.has_room(position_, room);
     contacts_hold_ = false;
     return present_;
 }
@@ -197,16 +195,17 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     const Vec3 size = glm::abs(given_hand);
     hand_ = size.x <= farthest && size.y <= farthest && size.z <= farthest ? given_hand : hand_;
     const Vec3 hand = hand_;
+    if (!present_) {
+        surroundings_.jumped(glm::distance(hand, position_));
+        position_ = hand;
+    }
     const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
     contacts_hold_ = contacts_hold_ && !changed;
-    if (!present_) {
-        if (!appear(hand)) {
-            touching_.clear();
-            tick.position = hand;
-            tick.status = proxy_absent;
-            return tick;
-        }
-        surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
+    if (!present_ && !appear()) {
+        touching_.clear();
+        tick.position = hand;
+        tick.status = proxy_absent;
+        return tick;
     }
     ride_along(tick);
     touching_.clear();
