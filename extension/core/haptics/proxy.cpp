@@ -67,13 +67,15 @@ void Proxy::ride_along(ProxyTick& tick) {
 }
 
 // Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
-// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts.
-double Proxy::friction_limit(const ConstrainedStep& step) const {
+// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts. What the proxy is
+// still above does not hold it, unless it has only just slid off it: a surface that bends away is `dropped`
+// below after a step along it.
+double Proxy::friction_limit(const ConstrainedStep& step, double dropped) const {
     double limit = 0.0;
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts_.items[static_cast<std::size_t>(step.pressing[i])];
         const TouchMaterial& material = scene_->body(contact.body).material;
-        const bool at_rest = contact.gap <= 4.0 * surroundings_.tolerances().skin;
+        const bool at_rest = contact.gap <= 4.0 * surroundings_.tolerances().skin + dropped;
         const double coefficient = sliding_ ? material.dynamic_friction : material.static_friction;
         limit += at_rest ? coefficient * step.pressure[i] : 0.0;
     }
@@ -109,9 +111,9 @@ bool Proxy::lift() {
     return position_ != before;
 }
 
-// What friction leaves of a step.
-void Proxy::brake(ConstrainedStep& step) {
-    const double limit = friction_limit(step);
+// What friction leaves of a step. It has no say in how far down the surface is.
+void Proxy::brake(ConstrainedStep& step, double dropped) {
+    const double limit = friction_limit(step, dropped);
     const double slide = glm::length(step.slide);
     if (limit <= 0.0 || slide <= 0.0) {
         return;
@@ -119,9 +121,9 @@ void Proxy::brake(ConstrainedStep& step) {
     double left = std::max(0.0, slide - limit);
     if (left > surroundings_.tolerances().step && !sliding_) {
         sliding_ = true;  // static friction has given way: what is left is held by the dynamic one
-        left = std::max(0.0, slide - friction_limit(step));
+        left = std::max(0.0, slide - friction_limit(step, dropped));
     }
-    step.motion *= left / slide;
+    step.motion = step.drop + (step.motion - step.drop) * (left / slide);
 }
 
 // How far a step of that length along a surface may end above it: no surface bends more than the sphere
@@ -147,7 +149,8 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Tolerances& tolerances = surroundings_.tolerances();
     bool slid = false;
     bool keep_all = false;
-    double beyond = 0.0;
+    double beyond = 0.0;   // how far above a surface the last step may have ended
+    double dropped = 0.0;  // the same, where it led along one
     ConstrainedStep step;
     for (tick.steps = 0; tick.steps < settings_.most_steps; ++tick.steps) {
         if (!contacts_hold_) {
@@ -159,17 +162,18 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             continue;
         }
         step = constrained_step(hand - position_, contacts_, tolerances.same);
-        brake(step);
+        brake(step, dropped);
         tick.residual = glm::length(step.motion);
         if (tick.residual <= tolerances.step || !surroundings_.may_go_on()) {
             break;
         }
-        slid = slid || step.pressing_count > 0;
+        slid = slid || (step.pressing_count > 0 && step.motion != step.drop);
         bool free = true;
         const Vec3 before = position_;
         advance(step.motion, free);
         contacts_hold_ = false;
         beyond = drop_after(glm::distance(before, position_));
+        dropped = step.pressing_count > 0 ? beyond : 0.0;
         // Stopped without having moved by something that is no contact: look at every edge and corner there
         // is.
         keep_all = !free && position_ == before;

@@ -98,9 +98,9 @@ private:
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, ProxyTick& tick);
     bool lift();
-    void brake(ConstrainedStep& step);
+    void brake(ConstrainedStep& step, double dropped);
     double drop_after(double length) const;
-    double friction_limit(const ConstrainedStep& step) const;
+    double friction_limit(const ConstrainedStep& step, double dropped) const;
     void keep_touching(const ConstrainedStep& step);
 
     ProxySettings settings_;
