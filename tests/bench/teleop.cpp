@@ -200,6 +200,10 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.deadband.enabled = number != 0.0;
     } else if (key == "deadband_position") {
         s.deadband.position = number;
+    } else if (key == "deadband_speed") {
+        s.deadband.position_weber = number;
+    } else if (key == "deadband_force") {
+        s.deadband.force = number;
     } else if (key == "deadband_weber") {
         s.deadband.force_weber = number;
     } else if (key == "seconds") {
