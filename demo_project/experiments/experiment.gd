@@ -105,7 +105,7 @@ func _run_scene(scene: Node) -> int:
 		_way = device.path
 		device.path = _rest_at(_way.sample(0.0))
 	recorder.csv_path = _file(".csv")
-	recorder.trace_path = "" if stepped else _file("_trace.json")
+	recorder.trace_path = "" if stepped or _is_networked(link) else _file("_trace.json")
 	recorder.autostart = true
 	add_child(scene)
 	if not recorder.is_recording():
