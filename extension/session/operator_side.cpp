@@ -51,9 +51,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
 // --- receiving
 
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (port_->settings.refresh()) {
-        settings_ = port_->settings.front();
-    }
+    take_settings(loop);
     link_.begin_tick(now);
     ++sample_;
     remember_hands(loop, now);
@@ -85,6 +83,54 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
+void OperatorSide::take_settings(SessionLoop& loop) {
+    if (!port_->settings.refresh()) {
+        return;
+    }
+    const TeleopSettings before = std::exchange(settings_, port_->settings.front());
+    link_.set_skew(settings_.skew);
+    link_.set_scenario(settings_.traditional ? 2 : 4);
+    if (settings_.leaving && !before.leaving) {
+        link_.leave();
+    }
+    if (before.traditional != settings_.traditional) {
+        forget_past();
+        if (before.traditional) {
+            begin_model(loop);
+        }
+    }
+}
+
+// What was modelled in the other scenario has nothing to do with this one.
+void OperatorSide::forget_past() {
+    for (std::size_t i = 0; i < truths_.size(); ++i) {
+        history_.forget(i);
+        drags_[i] = {};
+    }
+    std::ranges::fill(memento_of_, no_sample);
+    truth_at_ = no_sample;
+    replaying_ = false;
+    for (Pointer& pointer : pointers_) {
+        pointer.active = pointer.apart = false;
+        pointer.offset = Vec3(0.0);
+        pointer.bridge = {};
+    }
+}
+
+// The pointers go on from where the far side had them, so that a hand that presses goes on pressing.
+void OperatorSide::begin_model(SessionLoop& loop) {
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (slot.proxy && pointers_[i].far_sample != no_sample) {
+            ProxyMemory memory;
+            memory.position = pointers_[i].far_proxy;
+            memory.present = true;
+            memory.hand = slot.hand;
+            slot.proxy->recall(memory);
+        }
+    }
+}
+
 void OperatorSide::remember_hands(SessionLoop& loop, Nanoseconds now) {
     Past& past = past_[sample_ % past_.size()];
     past.time = now;
@@ -95,19 +141,14 @@ void OperatorSide::remember_hands(SessionLoop& loop, Nanoseconds now) {
 }
 
 void OperatorSide::receive(SessionLoop& loop) {
+    notice_restart();
+    restart_waits_ = restart_waits_ && !port_->discovery.put_restart();
     ObjectBinding binding;
     while (port_->bindings.try_pop(binding)) {
-        if (binding.object < body_of_object_.size() && binding.body < object_of_body_.size()) {
-            body_of_object_[binding.object] = binding.body;
-            object_of_body_[binding.body] = binding.object;
-        }
+        bind(binding);
     }
     while (const Endpoint::Received* const received = link_.receive()) {
-        if (received->packet.header.epoch != peer_epoch_) {
-            if (std::exchange(peer_epoch_, received->packet.header.epoch) != 0) {
-                forget_far_side();
-            }
-        }
+        notice_restart();
         restart_waits_ = restart_waits_ && !port_->discovery.put_restart();
         const Message& message = received->packet.message;
         if (const auto* const states = std::get_if<ObjectStates>(&message)) {
@@ -123,6 +164,33 @@ void OperatorSide::receive(SessionLoop& loop) {
                 port_->discovery.put(*removal);
             }
         }
+    }
+}
+
+void OperatorSide::bind(const ObjectBinding& binding) {
+    if (binding.object >= body_of_object_.size()) {
+        return;
+    }
+    const SessionHandle before = std::exchange(body_of_object_[binding.object], binding.body);
+    if (before < object_of_body_.size()) {
+        object_of_body_[before] = no_object;
+    }
+    if (binding.body < object_of_body_.size()) {
+        object_of_body_[binding.body] = binding.object;
+    }
+    for (const SessionHandle body : {before, binding.body}) {
+        if (body < truths_.size()) {
+            truths_[body] = {};
+            drags_[body] = {};
+            history_.forget(body);
+        }
+    }
+}
+
+void OperatorSide::notice_restart() {
+    const std::uint64_t epoch = link_.peer_epoch();
+    if (epoch != 0 && epoch != peer_epoch_ && std::exchange(peer_epoch_, epoch) != 0) {
+        forget_far_side();
     }
 }
 
@@ -216,7 +284,10 @@ bool OperatorSide::is_news(SessionLoop& loop, std::size_t body) const {
         return false;
     }
     const bool moves = loop.body(static_cast<SessionHandle>(body))->motion == Motion::Dynamic;
-    if (settings_.derivation == Derivation::none) {
+    if (truth.sample == no_sample && !nothing_is_touched(loop)) {
+        return false;  // from before the first sample of a hand that has been at work since
+    }
+    if (settings_.derivation == Derivation::none || truth.sample == no_sample) {
         return poses_differ(truth.motion.pose, loop.motion(static_cast<SessionHandle>(body)).pose,
                             settings_.threshold);
     }
@@ -227,6 +298,16 @@ bool OperatorSide::is_news(SessionLoop& loop, std::size_t body) const {
     return settings_.correction == Correction::pose || !moves
                ? poses_differ(truth.motion.pose, then->pose, settings_.threshold)
                : differs(truth.motion, *then, settings_.threshold);
+}
+
+bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (slot.present() && !slot.proxy->touching().empty()) {
+            return false;
+        }
+    }
+    return true;
 }
 
 DerivationInput OperatorSide::derivation_input(const Truth& truth, const BodyMotion& then,
@@ -263,7 +344,8 @@ void OperatorSide::find_targets(SessionLoop& loop, Derivation derivation) {
         const auto handle = static_cast<SessionHandle>(i);
         const BodyMotion now = loop.motion(handle);
         const BodyMotion* const then = history_.at(i, truths_[i].sample);
-        Target target{handle, derive(derivation, derivation_input(truths_[i], then ? *then : now, now)), {}};
+        const Derivation how = truths_[i].sample == no_sample ? Derivation::none : derivation;
+        Target target{handle, derive(how, derivation_input(truths_[i], then ? *then : now, now)), {}};
         if (settings_.correction == Correction::pose) {
             target.motion.linear_velocity = now.linear_velocity;
             target.motion.angular_velocity = now.angular_velocity;
@@ -283,7 +365,10 @@ bool OperatorSide::begin_replay(SessionLoop& loop) {
     for (std::size_t i = 0; i < truths_.size(); ++i) {
         newest = truths_[i].fresh ? std::max(newest, truths_[i].sample) : newest;
     }
-    if (!news || newest == no_sample) {
+    if (news && newest == no_sample) {
+        return false;  // nothing to replay: the far side has heard of no hand yet
+    }
+    if (!news) {
         std::ranges::for_each(truths_, [](Truth& truth) { truth.fresh = false; });
         return false;
     }
@@ -406,7 +491,7 @@ bool OperatorSide::lands(SessionLoop& loop, Nanoseconds now) {
             continue;
         }
         Pointer& pointer = pointers_[i];
-        const Proxy& proxy = pointer.active ? *pointer.felt.proxy : *slot.proxy;
+        const Proxy& proxy = pointer.apart ? *pointer.felt.proxy : *slot.proxy;
         const bool was_free = proxy.touching().empty();
         pointer.force_before = force_uncorrected(loop, pointer, slot, now);
         any = any || (was_free && glm::length(pointer.force_before) > no_force);
@@ -428,8 +513,12 @@ void OperatorSide::correct(SessionLoop& loop) {
     }
     // The pointers that press go on from where the replay has led them.
     for (std::size_t i = 0; i < most_proxies; ++i) {
-        if (targets_.front().previous && loop.proxy(i).proxy && twin_->proxy(i).proxy) {
-            loop.proxy(i).proxy->recall(twin_->proxy(i).proxy->memory());
+        SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (targets_.front().previous && slot.proxy && twin_->proxy(i).proxy) {
+            slot.proxy->recall(twin_->proxy(i).proxy->memory());
+        }
+        if (slot.present() && pointers_[i].apart) {
+            lean_on_pressing(pointers_[i], slot);
         }
     }
 }
@@ -449,8 +538,8 @@ Vec3 OperatorSide::force_uncorrected(SessionLoop& loop, Pointer& pointer, Sessio
         tried.force = before;
         return force;
     };
-    if (!pointer.active) {
-        return try_out(slot);
+    if (!pointer.apart) {
+        return pointer.bridge.felt(try_out(slot));
     }
     pointer.felt.hand = slot.hand + pointer.offset;
     pointer.felt.hand_velocity = slot.hand_velocity;
@@ -469,8 +558,8 @@ bool OperatorSide::carry(SessionLoop& loop, const Target& target, const Pose& mo
         if (!pointer.felt.proxy || !slot.present()) {
             continue;
         }
-        if (!pointer.active) {
-            activate(pointer, slot);
+        if (!pointer.apart) {
+            part(pointer, slot);
         }
         Proxy& proxy = *pointer.felt.proxy;
         if (!loop.rests_on(proxy, target.body)) {
@@ -492,10 +581,11 @@ bool OperatorSide::carry(SessionLoop& loop, const Target& target, const Pose& mo
     return any;
 }
 
-void OperatorSide::activate(Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
+// The felt pointer begins where the pressing one is.
+void OperatorSide::part(Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
     pointer.active = true;
+    pointer.apart = true;
     pointer.offset = Vec3(0.0);
-    pointer.bridge = {};
     SessionLoop::ProxySlot& felt = pointer.felt;
     felt.description = slot.description;
     felt.proxy->set_settings(slot.description.settings);
@@ -503,6 +593,22 @@ void OperatorSide::activate(Pointer& pointer, const SessionLoop::ProxySlot& slot
     felt.force = slot.force;
     felt.effects = slot.effects;
     felt.state = slot.state;
+}
+
+// What friction holds is the same for both pointers: where both rest on something, the felt one stands beside
+// the pressing one, along the surfaces.
+void OperatorSide::lean_on_pressing(Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
+    const Proxy& pressing = *slot.proxy;
+    if (pressing.touching().empty() || pointer.felt.proxy->touching().empty() ||
+        pressing.touching().front().body != pointer.felt.proxy->touching().front().body) {
+        return;
+    }
+    Vec3 along = pointer.offset;
+    for (const Contact& contact : pressing.touching()) {
+        along -= contact.normal * glm::dot(along, contact.normal);
+    }
+    pointer.felt.proxy->recall(pressing.memory());
+    pointer.felt.proxy->displace(along);
 }
 
 // --- feeling
@@ -515,7 +621,7 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         Pointer& pointer = pointers_[i];
         if (!slot.present()) {
-            pointer.active = false;
+            pointer.active = pointer.apart = false;
             continue;
         }
         if (settings_.traditional) {
@@ -530,25 +636,25 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
 
 void OperatorSide::feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now) {
     const bool corrected = !targets_.empty();
-    if (pointer.active) {
-        if (!corrected) {
-            fade(loop, pointer);
+    if (pointer.active && !corrected) {
+        fade(loop, pointer, slot);
+    }
+    if (pointer.apart) {
+        const Vec3 force = felt_apart(loop, pointer, slot, now);
+        if (corrected ? presses_as_felt(pointer, slot) : pointer.offset == Vec3(0.0)) {
+            // From now on the pressing pointer is felt.
+            pointer.apart = false;
+            pointer.offset = Vec3(0.0);
+            pointer.bridge = bridge(slot.force, force, true);
+        } else {
+            slot.state = pointer.felt.state;
+            slot.state.hand = slot.hand;
+            slot.state.force = force;
         }
-        pointer.felt.hand = slot.hand + pointer.offset;
-        pointer.felt.hand_velocity = slot.hand_velocity;
-        pointer.felt.force_before = pointer.felt.force;
-        if (slot.parts.contact_count > 0) {
-            pointer.felt.proxy->set_sliding(slot.sliding);
-        }
-        loop.touch(pointer.felt, now);
-        if (corrected) {
-            hide_correction(loop, pointer, slot, now);
-        }
-        slot.state = pointer.felt.state;
-        slot.state.hand = slot.hand;
-        slot.state.force = pointer.bridge.felt(pointer.felt.force);
-        const bool touches = pointer.felt.state.contact_count > 0 || slot.parts.contact_count > 0;
-        pointer.active = touches || pointer.offset != Vec3(0.0);
+    }
+    if (pointer.active && !pointer.apart) {
+        slot.state.force = pointer.bridge.felt(slot.force);
+        pointer.active = !pointer.bridge.is_none();
     }
     statistics_.offset = glm::length(pointer.offset);
     CorrectionCost& cost = statistics_.cost;
@@ -558,6 +664,31 @@ void OperatorSide::feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxyS
     }
     cost.jnd_share =
         (cost.force_step + cost.faded) / just_noticeable(settings_.stealth, glm::length(slot.state.force));
+}
+
+// After a correction: whether the pressing pointer needs no more to be made up for than the carried one does.
+// Where little was corrected and friction holds, the pointer that stayed has kept its hold better.
+bool OperatorSide::presses_as_felt(const Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
+    return is_stealthy(settings_.correction) && slot.parts.contact_count > 0 &&
+           pointer.felt.parts.contact_count > 0 &&
+           glm::distance(slot.force, pointer.force_before) <=
+               glm::distance(pointer.felt.force, pointer.force_before);
+}
+
+Vec3 OperatorSide::felt_apart(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
+                              Nanoseconds now) {
+    SessionLoop::ProxySlot& felt = pointer.felt;
+    felt.hand = slot.hand + pointer.offset;
+    felt.hand_velocity = slot.hand_velocity;
+    felt.force_before = felt.force;
+    if (slot.parts.contact_count > 0) {
+        felt.proxy->set_sliding(slot.sliding);
+    }
+    loop.touch(felt, now);
+    if (!targets_.empty()) {
+        hide_correction(loop, pointer, slot, now);
+    }
+    return pointer.bridge.felt(felt.force);
 }
 
 // After the correction the pointer is where the force is nearly what it was; the bridge does the rest. A hand
@@ -577,13 +708,12 @@ void OperatorSide::hide_correction(SessionLoop& loop, Pointer& pointer, const Se
     const Vec3 without = pointer.bridge.felt(pointer.felt.force);
     pointer.bridge = bridge(pointer.felt.force, pointer.force_before,
                             settings_.correction == Correction::stealthy_direction);
-    note_drift(
-        loop, pointer,
-        glm::length(pointer.bridge.felt(pointer.felt.force) - without) / stiffness_under(loop, pointer));
+    note_drift(loop, pointer,
+               glm::length(pointer.bridge.felt(pointer.felt.force) - without) /
+                   stiffness_under(loop, pointer.felt.state));
 }
 
-double OperatorSide::stiffness_under(const SessionLoop& loop, const Pointer& pointer) const {
-    const ProxyState& state = pointer.felt.state;
+double OperatorSide::stiffness_under(const SessionLoop& loop, const ProxyState& state) const {
     const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
     return under ? std::max(1.0, loop.scene().body(under->slot).material.stiffness) : usual_stiffness;
 }
@@ -591,13 +721,14 @@ double OperatorSide::stiffness_under(const SessionLoop& loop, const Pointer& poi
 void OperatorSide::note_drift(const SessionLoop& loop, Pointer& pointer, double way) const {
     const double unnoticed = settings_.stealth.share *
                              just_noticeable(settings_.stealth, glm::length(pointer.felt.force)) /
-                             stiffness_under(loop, pointer);
+                             stiffness_under(loop, pointer.felt.state);
     pointer.drift.carried(settings_.stealth, way, unnoticed);
 }
 
-void OperatorSide::fade(const SessionLoop& loop, Pointer& pointer) {
+void OperatorSide::fade(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) {
     pointer.drift.pass(settings_.stealth, seconds_);
-    if (pointer.felt.state.contact_count == 0) {
+    const ProxyState& state = pointer.apart ? pointer.felt.state : slot.state;
+    if (state.contact_count == 0) {
         pointer.offset = faded(pointer.offset, settings_.stealth.free_speed * seconds_);
         pointer.bridge = {};
         return;
@@ -605,15 +736,16 @@ void OperatorSide::fade(const SessionLoop& loop, Pointer& pointer) {
     if (pointer.offset == Vec3(0.0) && pointer.bridge.is_none()) {
         return;
     }
-    const double force = glm::length(pointer.felt.force);
-    const double stiffness = stiffness_under(loop, pointer);
-    const double change = unnoticed_change(settings_.stealth, force, seconds_);
-    statistics_.cost.faded = change;
-    const double share = pointer.offset != Vec3(0.0) && !pointer.bridge.is_none() ? 0.5 : 1.0;
+    const double force = glm::length(pointer.apart ? pointer.felt.force : slot.force);
+    const double stiffness = stiffness_under(loop, state);
     // Somewhat faster than what comes, so that what has gathered gets less.
-    const double drift = 1.5 * pointer.drift.rate() * seconds_;
-    pointer.offset = faded(pointer.offset, share * change / stiffness + drift);
-    pointer.bridge = faded(pointer.bridge, force, share * change + drift * stiffness);
+    constexpr double catching_up = 1.2;
+    const double drift = catching_up * pointer.drift.rate() * seconds_;
+    const double change = unnoticed_change(settings_.stealth, force, seconds_) + drift * stiffness;
+    const double share = pointer.offset != Vec3(0.0) && !pointer.bridge.is_none() ? 0.5 : 1.0;
+    statistics_.cost.faded = change;
+    pointer.offset = faded(pointer.offset, share * change / stiffness);
+    pointer.bridge = faded(pointer.bridge, force, share * change);
 }
 
 // --- sending

@@ -58,6 +58,7 @@ private:
     struct Pointer {
         SessionLoop::ProxySlot felt;  // its proxy is carried along; `hand` is the hand with the offset
         bool active = false;          // else what is modelled is felt
+        bool apart = false;           // `felt` is the one that is felt, else the one that presses
         Vec3 offset{0.0};             // (unit: meters)
         ForceBridge bridge;
         DriftRate drift;
@@ -77,11 +78,17 @@ private:
         std::optional<Pose> previous;  // one tick ago, where that is known
     };
 
+    void take_settings(SessionLoop& loop);
     void take(const ObjectStates& states, SessionLoop& loop);
     void take(const ForceSample& force);
     void receive(SessionLoop& loop);
+    void bind(const ObjectBinding& binding);
+    void notice_restart();
     void acknowledge();
     void forget_far_side();
+    void forget_past();
+    void begin_model(SessionLoop& loop);
+    bool nothing_is_touched(SessionLoop& loop) const;
     void remember_hands(SessionLoop& loop, Nanoseconds now);
     void follow_far_side(SessionLoop& loop);
     bool tracks(SessionLoop& loop, std::size_t body) const;
@@ -101,13 +108,16 @@ private:
     Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
                            Nanoseconds now) const;
     bool carry(SessionLoop& loop, const Target& target, const Pose& motion);
-    void activate(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
+    void part(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
+    void lean_on_pressing(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
+    bool presses_as_felt(const Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
+    Vec3 felt_apart(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void hide_correction(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot,
                          Nanoseconds now);
-    void fade(const SessionLoop& loop, Pointer& pointer);
+    void fade(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot);
     void note_drift(const SessionLoop& loop, Pointer& pointer, double way) const;
-    double stiffness_under(const SessionLoop& loop, const Pointer& pointer) const;
+    double stiffness_under(const SessionLoop& loop, const ProxyState& state) const;
     void remember(SessionLoop& loop);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);
     void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, OperatorSample& sample) const;

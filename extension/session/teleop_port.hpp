@@ -37,9 +37,12 @@ struct TeleopSettings {
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
-    std::uint32_t states_every = 10;    // ticks between states of what moves, >= 1
+    std::uint32_t states_every = 5;     // ticks between states of what moves, >= 1
     std::uint32_t refresh_every = 200;  // ticks between states of everything, >= 1
     std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
+    Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
+    ClockSkew skew;                     // of this side's clock, as an experiment
+    bool leaving = false;               // says bye, once
     std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
 };
 
@@ -59,7 +62,7 @@ struct TeleopStatistics {
     std::uint64_t buffer_depth = 0;
 };
 
-// An object of the far side and the body that it is here.
+// An object of the far side and the body that it is here; no_handle: none any more.
 struct ObjectBinding {
     ObjectId object = no_object;
     SessionHandle body = no_handle;

@@ -1,6 +1,7 @@
 #include "session/teleoperator_side.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus {
 
@@ -17,7 +18,8 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
       link_(link, endpoint),
       port_(std::move(port)),
       seconds_(to_seconds(session.period)),
-      moved_at_(session.most_bodies) {
+      moved_at_(session.most_bodies),
+      told_(session.most_bodies) {
     for (Pointer& pointer : pointers_) {
         pointer.buffer.set_settings(buffer_settings());
     }
@@ -48,7 +50,12 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 
 void TeleoperatorSide::take_orders() {
     if (port_->settings.refresh()) {
-        settings_ = port_->settings.front();
+        const bool left = std::exchange(settings_, port_->settings.front()).leaving;
+        link_.set_skew(settings_.skew);
+        link_.set_scenario(settings_.traditional ? 2 : 4);
+        if (settings_.leaving && !left) {
+            link_.leave();
+        }
         for (Pointer& pointer : pointers_) {
             pointer.buffer.set_settings(buffer_settings());
         }
@@ -67,12 +74,9 @@ void TeleoperatorSide::take_orders() {
 }
 
 void TeleoperatorSide::receive() {
+    notice_restart();
     while (const Endpoint::Received* const received = link_.receive()) {
-        if (received->packet.header.epoch != peer_epoch_) {
-            peer_epoch_ = received->packet.header.epoch;
-            release_hands();
-            discovery_.restart();
-        }
+        notice_restart();
         const Message& message = received->packet.message;
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
             for (std::size_t i = 0; i < samples->count; ++i) {
@@ -83,6 +87,14 @@ void TeleoperatorSide::receive() {
         } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&message)) {
             discovery_.take(*known);
         }
+    }
+}
+
+void TeleoperatorSide::notice_restart() {
+    if (link_.peer_epoch() != peer_epoch_) {
+        peer_epoch_ = link_.peer_epoch();
+        release_hands();
+        discovery_.restart();
     }
 }
 
@@ -99,6 +111,11 @@ void TeleoperatorSide::release_hands() {
 
 void TeleoperatorSide::describe(Nanoseconds now) {
     constexpr int most_a_tick = 2;
+    constexpr Nanoseconds soonest = 200'000'000;
+    discovery_.set_repeat_after(
+        std::max(soonest, static_cast<Nanoseconds>(1.5 * link_.clock().figures().mean_delay)));
+    const DiscoveryCounts& counts = discovery_.counts();
+    link_.set_world(counts.waiting + counts.known + counts.refused + counts.no_room, settings_.gravity);
     Message message;
     for (int i = 0; i < most_a_tick && link_.hears_peer() && discovery_.next(now, message); ++i) {
         link_.send(message);
@@ -163,6 +180,23 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     port_->statistics.publish(statistics_);
 }
 
+// What moves is said often; with a deadband, when it goes on otherwise than was said.
+bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const {
+    const Told& told = told_[body];
+    if (moved_at_[body] == 0 || tick_ - moved_at_[body] >= linger) {
+        return false;
+    }
+    const auto handle = static_cast<SessionHandle>(body);
+    if (!settings_.deadband.enabled || told.tick == 0 || loop.asleep(handle) != told.asleep ||
+        now - told.time >= settings_.deadband.longest_silence) {
+        return true;
+    }
+    DerivationInput since;
+    since.received = told.motion;
+    since.seconds = static_cast<double>(tick_ - told.tick) * seconds_;
+    return motion_needs_sending(settings_.deadband, derive(Derivation::velocity, since), loop.motion(handle));
+}
+
 // States by need: what moves often, everything now and then.
 void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
@@ -180,11 +214,11 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
         const SessionLoop::Body* const body = loop.body(handle);
-        const bool moves = moved_at_[i] > 0 && tick_ - moved_at_[i] < linger;
-        if (!body || (!everything && !moves)) {
+        if (!body || (!everything && !state_needs_sending(loop, i, now))) {
             continue;
         }
         const BodyMotion motion = loop.motion(handle);
+        told_[i] = {motion, tick_, now, loop.asleep(handle)};
         message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), motion.pose,
                                            motion.linear_velocity, motion.angular_velocity};
         if (message.count == ObjectStates::most) {

@@ -26,14 +26,24 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
+    // What was said about a body last.
+    struct Told {
+        BodyMotion motion;
+        std::uint64_t tick = 0;  // 0: never
+        Nanoseconds time = 0;
+        bool asleep = false;
+    };
+
     void take_orders();
     void receive();
+    void notice_restart();
     void release_hands();
     void describe(Nanoseconds now);
     void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
     JitterBufferSettings buffer_settings() const;
+    bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
     void send_force(SessionLoop& loop, std::size_t index, Nanoseconds now);
 
@@ -44,6 +54,7 @@ private:
     std::uint64_t peer_epoch_ = 0;
     double seconds_;
     std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
+    std::vector<Told> told_;               // by body
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;

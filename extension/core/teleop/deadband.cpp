@@ -10,6 +10,13 @@ bool position_needs_sending(const DeadbandSettings& settings, const Vec3& guesse
     return !settings.enabled || glm::length(actual - guessed) > allowed;
 }
 
+bool motion_needs_sending(const DeadbandSettings& settings, const BodyMotion& guessed,
+                          const BodyMotion& actual) {
+    return !settings.enabled ||
+           glm::length(actual.pose.position - guessed.pose.position) > settings.position ||
+           angle_between(actual.pose.rotation, guessed.pose.rotation) > settings.angle;
+}
+
 bool force_needs_sending(const DeadbandSettings& settings, const Vec3& last_sent, const Vec3& actual) {
     const double allowed = settings.force + settings.force_weber * glm::length(last_sent);
     return !settings.enabled || glm::length(actual - last_sent) > allowed;

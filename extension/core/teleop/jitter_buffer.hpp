@@ -6,7 +6,7 @@
 // the link's jitter needs. Where it has been deeper than that for a while, one sample is left out.
 //
 // With `sparse`, missing is the rule (deadband): the last sample received is carried on with its velocity
-// instead, and nothing waits.
+// instead, and nothing waits: the packet that was on its way for the shortest time sets the pace.
 #pragma once
 
 #include <algorithm>
@@ -95,6 +95,9 @@ public:
             return Playing::exact;
         }
         shed();
+        if (settings_.sparse) {
+            keep_pace();
+        }
         const Playing how = next();
         out = played_;
         return how;
@@ -130,6 +133,16 @@ private:
             return Playing::held;
         }
         return fill(turn);
+    }
+
+    // No farther behind the newest sample than wanted. What is left out still tells where the hand is.
+    void keep_pace() {
+        while (played_.sequence + 1 + settings_.depth < newest_) {
+            ++counts_.left_out;
+            if (const Sample* found = find(++played_.sequence)) {
+                anchor_ = *found;
+            }
+        }
     }
 
     Playing guess(std::uint64_t turn) {

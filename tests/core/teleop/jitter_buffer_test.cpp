@@ -135,6 +135,22 @@ TEST(JitterBuffer, SparseGuessesFromWhatComesTooLate) {
     EXPECT_NEAR(out.position.y, 0.002, 1e-12);
 }
 
+// The first packet may have been the slowest one, or hold samples of long ago.
+TEST(JitterBuffer, SparseFollowsTheFastestPacket) {
+    JitterBufferSettings settings;
+    settings.sparse = true;
+    Buffer buffer(settings);
+    Sample out;
+    for (const std::uint64_t sequence : {1, 20, 50}) {
+        buffer.insert(sample(sequence));
+    }
+    buffer.play(out);
+    ASSERT_EQ(buffer.play(out), Playing::exact);
+    EXPECT_EQ(out.sequence, 50u);
+    ASSERT_EQ(buffer.play(out), Playing::guessed);
+    EXPECT_NEAR(out.position.x, 0.051, 1e-12);
+}
+
 TEST(JitterBuffer, AJumpTooWideToFillIsANewBeginning) {
     Buffer buffer;
     Sample out;
