@@ -70,7 +70,12 @@ void distort(const Dictionary& errors, ObjectDescription& description) {
 }  // namespace
 
 LinkRun::LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std::atomic<Nanoseconds>* ahead)
-    : node_(&node), operator_(node.is_operator()), ahead_(ahead), port_(std::make_shared<TeleopPort>()) {
+    : node_(&node),
+      operator_(node.is_operator()),
+      ahead_(ahead),
+      world_(world),
+      gravity_(from_godot(world.get_gravity())),
+      port_(std::make_shared<TeleopPort>()) {
     attach(session);
     if (operator_) {
         view_ = std::make_unique<ModelView>(world);
@@ -90,14 +95,14 @@ void LinkRun::attach(Session& session) {
     endpoint.scenario = static_cast<std::uint8_t>(node_->get_scenario());
     endpoint.epoch = random_epoch();
     endpoint.period = session.settings().period;
-    endpoint.skew = node_->skew();
-    const TeleopSettings settings = node_->teleop_settings();
+    settings_ = node_->teleop_settings();
+    settings_.gravity = gravity_;
     std::unique_ptr<TeleopSide> side;
     if (operator_) {
-        side = std::make_unique<OperatorSide>(session.settings(), OperatorRoom{}, settings, route_, port_,
+        side = std::make_unique<OperatorSide>(session.settings(), OperatorRoom{}, settings_, route_, port_,
                                               endpoint);
     } else {
-        side = std::make_unique<TeleoperatorSide>(session.settings(), settings, route_, port_, endpoint);
+        side = std::make_unique<TeleoperatorSide>(session.settings(), settings_, route_, port_, endpoint);
     }
     session.attach(std::move(side));
 }
@@ -185,15 +190,24 @@ void LinkRun::take_opened(const LinkMoment& moment) {
 // ------------------------------------------------------------------------------------------------
 
 void LinkRun::pass_on_settings() {
-    if (node_ == nullptr || node_->revision() == revision_) {
+    const Vec3 gravity = from_godot(world_.get_gravity());
+    if (node_ == nullptr || (node_->revision() == revision_ && gravity == gravity_)) {
         return;
     }
     revision_ = node_->revision();
-    port_->settings.publish(node_->teleop_settings());
+    gravity_ = gravity;
+    settings_ = node_->teleop_settings();
+    settings_.gravity = gravity_;
+    port_->settings.publish(settings_);
     if (way_ != nullptr) {
         traces_.push_back(node_->trace());
         way_->change(node_->conditions());
     }
+}
+
+void LinkRun::leave() {
+    settings_.leaving = true;
+    port_->settings.publish(settings_);
 }
 
 void LinkRun::synchronise(Workers& workers, const LinkMoment& moment) {
@@ -212,8 +226,8 @@ void LinkRun::synchronise(Workers& workers, const LinkMoment& moment) {
     }
 }
 
-void LinkRun::tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, HapticWorld& world,
-                   const SessionSnapshot& snapshot, Nanoseconds now) {
+void LinkRun::tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, const SessionSnapshot& snapshot,
+                   Nanoseconds now) {
     std::unordered_set<SessionHandle> there;
     for (const auto& mirror : mirrors) {
         CollisionObject3D* body = mirror->body();
@@ -225,7 +239,7 @@ void LinkRun::tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, Hapt
         const bool is_new = told == tellings_.end();
         if (is_new ||
             (told->second.revision != mirror->revision() && now - told->second.at >= tell_again_after)) {
-            const std::string name = from_godot(String(world.get_path_to(body)));
+            const std::string name = from_godot(String(world_.get_path_to(body)));
             tellings_[mirror->handle()] = {mirror->revision(), now,
                                            teller_->tell(mirror->handle(), name, mirror->addition())};
         }
@@ -260,26 +274,27 @@ std::vector<std::string> LinkRun::problems() const {
 // --- in words
 // --------------------------------------------------------------------------------------------------------
 
-// Which of the counters for what is not believed has grown.
+// Which of the counters for what is not believed have grown.
 void LinkRun::note_refusals(Nanoseconds now) {
     const LinkStatistics& link = port_->statistics.front().link;
-    const SecureCounts& secure = figures_.secure;
     const bool unmet = figures_.sealed && !figures_.key_met;
-    const std::uint64_t version = link.refused.of(Refusal::wrong_version);
-    const std::uint64_t sealed = link.refused.of(Refusal::sealed);
-    const std::uint64_t key = unmet ? secure.wrong_key : 0;
-    const std::uint64_t open = unmet ? secure.not_sealed : 0;
-    const std::uint64_t sum = version + sealed + key + open;
-    if (sum > refusals_) {
-        refused_until_ = now + refusal_lasts;
-        refusal_ = key > 0    ? "the far side has another key: set the same 'key' on both sides"
-                   : open > 0 ? "the far side has no key: set the same 'key' on both sides, or none"
-                   : sealed > 0
-                       ? "the far side has a key and this side has none: set the same 'key' on both sides"
-                       : "the far side speaks another version of the protocol: install the same version "
-                         "of Tactus on both sides";
+    const std::array<std::uint64_t, 4> counts = {
+        unmet ? figures_.secure.wrong_key : 0, unmet ? figures_.secure.not_sealed : 0,
+        link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version)};
+    constexpr const char* words[] = {
+        "the far side has another key: set the same 'key' on both sides",
+        "the far side has no key: set the same 'key' on both sides, or none",
+        "the far side has a key and this side has none: set the same 'key' on both sides",
+        "the far side speaks another version of the protocol: install the same version of Tactus on both "
+        "sides",
+    };
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > refusals_[i]) {
+            refused_until_ = now + refusal_lasts;
+            refusal_ = words[i];
+        }
     }
-    refusals_ = sum;
+    refusals_ = counts;
 }
 
 std::pair<MMTLink::State, std::string> LinkRun::state() const {

@@ -5,6 +5,7 @@
 // (session/teleop_port.hpp) and in the route (link_route.hpp) only.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <memory>
 #include <optional>
@@ -48,8 +49,11 @@ public:
     // Passes on what has changed on either side.
     void synchronise(Workers& workers, const LinkMoment& moment);
     // Far side: what there is to touch.
-    void tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, HapticWorld& world,
-              const SessionSnapshot& snapshot, Nanoseconds now);
+    void tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, const SessionSnapshot& snapshot,
+              Nanoseconds now);
+
+    // The far side is told in the next tick, which is this side's last.
+    void leave();
 
     // What the node is to be told, to be passed to it when nothing of the run is used any more.
     struct News {
@@ -92,6 +96,9 @@ private:
     MMTLink* node_;  // null: it has left
     bool operator_;
     const std::atomic<Nanoseconds>* ahead_;
+    HapticWorld& world_;
+    Vec3 gravity_;  // as passed on
+    TeleopSettings settings_;
     std::shared_ptr<TeleopPort> port_;
     LinkRoute route_;
     std::unique_ptr<ModelView> view_;            // operator
@@ -109,7 +116,7 @@ private:
     Nanoseconds next_try_ = 0;
 
     NetworkFigures figures_;
-    std::uint64_t refusals_ = 0;
+    std::array<std::uint64_t, 4> refusals_{};
     Nanoseconds refused_until_ = 0;
     std::string refusal_;  // the last one, in words
     Nanoseconds now_ = 0;

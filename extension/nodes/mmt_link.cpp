@@ -29,8 +29,8 @@ struct NumberRow {
     const char* hint;    // what the inspector's slider offers
 };
 
-// In the order of MMTLink::Number. What starts with what the settings themselves start with says so there.
-constexpr NumberRow number_rows[] = {
+// In the order of MMTLink::Number.
+const NumberRow number_rows[] = {
     {"emulated_delay", 0.0, 0.0, 10.0, "0,1,0.001,or_greater,suffix:s"},
     {"emulated_jitter", 0.0, 0.0, 10.0, "0,0.1,0.0001,or_greater,suffix:s"},
     {"emulated_loss", 0.0, 0.0, 1.0, "0,1,0.001"},
@@ -38,29 +38,34 @@ constexpr NumberRow number_rows[] = {
     {"emulated_burst_length", 5.0, 1.0, 10000.0, "1,100,0.1,or_greater"},
     {"emulated_duplication", 0.0, 0.0, 1.0, "0,1,0.001"},
     {"emulated_reordering", 0.0, 0.0, 1.0, "0,1,0.001"},
-    {"emulated_reorder_by", 0.01, 0.0, 10.0, "0,0.1,0.0001,or_greater,suffix:s"},
+    {"emulated_reorder_by", to_seconds(LinkConditions{}.reorder_by), 0.0, 10.0,
+     "0,0.1,0.0001,or_greater,suffix:s"},
     {"emulated_rate", 0.0, 0.0, 1e11, "0,10000000,1000,or_greater,suffix:bit/s"},
     {"emulated_clock_offset", 0.0, -1e6, 1e6, "-10,10,0.001,or_less,or_greater,suffix:s"},
     {"emulated_clock_drift", 0.0, -1e-3, 1e-3, "-0.001,0.001,0.000001"},
-    {"stand_in_speed", 1.0, 1e-3, 100.0, "0.01,5,0.01,or_greater,suffix:m/s"},
-    {"stand_in_near", 0.03, 1e-4, 1.0, "0.001,0.2,0.001,or_greater,suffix:m"},
-    {"stand_in_leash", 0.03, 0.0, 1.0, "0,0.2,0.001,or_greater,suffix:m"},
-    {"threshold_position", 1e-5, 0.0, 1.0, "0,0.01,0.00001,or_greater,suffix:m"},
-    {"threshold_angle", 1e-4, 0.0, 3.2, "0,0.1,0.0001,or_greater,suffix:rad"},
-    {"threshold_velocity", 1e-3, 0.0, 100.0, "0,0.1,0.0001,or_greater,suffix:m/s"},
-    {"threshold_angular_velocity", 1e-2, 0.0, 100.0, "0,1,0.001,or_greater,suffix:rad/s"},
-    {"stealth_weber", 0.07, 0.0, 1.0, "0,0.3,0.001"},
-    {"stealth_least", 0.02, 1e-4, 10.0, "0.001,0.2,0.001,or_greater,suffix:N"},
-    {"stealth_share", 0.5, 1e-3, 100.0, "0.01,2,0.01,or_greater"},
-    {"stealth_window", 0.1, 1e-3, 10.0, "0.01,1,0.01,or_greater,suffix:s"},
-    {"stealth_free_speed", 0.5, 1e-3, 100.0, "0.01,2,0.01,or_greater,suffix:m/s"},
-    {"stealth_longest_offset", 0.1, 0.0, 1.0, "0,0.2,0.001,or_greater,suffix:m"},
-    {"drag_learning", 0.05, 0.0, 1.0, "0,1,0.01"},
-    {"deadband_position", 2e-4, 0.0, 1.0, "0,0.01,0.00001,or_greater,suffix:m"},
-    {"deadband_position_weber", 0.0, 0.0, 1.0, "0,0.5,0.001"},
-    {"deadband_force", 0.01, 0.0, 100.0, "0,0.2,0.001,or_greater,suffix:N"},
-    {"deadband_force_weber", 0.05, 0.0, 1.0, "0,0.5,0.001"},
-    {"deadband_longest_silence", 0.05, 1e-3, 0.9, "0.001,0.9,0.001,suffix:s"},
+    {"stand_in_speed", StandInSettings{}.speed, 1e-3, 100.0, "0.01,5,0.01,or_greater,suffix:m/s"},
+    {"stand_in_near", StandInSettings{}.near, 1e-4, 1.0, "0.001,0.2,0.001,or_greater,suffix:m"},
+    {"stand_in_leash", StandInSettings{}.leash, 0.0, 1.0, "0,0.2,0.001,or_greater,suffix:m"},
+    {"threshold_position", MotionThreshold{}.position, 0.0, 1.0, "0,0.01,0.00001,or_greater,suffix:m"},
+    {"threshold_angle", MotionThreshold{}.angle, 0.0, 3.2, "0,0.1,0.0001,or_greater,suffix:rad"},
+    {"threshold_velocity", MotionThreshold{}.linear_velocity, 0.0, 100.0,
+     "0,0.1,0.0001,or_greater,suffix:m/s"},
+    {"threshold_angular_velocity", MotionThreshold{}.angular_velocity, 0.0, 100.0,
+     "0,1,0.001,or_greater,suffix:rad/s"},
+    {"stealth_weber", StealthSettings{}.weber, 0.0, 1.0, "0,0.3,0.001"},
+    {"stealth_least", StealthSettings{}.least_noticeable, 1e-4, 10.0, "0.001,0.2,0.001,or_greater,suffix:N"},
+    {"stealth_share", StealthSettings{}.share, 1e-3, 100.0, "0.01,2,0.01,or_greater"},
+    {"stealth_window", StealthSettings{}.window, 1e-3, 10.0, "0.01,1,0.01,or_greater,suffix:s"},
+    {"stealth_free_speed", StealthSettings{}.free_speed, 1e-3, 100.0, "0.01,2,0.01,or_greater,suffix:m/s"},
+    {"stealth_longest_offset", StealthSettings{}.longest_offset, 0.0, 1.0, "0,0.2,0.001,or_greater,suffix:m"},
+    {"drag_learning", DragSettings{}.gain, 0.0, 1.0, "0,1,0.01"},
+    {"deadband_position", DeadbandSettings{}.position, 0.0, 1.0, "0,0.01,0.00001,or_greater,suffix:m"},
+    {"deadband_position_weber", DeadbandSettings{}.position_weber, 0.0, 1.0, "0,0.5,0.001"},
+    {"deadband_angle", DeadbandSettings{}.angle, 0.0, 3.2, "0,0.1,0.0001,or_greater,suffix:rad"},
+    {"deadband_force", DeadbandSettings{}.force, 0.0, 100.0, "0,0.2,0.001,or_greater,suffix:N"},
+    {"deadband_force_weber", DeadbandSettings{}.force_weber, 0.0, 1.0, "0,0.5,0.001"},
+    {"deadband_longest_silence", to_seconds(DeadbandSettings{}.longest_silence), 1e-3, 0.9,
+     "0.001,0.9,0.001,suffix:s"},
 };
 static_assert(std::size(number_rows) == MMTLink::NUMBER_COUNT);
 
@@ -71,12 +76,12 @@ struct CountRow {
 };
 
 // In the order of MMTLink::Count.
-constexpr CountRow count_rows[] = {
+const CountRow count_rows[] = {
     {"emulated_seed", 1, 0, std::int64_t{1} << 62, "0,1000,1,or_greater"},
-    {"states_every", 10, 1, 10000, "1,100,1,or_greater,suffix:ticks"},
-    {"refresh_every", 200, 1, 100000, "1,1000,1,or_greater,suffix:ticks"},
-    {"repeated_samples", 9, 1, 9, "1,9,1"},
-    {"buffer_depth", 0, 0, 200, "0,200,1,suffix:ticks"},
+    {"states_every", TeleopSettings{}.states_every, 1, 10000, "1,100,1,or_greater,suffix:ticks"},
+    {"refresh_every", TeleopSettings{}.refresh_every, 1, 100000, "1,1000,1,or_greater,suffix:ticks"},
+    {"repeated_samples", TeleopSettings{}.repeats, 1, 9, "1,9,1"},
+    {"buffer_depth", TeleopSettings{}.buffer_depth, 0, 200, "0,200,1,suffix:ticks"},
 };
 static_assert(std::size(count_rows) == MMTLink::COUNT_COUNT);
 
@@ -292,6 +297,7 @@ TeleopSettings MMTLink::teleop_settings() const {
     s.deadband.enabled = deadband_;
     s.deadband.position = number(NUMBER_DEADBAND_POSITION);
     s.deadband.position_weber = number(NUMBER_DEADBAND_POSITION_WEBER);
+    s.deadband.angle = number(NUMBER_DEADBAND_ANGLE);
     s.deadband.force = number(NUMBER_DEADBAND_FORCE);
     s.deadband.force_weber = number(NUMBER_DEADBAND_FORCE_WEBER);
     s.deadband.longest_silence = from_seconds(number(NUMBER_DEADBAND_LONGEST_SILENCE));
@@ -299,6 +305,7 @@ TeleopSettings MMTLink::teleop_settings() const {
     s.refresh_every = count(COUNT_REFRESH_EVERY);
     s.repeats = count(COUNT_REPEATS);
     s.buffer_depth = count(COUNT_BUFFER_DEPTH);
+    s.skew = {0, from_seconds(number(NUMBER_CLOCK_OFFSET)), number(NUMBER_CLOCK_DRIFT)};
     return s;
 }
 
@@ -319,10 +326,6 @@ LinkConditions MMTLink::conditions() const {
     c.reorder_by = span(NUMBER_REORDER_BY);
     c.rate = get_number(NUMBER_RATE);
     return c;
-}
-
-ClockSkew MMTLink::skew() const {
-    return {0, from_seconds(get_number(NUMBER_CLOCK_OFFSET)), get_number(NUMBER_CLOCK_DRIFT)};
 }
 
 NetworkSettings MMTLink::network_settings() const {
@@ -434,6 +437,7 @@ Dictionary MMTLink::get_statistics() const {
     d["state"] = report_.state;
     d["state_text"] = report_.text;
     d["objects"] = report_.objects;
+    d["peer_objects"] = count(link.peer_hello.object_count);
     d["sample"] = count(teleop.sample);
     d["round_trip_s"] = teleop.round_trip;
     d["one_way_delay_s"] = link.one_way_delay * 1e-9;

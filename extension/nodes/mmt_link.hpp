@@ -106,6 +106,7 @@ public:
         NUMBER_DRAG_LEARNING,
         NUMBER_DEADBAND_POSITION,
         NUMBER_DEADBAND_POSITION_WEBER,
+        NUMBER_DEADBAND_ANGLE,
         NUMBER_DEADBAND_FORCE,
         NUMBER_DEADBAND_FORCE_WEBER,
         NUMBER_DEADBAND_LONGEST_SILENCE,
@@ -177,7 +178,6 @@ public:
     std::uint64_t way_revision() const { return way_revision_; }
     TeleopSettings teleop_settings() const;
     LinkConditions conditions() const;
-    ClockSkew skew() const;
     NetworkSettings network_settings() const;
     std::shared_ptr<const DelayTrace> trace() const { return trace_; }  // conditions() points into it
     godot::String trace_problem() const;                                // empty where there is none

@@ -78,6 +78,10 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
 
 WorldRun::~WorldRun() {
     stop_loop();
+    if (link_ != nullptr) {
+        link_->leave();
+        tick(next_time_);
+    }
     session_.rest();
     for (const auto& mirror : mirrors_) {
         mirror->release(session_);
@@ -382,7 +386,7 @@ void WorldRun::synchronise_link() {
     const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
     link_->synchronise(workers_, {now, !loop_.running(), !settings_.real_time});
     if (!link_->is_operator()) {
-        link_->tell(mirrors_, world_, session_.snapshot(), now);
+        link_->tell(mirrors_, session_.snapshot(), now);
     }
 }
 
