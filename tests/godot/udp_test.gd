@@ -125,10 +125,12 @@ func test_addresses_and_keys_may_change_while_it_runs() -> void:
 	for link: MMTLink in [here, there]:
 		link.local_port += 10
 		link.remote_port += 10
+	await frames(3)
 	await _reaches(here, MMTLink.STATE_CONNECTED)
 	var ticks: int = (here.get_parent() as HapticWorld).get_ticks()
 	for link: MMTLink in [here, there]:
 		link.key = "from now on with a key"
+	check(await until(func() -> bool: return here.get_statistics().sealed, LONG), "it is not sealed")
 	await _reaches(here, MMTLink.STATE_CONNECTED)
 	check((here.get_parent() as HapticWorld).get_ticks() > ticks, "the world was started anew")
 
