@@ -51,9 +51,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
 // --- receiving
 
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (port_->settings.refresh()) {
-        settings_ = port_->settings.front();
-    }
+    take_settings(loop);
     link_.begin_tick(now);
     ++sample_;
     remember_hands(loop, now);
@@ -82,6 +80,54 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     if (!targets_.empty()) {
         correct(loop);
+    }
+}
+
+void OperatorSide::take_settings(SessionLoop& loop) {
+    if (!port_->settings.refresh()) {
+        return;
+    }
+    const TeleopSettings before = std::exchange(settings_, port_->settings.front());
+    link_.set_skew(settings_.skew);
+    link_.set_scenario(settings_.traditional ? 2 : 4);
+    if (settings_.leaving && !before.leaving) {
+        link_.leave();
+    }
+    if (before.traditional != settings_.traditional) {
+        forget_past();
+        if (before.traditional) {
+            begin_model(loop);
+        }
+    }
+}
+
+// What was modelled in the other scenario has nothing to do with this one.
+void OperatorSide::forget_past() {
+    for (std::size_t i = 0; i < truths_.size(); ++i) {
+        history_.forget(i);
+        drags_[i] = {};
+    }
+    std::ranges::fill(memento_of_, no_sample);
+    truth_at_ = no_sample;
+    replaying_ = false;
+    for (Pointer& pointer : pointers_) {
+        pointer.active = pointer.apart = false;
+        pointer.offset = Vec3(0.0);
+        pointer.bridge = {};
+    }
+}
+
+// The pointers go on from where the far side had them, so that a hand that presses goes on pressing.
+void OperatorSide::begin_model(SessionLoop& loop) {
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (slot.proxy && pointers_[i].far_sample != no_sample) {
+            ProxyMemory memory;
+            memory.position = pointers_[i].far_proxy;
+            memory.present = true;
+            memory.hand = slot.hand;
+            slot.proxy->recall(memory);
+        }
     }
 }
 
@@ -238,7 +284,10 @@ bool OperatorSide::is_news(SessionLoop& loop, std::size_t body) const {
         return false;
     }
     const bool moves = loop.body(static_cast<SessionHandle>(body))->motion == Motion::Dynamic;
-    if (settings_.derivation == Derivation::none) {
+    if (truth.sample == no_sample && !nothing_is_touched(loop)) {
+        return false;  // from before the first sample of a hand that has been at work since
+    }
+    if (settings_.derivation == Derivation::none || truth.sample == no_sample) {
         return poses_differ(truth.motion.pose, loop.motion(static_cast<SessionHandle>(body)).pose,
                             settings_.threshold);
     }
@@ -249,6 +298,16 @@ bool OperatorSide::is_news(SessionLoop& loop, std::size_t body) const {
     return settings_.correction == Correction::pose || !moves
                ? poses_differ(truth.motion.pose, then->pose, settings_.threshold)
                : differs(truth.motion, *then, settings_.threshold);
+}
+
+bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (slot.present() && !slot.proxy->touching().empty()) {
+            return false;
+        }
+    }
+    return true;
 }
 
 DerivationInput OperatorSide::derivation_input(const Truth& truth, const BodyMotion& then,
@@ -285,7 +344,8 @@ void OperatorSide::find_targets(SessionLoop& loop, Derivation derivation) {
         const auto handle = static_cast<SessionHandle>(i);
         const BodyMotion now = loop.motion(handle);
         const BodyMotion* const then = history_.at(i, truths_[i].sample);
-        Target target{handle, derive(derivation, derivation_input(truths_[i], then ? *then : now, now)), {}};
+        const Derivation how = truths_[i].sample == no_sample ? Derivation::none : derivation;
+        Target target{handle, derive(how, derivation_input(truths_[i], then ? *then : now, now)), {}};
         if (settings_.correction == Correction::pose) {
             target.motion.linear_velocity = now.linear_velocity;
             target.motion.angular_velocity = now.angular_velocity;
@@ -305,7 +365,10 @@ bool OperatorSide::begin_replay(SessionLoop& loop) {
     for (std::size_t i = 0; i < truths_.size(); ++i) {
         newest = truths_[i].fresh ? std::max(newest, truths_[i].sample) : newest;
     }
-    if (!news || newest == no_sample) {
+    if (news && newest == no_sample) {
+        return false;  // nothing to replay: the far side has heard of no hand yet
+    }
+    if (!news) {
         std::ranges::for_each(truths_, [](Truth& truth) { truth.fresh = false; });
         return false;
     }

@@ -78,6 +78,7 @@ private:
         std::optional<Pose> previous;  // one tick ago, where that is known
     };
 
+    void take_settings(SessionLoop& loop);
     void take(const ObjectStates& states, SessionLoop& loop);
     void take(const ForceSample& force);
     void receive(SessionLoop& loop);
@@ -85,6 +86,9 @@ private:
     void notice_restart();
     void acknowledge();
     void forget_far_side();
+    void forget_past();
+    void begin_model(SessionLoop& loop);
+    bool nothing_is_touched(SessionLoop& loop) const;
     void remember_hands(SessionLoop& loop, Nanoseconds now);
     void follow_far_side(SessionLoop& loop);
     bool tracks(SessionLoop& loop, std::size_t body) const;

@@ -41,6 +41,8 @@ struct TeleopSettings {
     std::uint32_t refresh_every = 200;  // ticks between states of everything, >= 1
     std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
     Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
+    ClockSkew skew;                     // of this side's clock, as an experiment
+    bool leaving = false;               // says bye, once
     std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
 };
 

@@ -1,6 +1,7 @@
 #include "session/teleoperator_side.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus {
 
@@ -49,7 +50,12 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 
 void TeleoperatorSide::take_orders() {
     if (port_->settings.refresh()) {
-        settings_ = port_->settings.front();
+        const bool left = std::exchange(settings_, port_->settings.front()).leaving;
+        link_.set_skew(settings_.skew);
+        link_.set_scenario(settings_.traditional ? 2 : 4);
+        if (settings_.leaving && !left) {
+            link_.leave();
+        }
         for (Pointer& pointer : pointers_) {
             pointer.buffer.set_settings(buffer_settings());
         }

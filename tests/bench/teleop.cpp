@@ -10,6 +10,7 @@
 //     sphere R X Y Z
 //     case NAME key=value …
 // The result is one line of JSON a case: its name and its figures.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -120,6 +121,14 @@ bool choose(const std::string& value, std::initializer_list<const char*> names, 
     return false;
 }
 
+// X,Y,Z
+bool read_vector(std::string text, Vec3& out) {
+    std::ranges::replace(text, ',', ' ');
+    std::istringstream in(text);
+    out = read_vector(in);
+    return !in.fail();
+}
+
 // wrong.NAME.what
 bool set_wrong(const std::string& key, const std::string& value, TeleopCase& c) {
     const std::size_t dot = key.rfind('.');
@@ -210,6 +219,14 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         c.seconds = number;
     } else if (key == "phase_us") {
         c.phase = from_seconds(1e-6 * number);
+    } else if (key == "late_ms") {
+        c.late = from_seconds(1e-3 * number);
+    } else if (key == "path_shift") {
+        return read_vector(value, c.path_shift);
+    } else if (key == "near") {
+        s.stand_in.near = number;
+    } else if (key == "leash") {
+        s.stand_in.leash = number;
     } else if (key == "pose_noise") {
         c.pose_noise = number;
     } else if (key == "correct_from_touch") {

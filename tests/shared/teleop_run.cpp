@@ -40,11 +40,23 @@ private:
     std::unique_ptr<Device> inner_;
 };
 
-std::unique_ptr<Device> hand_of(const TeleopScene& scene, const TeleopCase& experiment) {
-    if (experiment.uses_arm) {
-        return std::make_unique<SimulatedArm>(scene.path, experiment.arm);
+HandPath shifted(HandPath path, const Vec3& by) {
+    if (auto* const circle = std::get_if<CircleWave>(&path)) {
+        circle->centre += by;
+    } else {
+        for (Keyframe& keyframe : std::get<KeyframePath>(path).keyframes) {
+            keyframe.position += by;
+        }
     }
-    return std::make_unique<PathDevice>(scene.path);
+    return path;
+}
+
+std::unique_ptr<Device> hand_of(const TeleopScene& scene, const TeleopCase& experiment) {
+    HandPath path = shifted(scene.path, experiment.path_shift);
+    if (experiment.uses_arm) {
+        return std::make_unique<SimulatedArm>(std::move(path), experiment.arm);
+    }
+    return std::make_unique<PathDevice>(std::move(path));
 }
 
 SessionSettings session_settings() {
@@ -264,6 +276,13 @@ TeleopFigures evaluate(const std::vector<Row>& rows, const TeleopCase& experimen
         figures["box_position_error_max_mm"] = 1e3 * box.largest;
         figures["box_position_error_final_mm"] =
             last == rows.rend() ? 0.0 : 1e3 * position_error(last->model, last->truth);
+        if (last != rows.rend()) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::string name = std::string("_final_") + "xyz"[axis];
+                figures["model" + name] = last->model.position[axis];
+                figures["truth" + name] = last->truth.position[axis];
+            }
+        }
         figures["box_rotation_error_rms_deg"] = 57.29577951308232 * turn.rms();
         figures["box_right_after_letting_go_s"] = longest_until_right(rows);
     }
@@ -303,6 +322,13 @@ private:
     double deviation_;
     std::mt19937_64 random_;
 };
+
+// Nobody listens yet.
+void drop_all(Link& link, Nanoseconds now) {
+    std::array<std::byte, most_datagram_bytes> ignored;
+    while (link.receive(ignored, now)) {
+    }
+}
 
 }  // namespace
 
@@ -353,7 +379,11 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment)
         const Nanoseconds now = static_cast<Nanoseconds>(i + 1) * period;
         model.tick(now);
         direct.tick(now);
-        truth.tick(now + experiment.phase);
+        if (now > experiment.late) {
+            truth.tick(now + experiment.phase);
+        } else {
+            drop_all(at_far, now);
+        }
         Row& row = rows[i];
         row.time = static_cast<Nanoseconds>(i) * period;
         row.hand = model.device.sample.position;

@@ -49,6 +49,8 @@ struct TeleopCase {
     ArmSettings arm;
     double seconds = 10.0;
     Nanoseconds phase = 0;            // of the far side's ticks after the operator's, 0 … period - 1
+    Nanoseconds late = 0;             // the far side starts so much after the operator's, >= 0
+    Vec3 path_shift{0.0};             // the hand's path lies so far off the scene's (unit: meters)
     double pose_noise = 0.0;          // standard deviation of what the far side says of places (unit: meters)
     bool correct_from_touch = false;  // the model is left wrong until it is touched
     std::string object;               // the body whose place is compared; empty: none
