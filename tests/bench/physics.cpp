@@ -1,6 +1,6 @@
 // Things that move: what a tick with moving bodies costs, how they feel, and how right they are.
 //
-//     physics [--quick] [--only=tick|crowd|feel|rollback|checks|awake]
+//     physics [--quick] [--only=tick|crowd|changes|feel|rollback|checks|awake]
 //
 // Writes the file that TACTUS_BENCH_JSON names (build/bench/physics.json otherwise): one flat object. Whole
 // ticks are a Session's; Jolt's bare step is Jolt's own world of the same boxes, stepped in turns with it in
@@ -387,6 +387,25 @@ void awake_bodies(Results& results, bool quick) {
     }
 }
 
+// Boxes that are all sent in one tick, to a world that runs: the ticks until the last of them is there.
+void changes(Results& results) {
+    constexpr int boxes = 900;
+    Rig rig(boxes + 8, 500.0);
+    rig.add(ground());
+    rig.settle();
+    for (int i = 0; i < 100; ++i)
+        rig.step();
+    for (int i = 0; i < boxes; ++i)
+        rig.add(box(Vec3(edge), place(i), 1.0));
+    std::vector<double> ticks;
+    while (rig.look().body_count < boxes)
+        ticks.push_back(rig.step());
+    results.add("arrival_bodies", boxes);
+    results.add("arrival_ticks", static_cast<double>(ticks.size()));
+    results.add("arrival_tick_p50_us", percentile(ticks, 0.5));
+    results.add("arrival_tick_max_us", percentile(ticks, 1.0));
+}
+
 // --- how it feels
 // ----------------------------------------------------------------------------------------------------
 
@@ -635,6 +654,8 @@ int main(int count, char** arguments) {
         idle_crowd_no_hand(results, rounds);
         idle_crowd_step(results, rounds);
     }
+    if (part("changes"))
+        changes(results);
     if (part("feel")) {
         push(results);
         press(results, "press_20mm", 0.02);
