@@ -3,7 +3,7 @@
 // Both files are lines of words (tools/measuring/teleop_runs.py writes them); "#" begins a comment.
 //     radius METERS | limit NEWTONS
 //     path circle CX CY CZ RADIUS AMPLITUDE TURN_SECONDS WAVES
-//     path keys SECONDS X Y Z  SECONDS X Y Z …
+//     path linear|smooth SECONDS X Y Z  SECONDS X Y Z …
 //     body NAME static|dynamic MASS FRICTION RESTITUTION  STIFFNESS DAMPING STATIC DYNAMIC
 //          X Y Z  QW QX QY QZ  LINEAR_DAMPING ANGULAR_DAMPING
 //     box HX HY HZ  X Y Z  QW QX QY QZ      (of the last body; half extents, then where in the body)
@@ -57,6 +57,7 @@ HandPath read_path(std::istream& in) {
         return circle;
     }
     KeyframePath path;
+    path.interpolation = kind == "smooth" ? PathInterpolation::catmull_rom : PathInterpolation::linear;
     for (double time = 0.0; in >> time;) {
         path.keyframes.push_back({from_seconds(time), read_vector(in)});
     }
@@ -209,6 +210,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.deadband.enabled = number != 0.0;
     } else if (key == "deadband_position") {
         s.deadband.position = number;
+    } else if (key == "deadband_silence_ms") {
+        s.deadband.longest_silence = from_seconds(1e-3 * number);
     } else if (key == "deadband_speed") {
         s.deadband.position_weber = number;
     } else if (key == "deadband_force") {
@@ -237,6 +240,10 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         c.rows = value;
     } else if (key == "arm") {
         c.uses_arm = number != 0.0;
+    } else if (key == "settled_from") {
+        c.settled_from = number;
+    } else if (key == "settled_to") {
+        c.settled_to = number;
     } else if (key == "arm_mass") {
         c.arm.mass = number;
     } else if (key == "arm_damping") {

@@ -125,6 +125,9 @@ struct Place {
         }
         return {};
     }
+    double depth() const {
+        return pointer().contact_count > 0 ? glm::distance(pointer().hand, pointer().position) : 0.0;
+    }
     bool touches_object() const {
         const auto& bodies = pointer().bodies;
         return object != no_handle && std::find(bodies.begin(), bodies.begin() + pointer().contact_count,
@@ -167,6 +170,10 @@ struct Row {
     bool direct_touches = false;  // anything
     double jnd_share = 0.0;
     double offset = 0.0;
+    Vec3 velocity{0.0};  // of the hand
+    double depth = 0.0;  // of the far side's hand below the surface there, after this sample
+    Vec3 direct_hand{0.0}, direct_velocity{0.0};
+    double direct_depth = 0.0;
 };
 
 double percentile(std::vector<double> values, double share) {
@@ -179,9 +186,9 @@ double percentile(std::vector<double> values, double share) {
 
 void write_rows(const std::string& path, const std::vector<Row>& rows) {
     std::ofstream file(path);
-    file << "time_us,hand_x,hand_y,hand_z,force_x,force_y,force_z,direct_x,direct_y,direct_z,far_x,far_y,far_"
-            "z,"
-            "model_x,model_y,model_z,truth_x,truth_y,truth_z,box_error_m,offset_m,jnd_share\n";
+    file << "time_us,hand_x,hand_y,hand_z,force_x,force_y,force_z,direct_x,direct_y,direct_z,far_x,far_y,"
+            "far_z,model_x,model_y,model_z,truth_x,truth_y,truth_z,box_error_m,offset_m,jnd_share,depth_m,"
+            "direct_depth_m\n";
     const auto put = [&file](const Vec3& v) {
         char text[96];
         std::snprintf(text, sizeof text, ",%.9g,%.9g,%.9g", v.x, v.y, v.z);
@@ -196,8 +203,46 @@ void write_rows(const std::string& path, const std::vector<Row>& rows) {
         put(row.model.position);
         put(row.truth.position);
         file << ',' << (row.far_known ? position_error(row.model, row.truth) : 0.0) << ',' << row.offset
-             << ',' << row.jnd_share << '\n';
+             << ',' << row.jnd_share << ',' << row.depth << ',' << row.direct_depth << '\n';
     }
+}
+
+// What a pushed hand did: how deep it went, how far beyond where it came to rest, and how much energy the
+// device gave it (a wall that is really there takes some).
+struct Pushing {
+    double deepest = 0.0, settled = 0.0, energy = 0.0;
+    std::size_t settled_ticks = 0;
+
+    void add(const TeleopCase& experiment, double time, double depth, const Vec3& force,
+             const Vec3& velocity) {
+        deepest = std::max(deepest, depth);
+        energy += glm::dot(force, velocity) * tick_seconds;
+        if (time >= experiment.settled_from && time < experiment.settled_to) {
+            settled += depth;
+            ++settled_ticks;
+        }
+    }
+    void tell(const std::string& prefix, TeleopFigures& figures) const {
+        const double rest = settled_ticks > 0 ? settled / static_cast<double>(settled_ticks) : 0.0;
+        figures[prefix + "penetration_max_mm"] = 1e3 * deepest;
+        figures[prefix + "settled_depth_mm"] = 1e3 * rest;
+        figures[prefix + "overshoot_mm"] = 1e3 * (deepest - rest);
+        figures[prefix + "energy_J"] = energy;
+    }
+};
+
+void evaluate_arm(const std::vector<Row>& rows, const TeleopCase& experiment, TeleopFigures& figures) {
+    Pushing over_the_link, local;
+    Series deviation;
+    for (const Row& row : rows) {
+        const double time = to_seconds(row.time);
+        over_the_link.add(experiment, time, row.depth, row.force, row.velocity);
+        local.add(experiment, time, row.direct_depth, row.direct, row.direct_velocity);
+        deviation.add(glm::distance(row.hand, row.direct_hand));
+    }
+    over_the_link.tell("", figures);
+    local.tell("local_", figures);
+    figures["hand_deviation_rms_mm"] = 1e3 * deviation.rms();
 }
 
 // How long after each leave-taking the object needs to be where it is at the far side (unit: seconds).
@@ -269,6 +314,9 @@ TeleopFigures evaluate(const std::vector<Row>& rows, const TeleopCase& experimen
     figures["correction_force_step_max_N"] = largest_step;
     figures["correction_cost_jnd_p99"] = percentile(shares, 0.99);
     figures["seconds_until_right"] = first_touch < 0.0 ? 0.0 : std::max(0.0, last_wrong - first_touch);
+    if (experiment.uses_arm) {
+        evaluate_arm(rows, experiment, figures);
+    }
     if (!experiment.object.empty()) {
         const auto last =
             std::find_if(rows.rbegin(), rows.rend(), [](const Row& row) { return row.far_known; });
@@ -389,6 +437,10 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment)
         row.hand = model.device.sample.position;
         row.force = model.device.force;
         row.direct = direct.device.force;
+        row.velocity = model.device.sample.velocity;
+        row.direct_hand = direct.device.sample.position;
+        row.direct_velocity = direct.device.sample.velocity;
+        row.direct_depth = direct.depth();
         row.model = model.object_pose();
         row.direct_object = direct.object_pose();
         row.touches = model.touches_object();
@@ -405,12 +457,16 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment)
                 answered.far_known = true;
                 answered.truth = truth.object_pose();
                 answered.far = truth.device.force;
+                answered.depth = truth.depth();
             }
         }
         if (waiting_for_touch && model.pointer().contact_count > 0) {
             waiting_for_touch = false;
             operator_port->settings.publish(experiment.settings);
         }
+    }
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        rows[i].depth = rows[i].far_known ? rows[i].depth : rows[i - 1].depth;  // a sample was left out
     }
     TeleopFigures figures = evaluate(rows, experiment, largest_step);
     const TeleopStatistics& ours = operator_port->statistics.front();

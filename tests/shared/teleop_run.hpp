@@ -45,8 +45,9 @@ struct TeleopCase {
     LinkConditions back;
     std::uint64_t seed = 1;
     std::map<std::string, WrongBody> wrong;
-    bool uses_arm = false;
+    bool uses_arm = false;  // the hand is pushed back; the direct one beside it has an arm of its own
     ArmSettings arm;
+    double settled_from = 0.0, settled_to = 0.0;  // the arm holds still: how deep it settles (unit: seconds)
     double seconds = 10.0;
     Nanoseconds phase = 0;            // of the far side's ticks after the operator's, 0 … period - 1
     Nanoseconds late = 0;             // the far side starts so much after the operator's, >= 0

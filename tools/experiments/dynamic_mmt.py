@@ -1,6 +1,7 @@
 """Touch of what moves, over a network, with a model that is realistically wrong: how to bring the truth in (thesis 5.4).
 
     ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,10,50] [--pictures=1]
+        [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 Cases are CORRECTION.DERIVATION.DELAYms.LOSSpct: how a correction is brought in, how the present is derived from a state
 that is one delay old, the delay there and back, and the share of packets lost. traditional.DELAYms.LOSSpct is beside them.
@@ -25,7 +26,7 @@ SHOWN = ("none.none.100ms.0pct", "pose.none.100ms.0pct", "stealthy_direction.res
 
 
 @dataclass(frozen=True)
-class Settings:
+class Settings(teleop_runs.Imperfections):
     seconds: float = 10.0
     delays: str = "0,25,50,100,200,500"
     losses: str = "0,10,50"
@@ -34,7 +35,7 @@ class Settings:
 
 
 def cases(description: dict, settings: Settings, output: Path) -> list[teleop_runs.Case]:
-    wrong = teleop_runs.wrong(description["wrong"])
+    wrong = teleop_runs.wrong(description["wrong"]) | settings.keys(description["scene"], description["object"])
     found: list[teleop_runs.Case] = []
     for delay in settings.delays.split(","):
         for loss in settings.losses.split(","):

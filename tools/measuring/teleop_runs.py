@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
 import build
@@ -14,6 +15,36 @@ from project import FOLDER
 from setup import cache
 
 Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "name"
+
+
+@dataclass(frozen=True)
+class Imperfections:
+    """What else is wrong than the description of the experiment says: options of every experiment with a model."""
+
+    mass: float = 1.0  # of the followed body as the model has it, factor
+    friction: float = 1.0  # of all bodies on each other, factor
+    tilt: float = 0.0  # of static bodies about x (degrees)
+    moved: float = 0.0  # of all bodies along x (metres)
+    pose_noise: float = 0.0  # of what the far side says of places, standard deviation (metres)
+    phase: float = 0.0  # of the far side's ticks after the operator's (microseconds), 0 … 999
+    late: float = 0.0  # start of the far side after the operator's (milliseconds)
+    jitter: float = 0.0  # of the link, each way (milliseconds)
+
+    def keys(self, scene: str, followed: str | None = None) -> Case:
+        """As keys of a case, for those that are not perfect."""
+        keys: Case = {}
+        bodies = Scene(scene).bodies()
+        for body in bodies:
+            if self.friction != 1.0:
+                keys[f"wrong.{body}.friction"] = self.friction
+            if self.moved != 0.0:
+                keys[f"wrong.{body}.move"] = f"{self.moved},0,0"
+            if self.tilt != 0.0 and body != followed:
+                keys[f"wrong.{body}.turn"] = f"1,0,0,{self.tilt}"
+        if self.mass != 1.0 and followed:
+            keys[f"wrong.{followed}.mass"] = self.mass
+        link = {"pose_noise": self.pose_noise, "phase_us": self.phase, "late_ms": self.late, "jitter_ms": self.jitter}
+        return keys | {key: value for key, value in link.items() if value != 0.0}
 
 
 def description(name: str) -> dict:

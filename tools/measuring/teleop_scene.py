@@ -105,11 +105,11 @@ class Scene:
 
     def _path(self, device: _Section) -> str:
         path = self._resource(device.values["path"])
-        if "points" in path:
-            points = _numbers(path["points"])
-            times = _numbers(path["times"])
+        if "points_positions" in path:
+            points, times = _numbers(path["points_positions"]), _numbers(path["points_times"])
+            how = "smooth" if path.get("points_interpolation", "0") == "1" else "linear"
             keys = [_texts([time, *points[3 * i : 3 * i + 3]]) for i, time in enumerate(times)]
-            return " ".join(["path", "keys", *(word for key in keys for word in key)])
+            return " ".join(["path", how, *(word for key in keys for word in key)])
         circle = [path.get(f"circle_{key}") for key in ("radius", "amplitude", "turn_time", "waves")]
         return " ".join(["path", "circle", *_texts(_numbers(path["circle_center"])), *circle])
 

@@ -21,10 +21,12 @@ inline bool uses_force(ControlScheme scheme) {
 }
 
 struct StandInSettings {
-    double speed = 1.0;   // of the hand in free space, scheme 1 (unit: meters per second), > 0
-    double near = 0.03;   // how near an object is near, scheme 3 (unit: meters), > 0
-    double leash = 0.03;  // a force leads the hand no farther from the operator's place, schemes 2
-                          // and 3 (unit: meters), >= 0
+    double speed = 1.0;  // of the hand in free space, scheme 1 (unit: meters per second), > 0
+    double near = 0.03;  // how near an object is near, scheme 3 (unit: meters), > 0
+    // A force, or a place relative to an object, leads the hand no farther from the operator's place, schemes
+    // 2 and 3 (unit: meters), >= 0. Longer is worse: a box with less friction than believed runs away from a
+    // force.
+    double leash = 5e-4;
 };
 
 struct StandInInput {

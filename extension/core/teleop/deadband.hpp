@@ -7,12 +7,12 @@ namespace tactus {
 
 struct DeadbandSettings {
     bool enabled = false;
-    double position = 1e-4;       // fixed: the guess may be off by so much (unit: meters), >= 0
-    double position_weber = 0.0;  // Weber: and by this share of the distance that a tenth of a second takes
-    double angle = 2e-3;          // fixed: the guess of a body's turn, too (unit: radians), >= 0
-    double force = 0.01;          // fixed: a force may differ by so much (unit: newtons), >= 0
-    double force_weber = 0.05;    // Weber: and by this share of the last one sent
-    Nanoseconds longest_silence = 100'000'000;  // then something is sent all the same
+    double position = 3e-5;        // fixed: the guess may be off by so much (unit: meters), >= 0
+    double position_weber = 0.01;  // Weber: and by this share of the distance that a tenth of a second takes
+    double angle = 2e-3;           // fixed: the guess of a body's turn, too (unit: radians), >= 0
+    double force = 0.01;           // fixed: a force may differ by so much (unit: newtons), >= 0
+    double force_weber = 0.05;     // Weber: and by this share of the last one sent
+    Nanoseconds longest_silence = 200'000'000;  // then something is sent all the same
 };
 
 // Where the far side puts the hand that was at `position` with `velocity`, `seconds` later.

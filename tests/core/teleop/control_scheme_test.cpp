@@ -20,6 +20,12 @@ StandInInput pressing() {
     return in;
 }
 
+StandInSettings long_leash() {
+    StandInSettings settings;
+    settings.leash = 0.03;
+    return settings;
+}
+
 TEST(ControlScheme, TheSpringGoesWhereTheHandIs) {
     const StandInInput in = pressing();
     EXPECT_EQ(stand_in_hand(ControlScheme::spring, {}, in), in.hand);
@@ -37,7 +43,7 @@ TEST(ControlScheme, PositionKeepsItsSpeedInFreeSpace) {
 
 TEST(ControlScheme, PositionAndForceAppliesTheForceThatTheOperatorFelt) {
     const StandInInput in = pressing();
-    const Vec3 hand = stand_in_hand(ControlScheme::position_force, {}, in);
+    const Vec3 hand = stand_in_hand(ControlScheme::position_force, long_leash(), in);
     EXPECT_NEAR(in.stiffness * (in.own_proxy.y - hand.y), 1.0, 1e-12);
     EXPECT_EQ(hand.x, in.hand.x);
 }
@@ -53,7 +59,7 @@ TEST(ControlScheme, NearAnObjectThePlaceRelativeToItCounts) {
     in.in_contact = false;
     in.object.position = {0.11, 0.0, 0.0};
     in.relative = Vec3(0.0, 0.0, 0.0);
-    const Vec3 hand = stand_in_hand(ControlScheme::position_force_relative, {}, in);
+    const Vec3 hand = stand_in_hand(ControlScheme::position_force_relative, long_leash(), in);
     EXPECT_NEAR(glm::length(hand - in.object.position), 0.0, 1e-12);
 }
 

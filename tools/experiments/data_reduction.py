@@ -1,0 +1,81 @@
+"""How little has to be said: a deadband on positions, forces and states, both ways, fixed and after Weber.
+
+    ./run experiment data_reduction [--seconds=10] [--delay=100] [--pictures=1]
+
+Cases are WAY.BAND: WAY is traditional or mmt (its model 20 % too heavy and too slippery), BAND is none, fixed or weber.
+Beside the packets and bytes each way: by how much more the force is wrong than with everything said, in newtons and as
+a share of what a hand just notices (7 % of the force, at least 0.02 N).
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from measuring import options, teleop_runs
+
+WAYS = ("traditional", "mmt")
+BANDS: dict[str, teleop_runs.Case] = {  # fmt: skip
+    "none": {},
+    "fixed": {
+        "deadband": 1, "deadband_position": 1e-4, "deadband_speed": 0, "deadband_force": 0.1, "deadband_weber": 0,
+    },
+    "weber": {
+        "deadband": 1, "deadband_position": 3e-5, "deadband_speed": 0.01, "deadband_force": 0.02, "deadband_weber": 0.1,
+    },
+}
+FIGURES = ("packets_forth_per_s", "packets_back_per_s", "bytes_per_s", "force_error_mean_N", "box_position_error_rms_mm")
+FULL_RATE = 1000.0
+WEBER, LEAST_NOTICEABLE = 0.07, 0.02
+
+
+@dataclass(frozen=True)
+class Settings:
+    seconds: float = 10.0
+    delay: float = 100.0
+    clock: Literal["virtual"] = "virtual"
+    pictures: int = 1
+
+
+def run(given: dict[str, str], output: Path) -> dict[str, object]:
+    settings = options.parse(Settings, given)
+    description = teleop_runs.description("dynamic_mmt")
+    common: teleop_runs.Case = {"delay_ms": settings.delay, "seconds": settings.seconds, "object": description["object"]}
+    ways = {"traditional": {"traditional": 1}, "mmt": teleop_runs.wrong(description["wrong"])}
+    cases = [
+        {"name": f"{way}.{band}", "rows": output / f"{way}.{band}.csv", **common, **ways[way], **BANDS[band]}
+        for way in WAYS
+        for band in BANDS
+    ]
+    found = teleop_runs.run(description["scene"], cases, output)
+    summary: dict[str, object] = {}
+    for name, figures in found.items():
+        summary |= {f"{name}.{key}": figures[key] for key in FIGURES}
+        for key in ("forth", "back"):
+            summary[f"{name}.fewer_{key}_share"] = 1.0 - figures[f"packets_{key}_per_s"] / FULL_RATE
+        way = name.split(".")[0]
+        summary |= {f"{name}.{key}": value for key, value in change(output, f"{way}.none", name).items()}
+    if settings.pictures:
+        from plots import data_reduction
+
+        data_reduction.draw(summary, WAYS, tuple(BANDS), output / "data_reduction.png")
+    return summary
+
+
+def change(folder: Path, full: str, reduced: str) -> dict[str, float]:
+    """What the deadband alone does to the force."""
+    from plots.teleop import force_error, read
+
+    before, after = read(folder / f"{full}.csv"), read(folder / f"{reduced}.csv")
+    off = np.sqrt(sum((after[f"force_{axis}"] - before[f"force_{axis}"]) ** 2 for axis in "xyz"))
+    size = np.sqrt(sum(before[f"force_{axis}"] ** 2 for axis in "xyz"))
+    touched = size > 0.0
+    share = (off / np.maximum(WEBER * size, LEAST_NOTICEABLE))[touched]
+    return {
+        "force_change_mean_N": float(off.mean()),
+        "force_change_mean_jnd": float(share.mean()),
+        "force_change_median_jnd": float(np.median(share)),
+        "noticeable_share_of_touch": float((share > 1.0).mean()),
+        "force_error_added_mean_N": float(force_error(after).mean() - force_error(before).mean()),
+    }

@@ -1,0 +1,15 @@
+"""A box is pushed through a gate and passes or gets stuck, on both sides alike or not (thesis figure 3.3).
+
+    ./run experiment gate [--runs=200] [--seed=1] [--delay=100] [--pictures=1]
+
+Cases are the schemes C': spring, position (1), position_force (2), position_force_relative (3); with "_alone" the model
+is never corrected. --seed: another number, other perturbations.
+"""
+
+from pathlib import Path
+
+from measuring import options, perturbed
+
+
+def run(given: dict[str, str], output: Path) -> dict[str, object]:
+    return perturbed.run("gate", options.parse(perturbed.Settings, given), output)

@@ -1,0 +1,118 @@
+"""Runs that could end one way or the other: a box is pushed to where little decides, the model is a little wrong in
+another way each time, and the question is whether both sides see the same end (thesis figures 3.2 and 3.3).
+"""
+
+import csv
+import random
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from measuring import teleop_runs
+
+SCHEMES = ("spring", "position", "position_force", "position_force_relative")
+# "_alone": the model is never corrected, so that C' alone keeps the two together.
+VARIANTS = {"": "stealthy_direction", "_alone": "none"}
+
+
+@dataclass(frozen=True)
+class Settings:
+    runs: int = 200
+    seed: int = 1
+    delay: float = 100.0
+    pictures: int = 1
+    clock: Literal["virtual"] = "virtual"
+
+
+def perturbation(description: dict, seed: int) -> teleop_runs.Case:
+    """What is different in the run with this seed. The same for every scheme."""
+    draw = random.Random(seed)
+    ranges = description["perturbed"]
+
+    def within(name: str) -> float:
+        return draw.uniform(-ranges[name], ranges[name])
+
+    box = description["object"]
+    friction = 1.0 + within("friction")
+    case: teleop_runs.Case = {
+        "seed": seed,
+        "path_shift": f"{within('path_x'):.6f},0,{within('path_z'):.6f}",
+        f"wrong.{box}.mass": f"{1.0 + within('mass'):.6f}",
+        f"wrong.{box}.move": f"{within('place'):.6f},0,{within('place'):.6f}",
+        f"wrong.{box}.turn": f"0,1,0,{within('turn_deg'):.6f}",
+        "phase_us": draw.randrange(1000),
+        "late_ms": draw.randrange(ranges["late_ms"] + 1),
+    }
+    return case | {f"wrong.{body}.friction": f"{friction:.6f}" for body in (box, *description["friction_of"])}
+
+
+def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
+    found: list[teleop_runs.Case] = []
+    for scheme in SCHEMES:
+        for variant, correction in VARIANTS.items():
+            for run in range(settings.runs):
+                common = {"control": scheme, "correction": correction, "delay_ms": settings.delay}
+                common |= {"seconds": description["seconds"], "object": description["object"]}
+                case = {"name": f"{scheme}{variant}.{run}", **common}
+                found.append(case | perturbation(description, settings.seed * 100_000 + run))
+    return found
+
+
+def is_beyond(description: dict, figures: dict[str, float], side: str) -> bool:
+    """Whether the box has fallen, or has passed: it is beyond the line on that side at the end."""
+    line = description["line"]
+    place = figures[f"{side}_final_{line['axis']}"]
+    return place < line["below"] if "below" in line else place > line["above"]
+
+
+def run(name: str, settings: Settings, output: Path) -> dict[str, object]:
+    description = teleop_runs.description(name)
+    found = teleop_runs.run(description["scene"], cases(description, settings), output)
+    _write_table(output / "runs.csv", description, found)
+    summary: dict[str, object] = {}
+    for scheme in SCHEMES:
+        for variant in VARIANTS:
+            case = f"{scheme}{variant}"
+            runs = [found[f"{case}.{number}"] for number in range(settings.runs)]
+            summary |= {f"{case}.{key}": value for key, value in shares(description, runs).items()}
+    if settings.pictures:
+        from plots import endings
+
+        endings.draw(summary, SCHEMES, description["title"], output / "endings.png")
+    return summary
+
+
+def shares(description: dict, runs: list[dict[str, float]]) -> dict[str, float]:
+    model = [is_beyond(description, one, "model") for one in runs]
+    truth = [is_beyond(description, one, "truth") for one in runs]
+    apart = sorted(_distance(one) for one in runs)
+    return {
+        "ends_alike_share": sum(a == b for a, b in zip(model, truth)) / len(runs),
+        "model_beyond_share": sum(model) / len(runs),
+        "environment_beyond_share": sum(truth) / len(runs),
+        "apart_median_mm": apart[len(apart) // 2],
+        "apart_p95_mm": apart[int(0.95 * (len(apart) - 1))],
+        "off_by_10mm_share": _mean(one["box_position_error_max_mm"] > 10.0 for one in runs),
+        "box_position_error_rms_mean_mm": _mean(one["box_position_error_rms_mm"] for one in runs),
+        "force_error_mean_N": _mean(one["force_error_mean_N"] for one in runs),
+    }
+
+
+def _mean(values) -> float:
+    listed = list(values)
+    return sum(listed) / len(listed)
+
+
+def _distance(one: dict[str, float]) -> float:
+    return 1e3 * sum((one[f"model_final_{axis}"] - one[f"truth_final_{axis}"]) ** 2 for axis in "xyz") ** 0.5
+
+
+def _write_table(path: Path, description: dict, found: dict[str, dict[str, float]]) -> None:
+    places = [f"{side}_final_{axis}" for side in ("model", "truth") for axis in "xyz"]
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["case", "run", "model_beyond", "environment_beyond", *places])
+        for name, figures in found.items():
+            case, number = name.rsplit(".", 1)
+            beyond = [int(is_beyond(description, figures, side)) for side in ("model", "truth")]
+            writer.writerow([case, number, *beyond, *(f"{figures[key]:.9g}" for key in places)])
