@@ -36,9 +36,7 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     work_left_ = most_work;
     pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
     odometer_at_tick_ = odometer_;
-    const Vec3 way = center - center_at_tick_;
-    const double length = glm::length(way);
-    heading_ = length > tolerances_.reach ? way / length : Vec3(0.0);
+    last_way_ = center - center_at_tick_;
     center_at_tick_ = center;
     follow_moved_bodies();
     return_passed(center);
@@ -282,7 +280,9 @@ Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local,
     Neighbourhood& hood = hoods_[static_cast<std::size_t>(record.hood)];
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = *placed.part->tree();
-    const Vec3 heading = direction_to_local(placed.pose, heading_);
+    const double length = glm::length(last_way_);
+    const Vec3 heading =
+        length > tolerances_.reach ? direction_to_local(placed.pose, last_way_ / length) : Vec3(0.0);
     double margin = std::max(ticks_remembered * pace_, 4.0 * tolerances_.reach);
     for (int attempt = 0; attempt < 4; ++attempt) {
         const Vec3 center = local + heading * (ahead_share * margin);

@@ -133,7 +133,7 @@ private:
     double odometer_at_tick_ = 0.0;
     double pace_ = 0.0;         // recent travel per tick (unit: meters)
     Vec3 center_at_tick_{0.0};  // in the world
-    Vec3 heading_{0.0};         // which way the last tick led, in the world; unit, or none
+    Vec3 last_way_{0.0};        // of the tick before, in the world (unit: meters)
     std::vector<Record> records_;
     std::vector<Far> far_;  // a heap, soonest due on top
     std::vector<std::uint32_t> near_;
