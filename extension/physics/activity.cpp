@@ -44,7 +44,7 @@ void TreeKeeper::tidy_some() {
         BodyRecord& record = *records_[id.GetIndex()];
         record.tree_may_differ = false;
         const JPH::Body& body = *system_.GetBodyLockInterfaceNoLock().TryGetBody(id);
-        const Tree tree = body.IsActive() || far_.holds(body) ? Tree::Awake : Tree::Resting;
+        const Tree tree = far_.holds(body) ? Tree::Slowed : body.IsActive() ? Tree::Awake : Tree::Resting;
         system_.GetBodyInterfaceNoLock().SetObjectLayer(id, object_layer(record.layer_pair, tree));
     }
 }

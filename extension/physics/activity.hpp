@@ -40,7 +40,7 @@ public:
 private:
     JPH::PhysicsSystem& system_;
     std::vector<BodyRecord*>& records_;
-    const FarIslands& far_;             // what is set aside there is awake
+    const FarIslands& far_;
     std::vector<JPH::BodyID> waiting_;  // never more than there are bodies
 };
 

@@ -15,10 +15,10 @@
 
 namespace tactus {
 
-// Three trees, because Jolt rebuilds what surrounds a body that moves: those awake must not make the trees of
-// thousands that rest, or can never move, stale.
-enum class Tree : std::uint8_t { Still = 0, Awake = 1, Resting = 2 };
-constexpr JPH::uint tree_count = 3;
+// Four trees, because Jolt rebuilds what surrounds a body that moves: those awake must not make the trees of
+// thousands that rest, can never move, or move seldom (far_islands.hpp), stale.
+enum class Tree : std::uint8_t { Still = 0, Awake = 1, Resting = 2, Slowed = 3 };
+constexpr JPH::uint tree_count = 4;
 
 constexpr JPH::BroadPhaseLayer broad_phase_layer(Tree tree) {
     return JPH::BroadPhaseLayer(static_cast<JPH::BroadPhaseLayer::Type>(tree));

@@ -40,7 +40,7 @@ FarIslands::FarIslands(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& rec
         turn.fresh_contacts.memory.resize(contact_bytes);
     }
     contacts_of_waiting_.memory.resize(contact_bytes);
-    for (std::vector<JPH::BodyID>* list : {&due_, &fresh_due_, &waiting_, &leaving_, &list_})
+    for (std::vector<JPH::BodyID>* list : {&due_, &fresh_due_, &waiting_, &leaving_, &changed_, &list_})
         list->reserve(records.size());
     islands_.reserve(records.size());
     order_.reserve(records.size());
@@ -206,6 +206,7 @@ private:
 void FarIslands::plan() {
     if (full_rate_ == 0)
         return;
+    changed_.clear();
     turn_ = (turn_ + 1) % turns;
     stage_ = Stage::begin;
     Turn& turn = turn_list_[turn_];
@@ -276,8 +277,10 @@ void FarIslands::end_turn() {
                              island->distance > squared_length(returns_within);
         if (goes_on)
             send_away(id, Keep::in_turn, turn.bodies);
-        else
+        else {
             send_away(id, Keep::until_turns_end, waiting_);
+            changed_.push_back(id);
+        }
     }
     exchanging_ = false;
 }
@@ -297,6 +300,7 @@ void FarIslands::finish() {
         save(turn.fresh_contacts, 0, &leavers);
         for (const JPH::BodyID id : leaving_) {
             kept(body(id)).leaves = false;
+            changed_.push_back(id);
             if (body(id).IsActive())
                 send_away(id, Keep::in_turn, turn.fresh);
         }

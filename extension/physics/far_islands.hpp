@@ -64,6 +64,9 @@ public:
     void end_turn();
     void finish();
 
+    // Those that the last step set aside, or gave the full rate again when their turn was over.
+    std::span<const JPH::BodyID> changed() const { return changed_; }
+
 private:
     enum class Keep : std::uint8_t { no, in_turn, until_turns_end };
 
@@ -128,6 +131,7 @@ private:
     std::vector<JPH::BodyID> waiting_;          // all others, while turns last
     Contacts contacts_of_waiting_;
     std::vector<JPH::BodyID> leaving_;
+    std::vector<JPH::BodyID> changed_;
     std::vector<JPH::BodyID> list_;  // scratch
     std::vector<Island> islands_;    // by Jolt's number of the last step
     std::vector<std::uint32_t> order_;

@@ -381,6 +381,8 @@ std::uint32_t PhysicsWorld::step(double seconds) {
         impl_->far.end_turn();
     }
     impl_->far.finish();
+    for (const JPH::BodyID id : impl_->far.changed())
+        impl_->trees.may_differ(id);
     impl_->trees.tidy_some();
     if (impl_->memory.overflows() != overflows)
         status |= step_memory_full;

@@ -107,6 +107,12 @@ std::string check_proxy(const ProxyDescription& d) {
                : "the proxy's radius is not a positive length: set it above 0 m";
 }
 
+// In commands of the least kind (SessionSettings::commands_per_tick).
+std::uint32_t cost(const Command& command) {
+    const auto* const body = std::get_if<command::AddBody>(&command);
+    return body && body->motion == Motion::Dynamic ? 4 : 1;
+}
+
 }  // namespace
 
 struct Session::Impl {
@@ -134,14 +140,15 @@ struct Session::Impl {
         }
     }
 
-    // Loop side. A command whose remains might find no room waits.
-    std::uint32_t take_commands(std::uint32_t most) {
+    // Loop side. A command whose remains might find no room waits. True where the tick had no time for more.
+    bool take_commands(std::uint32_t most) {
         std::uint32_t taken = 0;
         while (taken < most && retired.size() + 1 < retired.capacity()) {
             Command* const command = commands.front();
             if (!command) {
                 break;
             }
+            taken += cost(*command);
             Retired remains;
             if (SessionLoop* const twin = loop.twin()) {
                 Command same;
@@ -156,9 +163,8 @@ struct Session::Impl {
                 retired.try_push(std::move(remains));
             }
             commands.pop();
-            ++taken;
         }
-        return taken;
+        return taken >= most;
     }
 
     const SessionSettings settings;
@@ -421,7 +427,7 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
     TickStatus status = 0;
     {
         const TraceScope scope(trace, TickStage::take_commands);
-        if (impl_->take_commands(impl_->settings.commands_per_tick) == impl_->settings.commands_per_tick) {
+        if (impl_->take_commands(impl_->settings.commands_per_tick)) {
             status |= session_commands_waiting;
         }
     }

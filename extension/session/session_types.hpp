@@ -35,7 +35,9 @@ struct SessionSettings {
     // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings). A session
     // with a history has no such limit.
     std::uint32_t full_rate_bodies = 64;
-    std::uint32_t commands_per_tick = 64;  // taken from the owner in one tick; the rest waits for the next
+    // Taken from the owner in one tick; the rest waits for the next. A dynamic body that comes counts as
+    // four: it is awake at first, and its contacts are new.
+    std::uint32_t commands_per_tick = 64;
     PhysicsSettings physics;
     HistorySettings history;
 };

@@ -149,7 +149,7 @@ TEST(SessionOddInput, JointsThatJoinNothingAreRefusedOrForgotten) {
 
 TEST(SessionOddInput, AThousandBodiesInOneTick) {
     SessionSettings settings;
-    settings.commands_per_tick = 2000;
+    settings.commands_per_tick = 5000;
     SessionRig rig(settings);
     rig.add(ground());
     rig.tick();

@@ -424,6 +424,22 @@ TEST(Session, MoreCommandsThanATickTakesWaitForTheNext) {
     EXPECT_EQ(rig.newest().body_count, 10u);
 }
 
+TEST(Session, DynamicBodiesThatComeAreSpreadOverMoreTicks) {
+    SessionSettings settings;
+    settings.commands_per_tick = 8;
+    SessionRig rig(settings);
+    rig.tick();
+    for (int i = 0; i < 5; ++i) {
+        rig.add(body(SphereShape{0.1}, {1.0 + i, 1.0, 0.0}, Motion::Dynamic));
+    }
+    EXPECT_TRUE(rig.tick() & session_commands_waiting);
+    EXPECT_EQ(rig.newest().body_count, 2u);
+    rig.tick();
+    EXPECT_EQ(rig.newest().body_count, 4u);
+    EXPECT_FALSE(rig.tick() & session_commands_waiting);
+    EXPECT_EQ(rig.newest().body_count, 5u);
+}
+
 TEST(Session, MoreCommandsThanTheRingHoldsAreKept) {
     SessionSettings settings;
     settings.commands_per_tick = 64;
