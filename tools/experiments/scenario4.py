@@ -38,7 +38,8 @@ class Settings:
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
-    found = teleop_processes.play_all(cases(settings), output)
+    runs = teleop_processes.play_all(cases(settings), output)
+    found = {name: teleop_processes.figures(one) for name, one in runs.items()}
     summary: dict[str, object] = {f"machine.{name}": value for name, value in host.description().items()}
     for name, figures in found.items():
         wanted = (*FIGURES, "box_position_error_rms_mm") if name.startswith("dynamic") else FIGURES
