@@ -89,6 +89,12 @@ LinkRun::LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std:
     }
 }
 
+LinkRun::~LinkRun() {
+    if (node_ != nullptr) {
+        node_->clear_report();
+    }
+}
+
 void LinkRun::attach(Session& session) {
     EndpointSettings endpoint;
     endpoint.side = operator_ ? Side::operator_side : Side::teleoperator_side;
@@ -125,6 +131,13 @@ void LinkRun::put(std::unique_ptr<LinkWay> way) {
     route_.put(way_.get());
 }
 
+// The loop may look at it as long as the run lasts.
+void LinkRun::keep_trace() {
+    if (traces_.empty() || traces_.back() != node_->trace()) {
+        traces_.push_back(node_->trace());
+    }
+}
+
 // A way is opened anew only when the loop has let go of the one before: both may want the same port.
 void LinkRun::look_after_way(Workers& workers, const LinkMoment& moment) {
     if (node_ != nullptr && node_->way_revision() != way_revision_) {
@@ -153,7 +166,7 @@ void LinkRun::look_after_way(Workers& workers, const LinkMoment& moment) {
 
 void LinkRun::open(Workers& workers, const LinkMoment& moment) {
     const NetworkSettings settings = node_->network_settings();
-    traces_.push_back(node_->trace());
+    keep_trace();
     if (node_->partner_node() != nullptr) {
         put(std::make_unique<InProcessWay>(node_->wire(), operator_, settings.conditions, settings.seed));
         return;
@@ -200,7 +213,7 @@ void LinkRun::pass_on_settings() {
     settings_.gravity = gravity_;
     port_->settings.publish(settings_);
     if (way_ != nullptr) {
-        traces_.push_back(node_->trace());
+        keep_trace();
         way_->change(node_->conditions());
     }
 }

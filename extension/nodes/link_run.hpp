@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <memory>
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -37,6 +36,10 @@ class LinkRun {
 public:
     // `ahead`: see UdpWay. Attaches its side: the session must be new. It is destroyed after the session.
     LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std::atomic<Nanoseconds>* ahead);
+
+    ~LinkRun();
+    LinkRun(const LinkRun&) = delete;
+    LinkRun& operator=(const LinkRun&) = delete;
 
     bool is_operator() const { return operator_; }
     bool is_of(const MMTLink* node) const { return node_ == node; }
@@ -88,6 +91,7 @@ private:
     void open(Workers& workers, const LinkMoment& moment);
     void take_opened(const LinkMoment& moment);
     void put(std::unique_ptr<LinkWay> way);
+    void keep_trace();
     void note_refusals(Nanoseconds now);
     LinkReport report() const;
     std::pair<MMTLink::State, std::string> state() const;

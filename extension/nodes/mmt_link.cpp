@@ -127,6 +127,7 @@ void MMTLink::set_scenario(Scenario scenario) {
     scenario_ = scenario;
     if (was_networked != is_networked()) {
         restart_world();
+        take_report(at_rest(), {});
     } else {
         changed();
     }
@@ -381,11 +382,27 @@ std::shared_ptr<MemoryLinkPair> MMTLink::wire() {
 // --- looking at it
 // ---------------------------------------------------------------------------------------------------
 
+LinkReport MMTLink::at_rest() const {
+    LinkReport report;
+    report.state = STATE_OFF;
+    report.text = is_networked() ? "no HapticWorld is running above this node" : "one machine, no network";
+    return report;
+}
+
 void MMTLink::clear_report() {
-    report_ = {};
-    report_.state = STATE_OFF;
-    report_.text = is_networked() ? "no HapticWorld is running above this node" : "one machine, no network";
+    report_ = at_rest();
     restarts_seen_ = 0;
+}
+
+// Where no world runs it, this node alone can say why.
+MMTLink::State MMTLink::get_state() const {
+    const bool idle = report_.state == STATE_OFF && is_networked() && is_inside_tree();
+    return idle && !problem().is_empty() ? STATE_FAILED : static_cast<State>(report_.state);
+}
+
+String MMTLink::get_state_text() const {
+    const bool fails_by_itself = report_.state == STATE_OFF && get_state() == STATE_FAILED;
+    return fails_by_itself ? problem() : report_.text;
 }
 
 // Handlers may free this node: nothing of it is used after the last signal, and each is sent by what its id

@@ -160,8 +160,8 @@ public:
     void set_count(int which, int64_t value);
     int64_t get_count(int which) const;
 
-    State get_state() const { return static_cast<State>(report_.state); }
-    godot::String get_state_text() const { return report_.text; }
+    State get_state() const;
+    godot::String get_state_text() const;
     bool is_peer_connected() const { return report_.state == STATE_CONNECTED; }
     godot::Dictionary get_statistics() const;
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -199,6 +199,7 @@ private:
     void changed();
     void way_changed();
     void restart_world();
+    LinkReport at_rest() const;
     godot::String way_problem() const;
     static void add_number(Number which);
     static void add_numbers(Number first, Number last);

@@ -133,7 +133,8 @@ func test_the_same_scene_goes_from_one_scenario_to_the_next_while_it_runs() -> v
 		check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force above the floor, scenario %d" % scenario)
 		_advance(0.4)
 		check_near(_felt(_operator).y, 8.0, 1e-3, "force of scenario %d" % scenario)
-	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state: " + _here.get_state_text())
+		var wanted := MMTLink.STATE_OFF if scenario == MMTLink.SCENARIO_SINGLE else MMTLink.STATE_CONNECTED
+		check_equal(_here.get_state(), wanted, "state: " + _here.get_state_text())
 
 
 func test_every_property_may_change_while_a_body_is_pressed() -> void:
@@ -199,6 +200,8 @@ func test_a_link_says_what_it_lacks() -> void:
 	var first := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
 	var second := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
 	check(second.get_warnings()[0].contains("another MMTLink"), "two of them: %s" % second.get_warnings())
+	check_equal(second.get_state(), MMTLink.STATE_FAILED, "state of the second")
+	check(second.get_state_text().contains("remove one of the two"), second.get_state_text())
 	check_equal(first.get_warnings().size(), 0, "warnings of the first")
 	first.key = "short"
 	check(first.get_warnings()[0].contains("64 hexadecimal digits"), "key: %s" % first.get_warnings())

@@ -22,7 +22,7 @@ SCENES = ("static", "dynamic")
 @dataclass(frozen=True)
 class Settings:
     delays: str = "0,25,50,100,200"
-    clock: Literal["virtual"] = "virtual"
+    clock: Literal["virtual", "real"] = "virtual"
     pictures: int = 1
 
 
@@ -46,6 +46,10 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("closed_loop")
     delays = settings.delays.split(",")
+    if settings.clock == "real":
+        from measuring import teleop_processes
+
+        return teleop_processes.closed_loop(description, delays, output)
     summary: dict[str, object] = {}
     for scene in SCENES:
         found = teleop_runs.run(description[scene]["scene"], cases(description, scene, delays, output), output)

@@ -45,7 +45,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     whole = settings.seconds + settings.warmup
     summary: dict[str, object] = {f"machine.{name}": value for name, value in host.description().items()}
-    direct = teleop_processes.direct_touch(SCENE, whole, output / "rounds")
+    direct = teleop_processes.direct_touch(teleop_processes.Case("direct", SCENE, whole), output / "rounds")
     for name, scenario in SCENARIOS.items():
         print(f"{name}: two processes for {whole:g} s", flush=True)
         case = teleop_processes.Case(name, SCENE, whole, scenario, settings.delay, warmup=settings.warmup)

@@ -4,7 +4,7 @@ in which the same hand touches the true environment directly.
 
 import json
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from setup import cache, godot
 
 TRADITIONAL, MODEL_MEDIATED = 2, 4
 OPERATOR, FAR = 0, 1
+SIMULATED_ARM = 2  # HapticDevice.DRIVER_ARM
 # One processor for each haptic thread, where there are two.
 PROCESSORS = {OPERATOR: 1, FAR: 0}
 PORTS = {OPERATOR: 47011, FAR: 47012}
@@ -26,6 +27,10 @@ DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resim
 # A reference of fewer rows, from its first movement on, is found in the other record (unit: rows).
 MATCHED = 50
 TICK = 1e-3
+# What is felt at all (unit: newtons).
+FELT = 0.05
+# A touch that has lasted so long is waited for; so long before it nothing was touched (unit: rows).
+TOUCH = 50
 
 
 @dataclass(frozen=True)
@@ -43,6 +48,7 @@ class Case:
     corrects_from_touch: bool = False
     loss: float = 0.0
     warmup: float = 0.5  # of the statistics (unit: seconds)
+    device: dict[str, float] = field(default_factory=dict)  # properties of the HapticDevice
 
     def options(self, side: int) -> dict[str, object]:
         options: dict[str, object] = {
@@ -51,11 +57,16 @@ class Case:
             "processor": PROCESSORS[side], "clock": "real", "duration": self.seconds, "warmup": self.warmup,
         }  # fmt: skip
         if side == OPERATOR:
+            options |= self.device_options()
             options["link.correction_scheme"] = CORRECTIONS.index(self.correction)
             options["link.derivation"] = DERIVATIONS.index(self.derivation)
             options["link.model_errors"] = json.dumps(self.wrong or {})
             options["corrects"] = "touch" if self.corrects_from_touch else "always"
         return options
+
+
+    def device_options(self) -> dict[str, object]:
+        return {f"device.{name}": value for name, value in self.device.items()}
 
 
 @dataclass(frozen=True)
@@ -85,11 +96,11 @@ def play(case: Case, folder: Path, direct: records.Record) -> Run:
     return _aligned(case, rows[OPERATOR], rows[FAR], direct, statistics)
 
 
-def direct_touch(scene: str, seconds: float, folder: Path, options: dict[str, object] | None = None) -> records.Record:
+def direct_touch(case: Case, folder: Path) -> records.Record:
     """The same hand in the true environment, in virtual time."""
     folder.mkdir(parents=True, exist_ok=True)
-    given = {"clock": "stepped", "duration": seconds, **(options or {})}
-    _finish(_start(scene, "direct", folder, given), seconds)
+    options = {"clock": "stepped", "duration": case.seconds, **case.device_options()}
+    _finish(_start(case.scene, "direct", folder, options), case.seconds)
     record = records.read(folder / "direct.csv")
     for path in folder.glob("direct*"):
         path.unlink()
@@ -169,11 +180,32 @@ def figures(run: Run) -> dict[str, float]:
         "force_error_max_N": float(error.max()),
         "force_error_shifted_mean_N": float(np.nanmean(shifted)),
         "box_position_error_rms_mm": 1e3 * float(np.sqrt(np.nanmean(box**2))),
+        "contact_delay_ms": 1e3 * contact_delay(run),
+        "phantom_force_share": phantom_share(run),
         "seconds_until_right": max(0.0, float(until_right)),
         "correction_force_step_max_N": float(link["correction_force_step_max_n"]),
         "round_trip_ms": 1e3 * float(link["round_trip_s"]),
         "packets_per_s": float(link["packets_sent_per_s"] + link["packets_received_per_s"]),
     }
+
+
+def contact_delay(run: Run) -> float:
+    """From where the hand meets a surface to where it feels that, in the middle of all touches (unit: seconds)."""
+    touches = run.direct.contacts > 0
+    delays = []
+    for begin in np.flatnonzero(touches[TOUCH:-TOUCH]) + TOUCH:
+        if not touches[begin - TOUCH : begin].any() and touches[begin : begin + TOUCH].all():
+            felt = np.flatnonzero(np.linalg.norm(run.here.force[begin:], axis=1) > FELT)
+            should = np.flatnonzero(np.linalg.norm(run.direct.force[begin:], axis=1) > FELT)
+            if felt.size and should.size:
+                delays.append((felt[0] - should[0]) * TICK)
+    return float(np.median(delays)) if delays else 0.0
+
+
+def phantom_share(run: Run) -> float:
+    """The share of time in which the hand feels something where there is nothing."""
+    felt = np.linalg.norm(run.here.force, axis=1) > FELT
+    return float((felt & (np.linalg.norm(run.direct.force, axis=1) == 0.0)).mean())
 
 
 def write_rows(run: Run, path: Path) -> None:
@@ -186,26 +218,28 @@ def write_rows(run: Run, path: Path) -> None:
     np.savetxt(path, np.hstack(list(columns.values())), delimiter=",", fmt="%.9g", header=",".join(names), comments="")
 
 
-def play_all(cases: list[Case], output: Path) -> dict[str, dict[str, float]]:
-    """The figures of each, and its rows in `output`."""
+def play_all(cases: list[Case], output: Path) -> dict[str, Run]:
+    """The runs, whose rows are in `output` then. Cases of a scene have the same hand."""
     rounds = cache.emptied(output / "rounds")
-    direct: dict[tuple[str, float], records.Record] = {}
+    direct: dict[str, records.Record] = {}
     found = {}
     for case in cases:
-        key = (case.scene, case.seconds)
-        if key not in direct:
-            direct[key] = direct_touch(*key, rounds)
+        if case.scene not in direct:
+            direct[case.scene] = direct_touch(case, rounds)
         print(f"{case.name}: two processes for {case.seconds:g} s", flush=True)
-        run = play(case, rounds, direct[key])
-        found[case.name] = figures(run)
-        print(f"  force error {found[case.name]['force_error_mean_N']:.4f} N on average", flush=True)
-        write_rows(run, output / f"{case.name}.csv")
+        found[case.name] = play(case, rounds, direct[case.scene])
+        error = figures(found[case.name])["force_error_mean_N"]
+        print(f"  force error {error:.4f} N on average", flush=True)
+        write_rows(found[case.name], output / f"{case.name}.csv")
     rounds.rmdir()
     return found
 
 
-def static_mmt(description: dict, seconds: float, output: Path, names: tuple[str, ...] = ()) -> dict[str, float]:
-    """The flat summary of all cases, or of those named."""
+def _all_figures(cases: list[Case], output: Path) -> dict[str, dict[str, float]]:
+    return {name: figures(run) for name, run in play_all(cases, output).items()}
+
+
+def static_mmt(description: dict, seconds: float, output: Path) -> dict[str, float]:
     scene, wrong = description["scene"], description["wrong"]
     cases = [Case(f"traditional_{ms}ms", scene, seconds, TRADITIONAL, ms / 1000) for ms in (0, 100)]
     cases += [Case(f"mmt_right_{ms}ms", scene, seconds, delay=ms / 1000) for ms in (0, 100, 500)]
@@ -214,12 +248,11 @@ def static_mmt(description: dict, seconds: float, output: Path, names: tuple[str
     ]
     corrected = "mmt_wrong_corrected_100ms"
     cases.append(Case(corrected, scene, seconds, delay=0.1, wrong=wrong, corrects_from_touch=True))
-    found = play_all([case for case in cases if not names or case.name in names], output)
+    found = _all_figures(cases, output)
     errors = ("force_error_mean_N", "force_error_p95_N", "force_error_max_N", "force_error_shifted_mean_N")
     summary = {f"{name}.{key}": figures[key] for name, figures in found.items() for key in (*errors, "round_trip_ms")}
     for key in ("seconds_until_right", "correction_force_step_max_N"):
-        if corrected in found:
-            summary[f"{corrected}.{key}"] = found[corrected][key]
+        summary[f"{corrected}.{key}"] = found[corrected][key]
     return summary
 
 
@@ -233,9 +266,52 @@ def dynamic_mmt(description: dict, seconds: float, output: Path) -> dict[str, fl
         for correction, derivation in (("none", "none"), ("pose", "none"), ("stealthy_direction", "resimulate")):
             name = f"{correction}.{derivation}.{ms}ms.0pct"
             cases.append(Case(name, scene, seconds, MODEL_MEDIATED, delay, correction, derivation, wrong))
-    found = play_all(cases, output)
+    found = _all_figures(cases, output)
     keys = (
         "force_error_mean_N", "force_error_p95_N", "box_position_error_rms_mm", "correction_force_step_max_N",
         "packets_per_s", "round_trip_ms",
     )  # fmt: skip
     return {f"{name}.{key}": figures[key] for name, figures in found.items() for key in keys}
+
+
+def closed_loop(description: dict, delays: list[str], output: Path) -> dict[str, float]:
+    """The arm, over a network traditionally and with a local model, beside local touch."""
+    arm = {"driver": SIMULATED_ARM} | {f"arm_{name}": value for name, value in description["arm"].items()}
+    summary = {}
+    for scene in ("static", "dynamic"):
+        place = description[scene]
+        cases = [
+            Case(
+                f"{scene}.{way}_{delay}ms", place["scene"], description["seconds"], scenario, float(delay) / 1000,
+                wrong=place.get("wrong"), device=arm,
+            )
+            for delay in delays
+            for way, scenario in (("traditional", TRADITIONAL), ("mmt", MODEL_MEDIATED))
+        ]  # fmt: skip
+        runs = play_all(cases, output)
+        direct = next(iter(runs.values())).direct
+        local = _pushed(direct, np.linalg.norm(direct.hand - direct.proxy, axis=1), place["settled"])
+        summary |= {f"{scene}.local.{key}": value for key, value in local.items()}
+        for name, run in runs.items():
+            found = _pushed(run.here, _depth_there(run), place["settled"])
+            found["over_penetration_mm"] = found["penetration_max_mm"] - local["penetration_max_mm"]
+            found["largest_difference_from_local"] = max(abs(found[key] / local[key] - 1.0) for key in local)
+            summary |= {f"{name}.{key}": value for key, value in found.items()}
+    return summary
+
+
+def _depth_there(run: Run) -> np.ndarray:
+    """Of the far side's hand below the surface there; where a sample was left out, as before (unit: meters)."""
+    depth = np.linalg.norm(run.here.hand - run.there.proxy, axis=1)
+    known = np.flatnonzero(~np.isnan(depth))
+    return depth[known[np.maximum(np.searchsorted(known, np.arange(len(depth)), side="right") - 1, 0)]]
+
+
+def _pushed(record: records.Record, depth: np.ndarray, settled: list[float]) -> dict[str, float]:
+    """The figures of tests/shared/teleop_run.cpp for a hand that is pushed back."""
+    rests = (record.time >= settled[0]) & (record.time < settled[1])
+    rest, deepest = float(depth[rests].mean()), float(depth.max())
+    # The force pushes the hand along the way from this row to the next.
+    energy = float((record.force[:-1] * np.diff(record.hand, axis=0)).sum())
+    figures = {"penetration_max_mm": deepest, "settled_depth_mm": rest, "overshoot_mm": deepest - rest}
+    return {name: 1e3 * value for name, value in figures.items()} | {"energy_J": energy}
