@@ -108,9 +108,14 @@ func test_traditional_touch_is_felt_one_delay_later() -> void:
 	add_floor(_far, STIFFNESS)
 	_add_hands()
 	_advance(0.5 + 0.1)
+	var proxy: ProxyPointer = _operator.get_node("Proxy")
 	check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force before the far side has answered")
+	check(not proxy.is_touching(), "it touches before the far side has answered")
 	_advance(0.15)
 	check_near(_felt(_operator).y, 8.0, 1e-3, "force when it has")
+	check(proxy.is_touching(), "it does not touch when the far side has answered")
+	check_near(proxy.get_contacts()[0].point, Vector3.ZERO, 1e-3, "point of contact")
+	check_near(proxy.get_contacts()[0].normal, Vector3.UP, 1e-6, "normal")
 	check_near(_here.get_statistics().round_trip_s, 0.1, 0.003, "round trip (s)")
 
 
