@@ -259,6 +259,7 @@ void OperatorSide::take(const ForceSample& force) {
     pointer.far_sample = force.newest_operator_sample;
     pointer.far_force = force.force;
     pointer.far_proxy = force.proxy;
+    pointer.far_object = force.object;
     statistics_.round_trip = static_cast<double>(sample_ - force.newest_operator_sample) * seconds_;
 }
 
@@ -625,12 +626,28 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
             continue;
         }
         if (settings_.traditional) {
-            slot.state.hand = slot.hand;
-            slot.state.position = pointer.far_sample != no_sample ? pointer.far_proxy : slot.hand;
-            slot.state.force = link_.hears_peer() ? pointer.far_force : Vec3(0.0);
+            feel_far_side(pointer, slot);
             continue;
         }
         feel(loop, pointer, slot, now);
+    }
+}
+
+// Of what is touched there, no more is known than which object, and where the force points.
+void OperatorSide::feel_far_side(const Pointer& pointer, SessionLoop::ProxySlot& slot) const {
+    ProxyState& state = slot.state;
+    state.hand = slot.hand;
+    state.position = pointer.far_sample != no_sample ? pointer.far_proxy : slot.hand;
+    state.force = link_.hears_peer() ? pointer.far_force : Vec3(0.0);
+    state.status = 0;
+    state.contact_count = 0;
+    const double size = glm::length(state.force);
+    if (pointer.far_object < body_of_object_.size() && size > no_force) {
+        state.status = proxy_touching;
+        state.contact_count = 1;
+        state.bodies[0] = body_of_object_[pointer.far_object];
+        state.normals[0] = state.force / size;
+        state.points[0] = state.position - slot.proxy->settings().radius * state.normals[0];
     }
 }
 

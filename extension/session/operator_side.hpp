@@ -66,6 +66,7 @@ private:
         // Traditional: what came last.
         Vec3 far_force{0.0};
         Vec3 far_proxy{0.0};
+        ObjectId far_object = no_object;  // that is touched there
         SampleSequence far_sample = no_sample;
         // Sending.
         std::array<OperatorSample, OperatorSamples::most> sent{};
@@ -112,6 +113,7 @@ private:
     void lean_on_pressing(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     bool presses_as_felt(const Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     Vec3 felt_apart(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
+    void feel_far_side(const Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     void feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void hide_correction(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot,
                          Nanoseconds now);

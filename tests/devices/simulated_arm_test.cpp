@@ -30,7 +30,7 @@ TEST(SimulatedArm, GivesWayAsItsMusclesAllow) {
     SimulatedArm arm(resting(Vec3(0.0)), settings);
     DeviceSample sample;
     for (Nanoseconds tick = 0; tick < 5000; ++tick) {
-        sample = arm.read(tick * 1'000'000);
+        sample = arm.read(std::int64_t{tick} * 1'000'000);
         arm.write(tick * 1'000'000, {3.0, 0.0, 0.0});
     }
     EXPECT_NEAR(sample.position.x, 3.0 / settings.stiffness, 1e-9);
@@ -65,4 +65,23 @@ TEST(SimulatedArm, SwingsAsFastAsItsMassAndMusclesSay) {
 }
 
 }  // namespace
+TEST(SimulatedArm, BecomesAnotherOneWhereItIs) {
+    const Vec3 rest(0.1, 0.2, 0.3);
+    SimulatedArm arm(KeyframePath{{{0, rest}, {nanoseconds_per_second, rest}}}, {});
+    arm.write(0, Vec3(0.0, 3.0, 0.0));
+    for (int tick = 0; tick < 5000; ++tick) {
+        arm.read(std::int64_t{tick} * 1'000'000);
+    }
+    const Vec3 before = arm.read(5'000'000'000).position;
+    EXPECT_NEAR(before.y, rest.y + 3.0 / ArmSettings{}.stiffness, 1e-9);
+    ArmSettings stiffer;
+    stiffer.stiffness = 600.0;
+    arm.change(stiffer);
+    EXPECT_NEAR(arm.read(5'001'000'000).position.y, before.y, 1e-4);
+    for (int tick = 5002; tick < 10000; ++tick) {
+        arm.read(std::int64_t{tick} * 1'000'000);
+    }
+    EXPECT_NEAR(arm.read(10'000'000'000).position.y, rest.y + 3.0 / 600.0, 1e-9);
+}
+
 }  // namespace tactus

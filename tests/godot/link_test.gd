@@ -108,9 +108,14 @@ func test_traditional_touch_is_felt_one_delay_later() -> void:
 	add_floor(_far, STIFFNESS)
 	_add_hands()
 	_advance(0.5 + 0.1)
+	var proxy: ProxyPointer = _operator.get_node("Proxy")
 	check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force before the far side has answered")
+	check(not proxy.is_touching(), "it touches before the far side has answered")
 	_advance(0.15)
 	check_near(_felt(_operator).y, 8.0, 1e-3, "force when it has")
+	check(proxy.is_touching(), "it does not touch when the far side has answered")
+	check_near(proxy.get_contacts()[0].point, Vector3.ZERO, 1e-3, "point of contact")
+	check_near(proxy.get_contacts()[0].normal, Vector3.UP, 1e-6, "normal")
 	check_near(_here.get_statistics().round_trip_s, 0.1, 0.003, "round trip (s)")
 
 
@@ -308,3 +313,42 @@ func test_two_runs_are_the_same_to_the_bit() -> void:
 		_far.free()
 	check(forces[0] == forces[1], "they differ")
 	check(forces[0][599].length() > 1.0, "nothing is felt")
+
+
+func test_what_has_no_body_in_the_scene_gets_a_picture_of_its_form() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	var capsule := CapsuleShape3D.new()
+	capsule.radius = 0.1
+	capsule.height = 0.4
+	var cylinder := CylinderShape3D.new()
+	cylinder.radius = 0.1
+	cylinder.height = 0.3
+	var hull := ConvexPolygonShape3D.new()
+	hull.points = PackedVector3Array([Vector3.ZERO, Vector3.RIGHT, Vector3.UP, Vector3.BACK])
+	var triangles := ConcavePolygonShape3D.new()
+	triangles.set_faces(PackedVector3Array([Vector3.ZERO, Vector3.RIGHT, Vector3.BACK]))
+	var heights := HeightMapShape3D.new()
+	heights.map_width = 3
+	heights.map_depth = 4
+	heights.map_data = PackedFloat32Array([0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0, 0, 0])
+	var sizes := {
+		sphere(0.2): Vector3(0.4, 0.4, 0.4),
+		box(Vector3(0.1, 0.2, 0.3)): Vector3(0.1, 0.2, 0.3),
+		capsule: Vector3(0.2, 0.4, 0.2),
+		cylinder: Vector3(0.2, 0.3, 0.2),
+		hull: Vector3.ONE,
+		triangles: Vector3(1, 0, 1),
+		heights: Vector3(2, 0.5, 3),
+		WorldBoundaryShape3D.new(): Vector3(20, 0, 20),
+	}
+	var found := {}
+	_here.object_discovered.connect(func(name: String, node: Node3D) -> void: found[name] = node)
+	for shape: Shape3D in sizes:
+		var body := with_shape(StaticBody3D.new(), shape)
+		body.name = shape.get_class()
+		_far.add_child(body)
+	_advance(1.0)
+	for shape: Shape3D in sizes:
+		check(found.has(shape.get_class()), shape.get_class() + " is not found")
+		var picture: MeshInstance3D = found[shape.get_class()].get_child(0)
+		check_near(picture.mesh.get_aabb().size, sizes[shape], 0.01, "size of " + shape.get_class())

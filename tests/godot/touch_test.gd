@@ -163,3 +163,25 @@ func test_the_mouse_puts_the_hand_under_the_pointer() -> void:
 	device.aim_mouse(camera.unproject_position(Vector3(0.1, 0.05, 0)), 0.5)
 	world.advance(1.0)
 	check_near(proxy.get_hand_position(), Vector3(0.15, 0.075, -0.5), 2e-3, "hand after the wheel")
+
+
+func test_a_simulated_arm_is_pushed_back_and_changes_where_it_is() -> void:
+	var world := add_world()
+	add_floor(world, 500.0)
+	var proxy := add_hand(world, path(Vector3(0, 0.03, 0), Vector3(0, -0.03, 0), 0.5))
+	var device: HapticDevice = world.get_node("Device")
+	device.driver = HapticDevice.DRIVER_ARM
+	device.force_limit = 20.0
+	world.advance(3.0)
+	# At rest the muscles' spring and the floor's share the way: 150 (y + 0.03) = 500 (0.01 - y).
+	check_near(device.get_hand_position().y, 0.5 / 650.0, 1e-5, "where the two springs balance (m)")
+	check_near(proxy.get_force().y, 500.0 * (0.01 - 0.5 / 650.0), 5e-3, "force (N)")
+	var before := device.get_hand_position().y
+	device.arm_stiffness = 300.0
+	world.advance(TICK)
+	check_near(device.get_hand_position().y, before, 1e-4, "place just after it has become stiffer (m)")
+	world.advance(3.0)
+	check_near(device.get_hand_position().y, -4.0 / 800.0, 1e-5, "where they balance then (m)")
+	for wrong: Array in [["arm_mass", 0.0], ["arm_damping", -1.0], ["arm_stiffness", NAN]]:
+		expect_error("%s = %s was refused" % wrong)
+		device.set(wrong[0], wrong[1])

@@ -3,6 +3,7 @@ in which the same hand touches the true environment directly.
 """
 
 import json
+import os
 import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,7 +20,9 @@ OPERATOR, FAR = 0, 1
 SIMULATED_ARM = 2  # HapticDevice.DRIVER_ARM
 # One processor for each haptic thread, where there are two.
 PROCESSORS = {OPERATOR: 1, FAR: 0}
-PORTS = {OPERATOR: 47011, FAR: 47012}
+# Another measurement on this machine has other ports.
+_PORT = 20000 + os.getpid() % 6000 * 2
+PORTS = {OPERATOR: _PORT, FAR: _PORT + 1}
 
 CORRECTIONS = ("none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction")
 DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resimulate")
