@@ -18,14 +18,16 @@ struct Pending {
     float key;  // what the search prunes by: squared distance, or entry parameter
 };
 
-// Children in the order of their keys, nearest on top of the stack.
+// Children in the order of their keys, nearest on top of the stack; `left_out` follows the least key of those
+// beyond the bound.
 template <class Visit>
 void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNode* nodes,
-                 const TrianglePack* packs, Pending* stack, int& depth, Visit&& leaf) {
+                 const TrianglePack* packs, Pending* stack, int& depth, float& left_out, Visit&& leaf) {
     Pending near[node_width];
     int count = 0;
     for (int i = 0; i < node_width; ++i) {
         if (!(keys[i] <= bound)) {
+            left_out = std::min(left_out, keys[i]);
             continue;
         }
         int place = count++;
@@ -114,15 +116,30 @@ FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const V
 }
 
 NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
+    double least;
+    return search(point, far, 1.0, least);
+}
+
+double TriangleTree::least_distance(const Vec3& point) const {
+    double least;
+    search(point, 1e30, 0.5, least);
+    return least;
+}
+
+// The nearest triangle among those found when only what may be nearer than `share` of the nearest so far is
+// opened. `least` is a lower bound of all distances.
+NearestTriangle TriangleTree::search(const Vec3& point, double far, double share, double& least) const {
     NearestTriangle nearest{far};
     const Vec3 relative = point - origin_;
     const double slack = float_slack(relative);
     const FloatPoint at = to_float_point(relative);
     const LanesVec3 exact = splat(point);
+    float left_out = std::numeric_limits<float>::infinity();
 
-    auto bound = [&] { return square_up(nearest.distance + slack); };
+    auto bound = [&] { return square_up(share * nearest.distance + slack); };
     auto leaf = [&](const Pending& item) {
         if (!(item.key <= bound())) {
+            left_out = std::min(left_out, item.key);
             return;
         }
         const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
@@ -139,12 +156,15 @@ NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
         const Pending item = stack[--depth];
         const float limit = bound();
         if (!(item.key <= limit)) {
+            left_out = std::min(left_out, item.key);
             continue;
         }
         const BoxNode& node = nodes_[item.node];
         push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(), stack,
-                    depth, leaf);
+                    depth, left_out, leaf);
     }
+    const double outside = std::sqrt(static_cast<double>(left_out)) * (1.0 - 1e-6) - slack;
+    least = std::max(0.0, std::min(nearest.distance, outside));
     return nearest;
 }
 
@@ -159,6 +179,7 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
                         splat_float(inverse_for_slabs(motion.z))}};
     double best = limit;
     bool found = false;
+    float left_out = 0.0f;  // nobody asks
     auto bound = [&] { return static_cast<float>(best * (1.0 + 1e-6)); };
     auto leaf = [&](const Pending& item) {
         if (!(item.key <= bound())) {
@@ -191,7 +212,7 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
         }
         const BoxNode& node = nodes_[item.node];
         push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(), packs_.get(),
-                    stack, depth, leaf);
+                    stack, depth, left_out, leaf);
     }
     return found ? best : 2.0 * limit + 1.0;
 }

@@ -62,6 +62,10 @@ public:
     // The nearest triangle, looked for up to the distance `far`.
     NearestTriangle nearest(const Vec3& point, double far) const;
 
+    // A lower bound of the distance to the nearest triangle, at least half of it. Cheap from anywhere, where
+    // `nearest` must look at every triangle from the centre of a ball.
+    double least_distance(const Vec3& point) const;
+
     // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a
     // triangle; above `limit` where it does not. See sweep_to_triangles. Where `work` is used up, the answer
     // is a t up to which the way is known to be free.
@@ -84,6 +88,7 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
+    NearestTriangle search(const Vec3& point, double far, double share, double& least) const;
     void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
 

@@ -235,8 +235,7 @@ double Surroundings::distance_bound(std::uint32_t index, const Vec3& center) con
         return distance_to_solid(placed.part->solid(), local).distance - margin;
     }
     const double to_ball = distance_to_ball(index, center);
-    return to_ball > placed.part->radius ? to_ball
-                                         : placed.part->tree()->nearest(local, 1e30).distance - margin;
+    return to_ball > placed.part->radius ? to_ball : placed.part->tree()->least_distance(local) - margin;
 }
 
 // Makes sure that every part within `length` of the sphere is on the near list.
@@ -338,7 +337,10 @@ double Surroundings::look_around(Neighbourhood& hood, const TriangleTree& tree, 
         }
         nearest = std::min(nearest, smallest(distances));
     });
-    return std::min({nearest, others, hood.covered_around(local)});
+    nearest = std::min(nearest, others);
+    // In free space what is remembered ends long before the surface begins.
+    const double covered = hood.covered_around(local);
+    return nearest <= covered ? nearest : std::max(covered, tree.least_distance(local));
 }
 
 // The same where too many triangles are near to remember them.

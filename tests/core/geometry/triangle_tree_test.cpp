@@ -125,6 +125,21 @@ TEST(TriangleTree, SaysWhenThereWereMorePacksThanRoom) {
     EXPECT_FALSE(tree.packs_within(Vec3(0.0), 1.1, room).complete);
 }
 
+TEST(TriangleTree, LeastDistanceIsALowerBoundAndAtLeastHalf) {
+    RandomValues random(44);
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 p = extent.center + random.in_ball(3.0 * extent.radius);
+            const double nearest = tree.nearest(p, 1e30).distance;
+            const double least = tree.least_distance(p);
+            ASSERT_LE(least, nearest) << sample.name;
+            ASSERT_GE(least, 0.5 * nearest - rounding(tree)) << sample.name;
+        }
+    }
+}
+
 constexpr Work plenty = 1'000'000;
 
 // Whatever a sweep may look at, its answer is on the safe side.
