@@ -669,10 +669,15 @@ void OperatorSide::feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxyS
 // After a correction: whether the pressing pointer needs no more to be made up for than the carried one does.
 // Where little was corrected and friction holds, the pointer that stayed has kept its hold better.
 bool OperatorSide::presses_as_felt(const Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
+    const Vec3& before = pointer.force_before;
+    const auto step = [&](const Vec3& force) {
+        const bool keep_direction = settings_.correction == Correction::stealthy_direction;
+        return glm::distance(bridge(force, before, keep_direction).felt(force), before);
+    };
     return is_stealthy(settings_.correction) && slot.parts.contact_count > 0 &&
            pointer.felt.parts.contact_count > 0 &&
-           glm::distance(slot.force, pointer.force_before) <=
-               glm::distance(pointer.felt.force, pointer.force_before);
+           glm::distance(slot.force, before) <= glm::distance(pointer.felt.force, before) &&
+           step(slot.force) <= std::max(no_force, step(pointer.felt.force));
 }
 
 Vec3 OperatorSide::felt_apart(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
