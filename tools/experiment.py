@@ -1,12 +1,13 @@
 """./run experiment NAME [--key=value …]: calls run(options, output) of tools/experiments/NAME.py.
 
-`options` holds the keys and values as text, `output` is build/experiments/NAME, emptied before. run returns the flat
-summary, which is written to summary.json there.
+`options` holds the keys and values as text, `output` is build/experiments/NAME, emptied before; NAME_real where an
+experiment in virtual time is asked for real time. run returns the flat summary, which is written to summary.json there.
 """
 
 import importlib
 import json
 import sys
+from types import ModuleType
 
 from setup import cache
 
@@ -25,11 +26,18 @@ def main(arguments: list[str]) -> int:
         print(f"not --key=value: {' '.join(malformed)}", file=sys.stderr)
         return 2
     options = dict(argument[2:].split("=", 1) for argument in rest)
-    output = cache.emptied(cache.clone() / "build/experiments" / name)
-    summary = importlib.import_module(f"experiments.{name}").run(options, output)
+    experiment = importlib.import_module(f"experiments.{name}")
+    folder = f"{name}_real" if _leaves_virtual_time(experiment, options) else name
+    output = cache.emptied(cache.clone() / "build/experiments" / folder)
+    summary = experiment.run(options, output)
     (output / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
-    print(f"build/experiments/{name}/summary.json")
+    print(f"build/experiments/{folder}/summary.json")
     return 0
+
+
+def _leaves_virtual_time(experiment: ModuleType, options: dict[str, str]) -> bool:
+    """Asked to run in real time, where virtual time is the rule."""
+    return options.get("clock") == "real" and getattr(experiment.Settings, "clock", "real") == "virtual"
 
 
 if __name__ == "__main__":

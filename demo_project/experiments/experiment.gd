@@ -14,9 +14,20 @@ extends Node
 ## --baseline=1         a bare loop that only sleeps runs beside, for comparison
 ## --processor=NUMBER   the one on which the haptic thread stays; see HapticWorld.processor
 ## --screenshots=1,2.5  saves CASE_1.png, CASE_2.5.png at these times; needs a screen
+## --link.NAME=VALUE    a property of the scene's MMTLink. With --link.scenario=2 or 4 this is one side of a
+##                      teleoperation: the operator's hand waits until it knows all bodies of the far side,
+##                      and the duration counts from there; the far side stays until the operator has gone
+## --device.NAME=VALUE  a property of the scene's HapticDevice
+## --corrects=touch     the model is left as it is until it is touched
 
 const FRAMES_PER_SECOND := 60
 
+## To find the far side, in seconds.
+const LONGEST_MEETING := 30.0
+
+var _link_options := {}
+var _device_options := {}
+var _way: HapticPath
 var _options := {
 	"scene": "res://static_testbed.tscn",
 	"output": "user://",
@@ -27,6 +38,7 @@ var _options := {
 	"baseline": "0",
 	"screenshots": "",
 	"processor": "",
+	"corrects": "always",
 }
 
 
@@ -34,11 +46,10 @@ var _options := {
 func run(arguments: PackedStringArray) -> int:
 	for argument in arguments:
 		var words := argument.trim_prefix("--").split("=", true, 1)
-		if words.size() != 2 or not _options.has(words[0]):
+		if words.size() != 2 or not _take(words[0], words[1]):
 			return _fail(
 				"'%s' is not understood: the options are --%s=…" % [argument, "=…, --".join(_options.keys())]
 			)
-		_options[words[0]] = words[1]
 	if _options.case == "":
 		_options.case = _options.scene.get_file().get_basename()
 	var packed := load(_options.scene) as PackedScene
@@ -48,6 +59,20 @@ func run(arguments: PackedStringArray) -> int:
 	var code := await _run_scene(scene)
 	scene.free()
 	return code
+
+
+func _take(option: String, value: String) -> bool:
+	var name := option.get_slice(".", 1)
+	match option.get_slice(".", 0):
+		"link":
+			_link_options[name] = JSON.parse_string(value)
+		"device":
+			_device_options[name] = JSON.parse_string(value)
+		_:
+			if not _options.has(option):
+				return false
+			_options[option] = value
+	return true
 
 
 func _fail(message: String) -> int:
@@ -70,18 +95,31 @@ func _run_scene(scene: Node) -> int:
 	world.measure_baseline = _options.baseline == "1"
 	if _options.processor != "":
 		world.processor = int(_options.processor)
+	var link := _first(scene, "MMTLink") as MMTLink
+	if link == null and not _link_options.is_empty():
+		return _fail("the scene '%s' has no MMTLink" % _options.scene)
+	_set_all(link, _link_options)
+	var device := _first(scene, "HapticDevice") as HapticDevice
+	_set_all(device, _device_options)
+	if _is_operator(link):
+		_way = device.path
+		device.path = _rest_at(_way.sample(0.0))
 	recorder.csv_path = _file(".csv")
-	recorder.trace_path = "" if stepped else _file("_trace.json")
+	recorder.trace_path = "" if stepped or _is_networked(link) else _file("_trace.json")
 	recorder.autostart = true
 	add_child(scene)
 	if not recorder.is_recording():
 		return _fail("nothing can be recorded in '%s'" % _options.output)
-	await _play(world, stepped)
+	if _is_networked(link) and not await _meet(link, device):
+		return _fail("the far side was not met: %s" % link.get_state_text())
+	await _play(world, link, stepped)
 	# Before the recorder stops: writing its files takes a while, in which the loop goes on.
 	var statistics := world.get_statistics()
 	var periods := {
 		"loop": world.get_period_distribution(), "baseline": world.get_baseline_period_distribution()
 	}
+	if _is_networked(link):
+		statistics["link"] = link.get_statistics()
 	recorder.stop()
 	statistics["recorded_rows"] = recorder.get_rows()
 	statistics["lost_rows"] = recorder.get_lost_rows()
@@ -91,19 +129,67 @@ func _run_scene(scene: Node) -> int:
 	return 0 if _write("_statistics.json", statistics) and _write("_periods.json", periods) else 1
 
 
-func _play(world: HapticWorld, stepped: bool) -> void:
+func _set_all(node: Node, properties: Dictionary) -> void:
+	for name: String in properties:
+		node.set(name, properties[name])
+
+
+func _is_networked(link: MMTLink) -> bool:
+	return link != null and link.scenario != MMTLink.SCENARIO_SINGLE
+
+
+func _is_operator(link: MMTLink) -> bool:
+	return _is_networked(link) and link.side == MMTLink.SIDE_OPERATOR
+
+
+func _rest_at(place: Vector3) -> HapticPath:
+	var way := HapticPath.new()
+	way.form = HapticPath.FORM_POINTS
+	way.points_positions = PackedVector3Array([place, place])
+	way.points_times = PackedFloat64Array([0.0, 1.0])
+	return way
+
+
+## Both sides hear each other, and the operator knows what there is; then the hand sets out.
+func _meet(link: MMTLink, device: HapticDevice) -> bool:
+	var bodies := link.get_parent().find_children("*", "PhysicsBody3D", true, false).size()
+	var deadline := Time.get_ticks_msec() + int(LONGEST_MEETING * 1000.0)
+	while not link.is_peer_connected() or link.get_statistics().objects < bodies:
+		if Time.get_ticks_msec() > deadline:
+			return false
+		await get_tree().process_frame
+	if _way != null:
+		device.path = _way
+	return true
+
+
+func _is_over(world: HapticWorld, link: MMTLink, begin: float) -> bool:
+	if _is_networked(link) and link.side == MMTLink.SIDE_TELEOPERATOR:
+		return link.get_state() in [MMTLink.STATE_LOST, MMTLink.STATE_LEFT]
+	return world.get_time() - begin >= float(_options.duration)
+
+
+func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 	var screenshots := Array(_options.screenshots.split_floats(",", false))
-	var duration := float(_options.duration)
 	var warmup := float(_options.warmup)
+	var begin := world.get_time()
+	var waits_for_touch: bool = _options.corrects == "touch"
+	var correction := link.correction_scheme if waits_for_touch else MMTLink.CORRECTION_NONE
+	if waits_for_touch:
+		link.correction_scheme = MMTLink.CORRECTION_NONE
+	var proxy := _first(world, "ProxyPointer") as ProxyPointer
 	# Nobody looks until a picture is taken, and a processor that draws is slow.
 	RenderingServer.render_loop_enabled = false
-	while world.get_time() < duration:
+	while not _is_over(world, link, begin):
 		await get_tree().process_frame
 		if stepped:
 			world.advance(1.0 / FRAMES_PER_SECOND)
-		elif warmup > 0.0 and world.get_time() >= warmup:
+		elif warmup > 0.0 and world.get_time() - begin >= warmup:
 			world.reset_statistics()
 			warmup = 0.0
+		if waits_for_touch and proxy.is_touching():
+			waits_for_touch = false
+			link.correction_scheme = correction
 		if not screenshots.is_empty() and world.get_time() >= screenshots[0]:
 			await _take_screenshot(screenshots.pop_front())
 

@@ -16,6 +16,9 @@ ArmState step_arm(const ArmSettings& arm, const ArmState& from, const HandSample
 }
 
 DeviceSample SimulatedArm::read(Nanoseconds now) {
+    if (changed_.refresh()) {
+        settings_ = changed_.front();
+    }
     if (!started_) {
         started_ = true;
         start_ = read_at_ = now;

@@ -4,6 +4,7 @@
 
 #include "core/ports/device.hpp"
 #include "devices/hand_path.hpp"
+#include "realtime/triple_buffer.hpp"
 
 namespace tactus {
 
@@ -28,7 +29,11 @@ ArmState step_arm(const ArmSettings& settings, const ArmState& from, const HandS
 class SimulatedArm final : public Device {
 public:
     // Needs a path that problem_with() finds nothing wrong with.
-    SimulatedArm(HandPath path, const ArmSettings& settings) : path_(std::move(path)), settings_(settings) {}
+    SimulatedArm(HandPath path, const ArmSettings& settings)
+        : path_(std::move(path)), settings_(settings), changed_(settings) {}
+
+    // Any one thread, any time: from the next tick on the arm is another one, where it is.
+    void change(const ArmSettings& settings) { changed_.publish(settings); }
 
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds, const Vec3& force) override { force_ = force; }
@@ -36,6 +41,7 @@ public:
 private:
     HandPath path_;
     ArmSettings settings_;
+    TripleBuffer<ArmSettings> changed_;
     ArmState arm_;
     Vec3 force_{0.0};  // held until the next one (unit: newtons)
     Nanoseconds start_ = 0;

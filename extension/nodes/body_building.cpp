@@ -115,10 +115,10 @@ BuiltBody build_body(const Session& session, const BodyPlan& plan, const Paralle
     for (const BuiltDraft& mesh : touched.empty() ? colliding : touched) {
         add_part(*touch, mesh.part);
     }
-    if (description.shapes.empty()) {
-        for (const BuiltDraft& mesh : touched) {
-            description.shapes.push_back(mesh.shape);
-        }
+    std::vector<PlacedShape>& touched_shapes =
+        description.shapes.empty() ? description.shapes : addition.touch_shapes;
+    for (const BuiltDraft& mesh : touched) {
+        touched_shapes.push_back(mesh.shape);
     }
     result.buildable = !touch->parts.empty();
     if (!result.buildable) {
@@ -135,6 +135,7 @@ BuiltBody build_body(const Session& session, const BodyPlan& plan, const Paralle
     description.linear_velocity = from_godot(plan.linear_velocity);
     description.angular_velocity = from_godot(plan.angular_velocity);
     result.body = session.prepare_body(addition, run);
+    result.addition = std::move(addition);
     return result;
 }
 

@@ -20,6 +20,7 @@ struct BodyPlan {
 };
 
 struct BuiltBody {
+    BodyAddition addition;              // what it was made from
     ReadyBody body;                     // body.error may be empty and the body still none: see `buildable`
     std::vector<std::string> problems;  // of single shapes; the rest of the body can still be touched
     bool buildable = false;

@@ -27,14 +27,10 @@ bool operator==(const CollisionLayers& a, const CollisionLayers& b) {
     return a.layer == b.layer && a.mask == b.mask;
 }
 
-PhysicsServer3D::BodyMode own_mode(const RigidBody3D& body) {
-    if (body.is_freeze_enabled()) {
-        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC
-                   ? PhysicsServer3D::BODY_MODE_KINEMATIC
-                   : PhysicsServer3D::BODY_MODE_STATIC;
-    }
-    return body.is_lock_rotation_enabled() ? PhysicsServer3D::BODY_MODE_RIGID_LINEAR
-                                           : PhysicsServer3D::BODY_MODE_RIGID;
+// Unlike any that another body has had: handles are given again.
+std::uint64_t next_revision() {
+    static std::uint64_t last = 0;
+    return ++last;
 }
 
 }  // namespace
@@ -124,6 +120,8 @@ void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
     }
     shown_from_ = context.takes_effect;
     values_ = job->plan.values;
+    addition_ = std::move(job->built.addition);
+    revision_ = next_revision();
     catch_up(session, job->plan);
 }
 
@@ -158,19 +156,24 @@ bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) 
 void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
     const BodyValues before = values_;
     values_ = read_values(*body(), defaults);
-    if (!same_values(values_.touch, before.touch) || values_.texture != before.texture) {
+    bool described_anew = false;
+    const auto changes = [&described_anew](bool differs) {
+        described_anew = described_anew || differs;
+        return differs;
+    };
+    if (changes(!same_values(values_.touch, before.touch) || values_.texture != before.texture)) {
         session.set_touch_material(handle_, values_.touch, values_.texture);
     }
-    if (!(values_.surface == before.surface)) {
+    if (changes(!(values_.surface == before.surface))) {
         session.set_body_surface(handle_, values_.surface);
     }
-    if (!(values_.layers == before.layers)) {
+    if (changes(!(values_.layers == before.layers))) {
         session.set_body_layers(handle_, values_.layers);
     }
-    if (values_.motion != before.motion) {
+    if (changes(values_.motion != before.motion)) {
         session.set_body_motion(handle_, values_.motion);
     }
-    if (values_.gravity_scale != before.gravity_scale) {
+    if (changes(values_.gravity_scale != before.gravity_scale)) {
         session.set_body_gravity_scale(handle_, values_.gravity_scale);
     }
     if (values_.constant_force != before.constant_force ||
@@ -178,10 +181,22 @@ void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
         session.set_body_push(handle_, from_godot(values_.constant_force),
                               from_godot(values_.constant_torque));
     }
-    if (values_.linear_damping != before.linear_damping ||
-        values_.angular_damping != before.angular_damping) {
+    if (changes(values_.linear_damping != before.linear_damping ||
+                values_.angular_damping != before.angular_damping)) {
         session.set_body_damping(handle_, values_.linear_damping, values_.angular_damping);
     }
+    if (described_anew) {
+        revision_ = next_revision();
+    }
+}
+
+BodyAddition BodyMirror::addition() const {
+    BodyAddition now = addition_;
+    put_into(now, values_);
+    now.description.pose = pose_of(place_);
+    now.description.linear_velocity = from_godot(linear_velocity_);
+    now.description.angular_velocity = from_godot(angular_velocity_);
+    return now;
 }
 
 void BodyMirror::send_motion(Session& session, double seconds, std::uint64_t takes_effect) {

@@ -35,6 +35,11 @@ public:
     // Brings the session up to date. What moved on Godot's side since the last call took `seconds` for it.
     void synchronise(Session& session, const MirrorContext& context, double seconds);
 
+    // Another one whenever the session's body is to be described anew (see addition()).
+    std::uint64_t revision() const { return revision_; }
+    // The session's body as it is now: what one like it is made from.
+    BodyAddition addition() const;
+
     // A twin of many triangles is built beside the loop; until it is ready the body is as it was before, or
     // absent.
     bool is_building() const { return job_ != nullptr; }
@@ -69,6 +74,8 @@ private:
 
     std::uint64_t id_;
     SessionHandle handle_ = no_handle;
+    BodyAddition addition_;  // that the twin was made from
+    std::uint64_t revision_ = 0;
     ShapeKey key_;
     std::uint64_t mesh_changes_ = 0;
     BodyMakings makings_;

@@ -87,6 +87,16 @@ bool is_rigid(const CollisionObject3D& body) {
     return Object::cast_to<RigidBody3D>(&body) != nullptr;
 }
 
+PhysicsServer3D::BodyMode own_mode(const RigidBody3D& body) {
+    if (body.is_freeze_enabled()) {
+        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC
+                   ? PhysicsServer3D::BODY_MODE_KINEMATIC
+                   : PhysicsServer3D::BODY_MODE_STATIC;
+    }
+    return body.is_lock_rotation_enabled() ? PhysicsServer3D::BODY_MODE_RIGID_LINEAR
+                                           : PhysicsServer3D::BODY_MODE_RIGID;
+}
+
 Motion motion_of(const CollisionObject3D& body) {
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
         if (!rigid->is_freeze_enabled()) {

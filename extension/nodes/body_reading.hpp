@@ -2,6 +2,8 @@
 #pragma once
 
 #include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <optional>
 #include <vector>
@@ -41,6 +43,8 @@ struct ShapeKey {
 bool is_solid_body(const godot::Object* object);
 
 bool is_rigid(const godot::CollisionObject3D& body);
+// As Godot's own physics would have it.
+godot::PhysicsServer3D::BodyMode own_mode(const godot::RigidBody3D& body);
 Motion motion_of(const godot::CollisionObject3D& body);
 
 HapticMesh* haptic_mesh_of(const godot::CollisionObject3D& body);

@@ -31,6 +31,7 @@ constexpr double even_scale = 1e-3;
 void HapticDevice::changed() {
     port_.reset();
     mouse_.reset();
+    arm_.reset();
     update_configuration_warnings();
 }
 
@@ -60,6 +61,39 @@ void HapticDevice::set_wheel_step(double meters) {
     wheel_step_ = meters;
 }
 
+void HapticDevice::arm_changed() {
+    if (arm_ != nullptr) {
+        arm_->change(arm_settings_);
+    }
+}
+
+void HapticDevice::set_arm_mass(double kilograms) {
+    if (!is_above_zero(kilograms)) {
+        refuse(*this, "arm_mass", kilograms, "a finite number above 0");
+        return;
+    }
+    arm_settings_.mass = kilograms;
+    arm_changed();
+}
+
+void HapticDevice::set_arm_damping(double newton_seconds_per_meter) {
+    if (!is_at_least_zero(newton_seconds_per_meter)) {
+        refuse(*this, "arm_damping", newton_seconds_per_meter, "a finite number, 0 or more");
+        return;
+    }
+    arm_settings_.damping = newton_seconds_per_meter;
+    arm_changed();
+}
+
+void HapticDevice::set_arm_stiffness(double newtons_per_meter) {
+    if (!is_at_least_zero(newtons_per_meter)) {
+        refuse(*this, "arm_stiffness", newtons_per_meter, "a finite number, 0 or more");
+        return;
+    }
+    arm_settings_.stiffness = newtons_per_meter;
+    arm_changed();
+}
+
 void HapticDevice::set_force_limit(double newtons) {
     if (!is_at_least_zero(newtons)) {
         refuse(*this, "force_limit", newtons, "a finite number, 0 or more");
@@ -79,11 +113,11 @@ Vector3 HapticDevice::get_force() const {
 }
 
 String HapticDevice::problem() const {
-    if (driver_ == DRIVER_PATH && path_.is_null()) {
+    if (follows_path() && path_.is_null()) {
         return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another "
                "driver";
     }
-    if (driver_ == DRIVER_PATH && !path_->get_problem().is_empty()) {
+    if (follows_path() && !path_->get_problem().is_empty()) {
         return "its path cannot be followed: " + path_->get_problem();
     }
     if (is_inside_tree() && get_global_transform().basis.determinant() == 0) {
@@ -127,6 +161,10 @@ std::shared_ptr<Device> HapticDevice::port() {
     }
     if (port_ == nullptr && driver_ == DRIVER_PATH) {
         port_ = std::make_shared<PathDevice>(path_->hand_path());
+    }
+    if (port_ == nullptr && driver_ == DRIVER_ARM) {
+        arm_ = std::make_shared<SimulatedArm>(path_->hand_path(), arm_settings_);
+        port_ = arm_;
     }
     if (port_ == nullptr && driver_ == DRIVER_MOUSE) {
         mouse_ = std::make_shared<MouseDevice>(MouseDevice::Settings{});
@@ -190,7 +228,9 @@ void HapticDevice::_notification(int what) {
 void HapticDevice::_validate_property(PropertyInfo& property) const {
     const bool of_path = property.name == StringName("path");
     const bool of_mouse = property.name == StringName("wheel_step");
-    if ((of_path && driver_ != DRIVER_PATH) || (of_mouse && driver_ != DRIVER_MOUSE)) {
+    const bool of_arm = String(property.name).begins_with("arm_");
+    if ((of_path && !follows_path()) || (of_mouse && driver_ != DRIVER_MOUSE) ||
+        (of_arm && driver_ != DRIVER_ARM)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }
 }
@@ -203,6 +243,14 @@ void HapticDevice::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_path_resource"), &HapticDevice::get_path_resource);
     ClassDB::bind_method(D_METHOD("set_wheel_step", "meters"), &HapticDevice::set_wheel_step);
     ClassDB::bind_method(D_METHOD("get_wheel_step"), &HapticDevice::get_wheel_step);
+    ClassDB::bind_method(D_METHOD("set_arm_mass", "kilograms"), &HapticDevice::set_arm_mass);
+    ClassDB::bind_method(D_METHOD("get_arm_mass"), &HapticDevice::get_arm_mass);
+    ClassDB::bind_method(D_METHOD("set_arm_damping", "newton_seconds_per_meter"),
+                         &HapticDevice::set_arm_damping);
+    ClassDB::bind_method(D_METHOD("get_arm_damping"), &HapticDevice::get_arm_damping);
+    ClassDB::bind_method(D_METHOD("set_arm_stiffness", "newtons_per_meter"),
+                         &HapticDevice::set_arm_stiffness);
+    ClassDB::bind_method(D_METHOD("get_arm_stiffness"), &HapticDevice::get_arm_stiffness);
     ClassDB::bind_method(D_METHOD("set_force_limit", "newtons"), &HapticDevice::set_force_limit);
     ClassDB::bind_method(D_METHOD("get_force_limit"), &HapticDevice::get_force_limit);
     ClassDB::bind_method(D_METHOD("set_clutch", "held"), &HapticDevice::set_clutch);
@@ -217,12 +265,22 @@ void HapticDevice::_bind_methods() {
                          DEFVAL(0.0));
     ClassDB::bind_method(D_METHOD("_path_changed"), &HapticDevice::changed);
 
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse"),
-                 "set_driver", "get_driver");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse,Simulated arm"),
+        "set_driver", "get_driver");
     ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "path", PROPERTY_HINT_RESOURCE_TYPE, "HapticPath"), "set_path",
                  "get_path_resource");
     ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "wheel_step", PROPERTY_HINT_RANGE, "0.001,0.1,0.001,suffix:m"),
                  "set_wheel_step", "get_wheel_step");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "arm_mass", PROPERTY_HINT_RANGE, "0.05,5,0.01,or_greater,suffix:kg"),
+        "set_arm_mass", "get_arm_mass");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "arm_damping", PROPERTY_HINT_RANGE, "0,100,0.1,or_greater,suffix:N s/m"),
+        "set_arm_damping", "get_arm_damping");
+    ADD_PROPERTY(
+        PropertyInfo(Variant::FLOAT, "arm_stiffness", PROPERTY_HINT_RANGE, "0,1000,1,or_greater,suffix:N/m"),
+        "set_arm_stiffness", "get_arm_stiffness");
     ADD_PROPERTY(
         PropertyInfo(Variant::FLOAT, "force_limit", PROPERTY_HINT_RANGE, "0,20,0.1,or_greater,suffix:N"),
         "set_force_limit", "get_force_limit");
@@ -230,6 +288,7 @@ void HapticDevice::_bind_methods() {
 
     BIND_ENUM_CONSTANT(DRIVER_PATH);
     BIND_ENUM_CONSTANT(DRIVER_MOUSE);
+    BIND_ENUM_CONSTANT(DRIVER_ARM);
 }
 
 }  // namespace tactus

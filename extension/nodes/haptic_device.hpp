@@ -8,6 +8,7 @@
 
 #include "core/ports/device.hpp"
 #include "devices/mouse_device.hpp"
+#include "devices/simulated_arm.hpp"
 #include "nodes/haptic_path.hpp"
 #include "session/session_types.hpp"
 
@@ -19,7 +20,7 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
-    enum Driver { DRIVER_PATH, DRIVER_MOUSE };
+    enum Driver { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM };
 
     void set_driver(Driver driver);
     Driver get_driver() const { return driver_; }
@@ -27,6 +28,12 @@ public:
     godot::Ref<HapticPath> get_path_resource() const { return path_; }
     void set_wheel_step(double meters);
     double get_wheel_step() const { return wheel_step_; }
+    void set_arm_mass(double kilograms);
+    double get_arm_mass() const { return arm_settings_.mass; }
+    void set_arm_damping(double newton_seconds_per_meter);
+    double get_arm_damping() const { return arm_settings_.damping; }
+    void set_arm_stiffness(double newtons_per_meter);
+    double get_arm_stiffness() const { return arm_settings_.stiffness; }
     void set_force_limit(double newtons);
     double get_force_limit() const { return force_limit_; }
     void set_clutch(bool held) { clutch_ = held; }
@@ -61,15 +68,19 @@ protected:
 private:
     godot::String problem() const;
     void changed();
+    void arm_changed();
+    bool follows_path() const { return driver_ == DRIVER_PATH || driver_ == DRIVER_ARM; }
 
     Driver driver_ = DRIVER_PATH;
     godot::Ref<HapticPath> path_;
     double wheel_step_ = 0.01;
+    ArmSettings arm_settings_;
     double force_limit_ = 8.0;
     bool clutch_ = false;
 
     std::shared_ptr<Device> port_;
     std::shared_ptr<MouseDevice> mouse_;  // the same as port_ where the driver is the mouse
+    std::shared_ptr<SimulatedArm> arm_;   // the same as port_ where the driver is the arm
     Vec3 mouse_target_{0.0};              // in the scene (unit: meters)
     DeviceState state_;
 };

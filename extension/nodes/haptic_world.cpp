@@ -11,6 +11,7 @@
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/mmt_link.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/world_run.hpp"
@@ -194,9 +195,9 @@ HapticWorld* HapticWorld::of(const Node* node) {
     return running.empty() ? nullptr : running.front();
 }
 
-const HapticWorld* HapticWorld::world_above() const {
-    for (const Node* above = get_parent(); above != nullptr; above = above->get_parent()) {
-        if (const auto* world = Object::cast_to<HapticWorld>(above)) {
+HapticWorld* HapticWorld::above(const Node* node) {
+    for (Node* above = node->get_parent(); above != nullptr; above = above->get_parent()) {
+        if (auto* world = Object::cast_to<HapticWorld>(above)) {
             return world;
         }
     }
@@ -204,7 +205,7 @@ const HapticWorld* HapticWorld::world_above() const {
 }
 
 void HapticWorld::start() {
-    if (const HapticWorld* outer = world_above()) {
+    if (const HapticWorld* outer = above(this)) {
         UtilityFunctions::push_warning(
             name_of(*this), ": it stands inside another HapticWorld, ", name_of(*outer),
             ", and stays inactive; what is in it belongs to the outer one. Remove one of "
@@ -222,6 +223,9 @@ void HapticWorld::start() {
     settings.loop.realtime.fifo_priority = realtime_priority_;
     settings.loop.realtime.lock_memory = lock_memory_;
     settings.loop.realtime.cpu = processor_;
+    settings.link = MMTLink::of(*this);
+    // Both sides of a teleoperation have to come to the same result.
+    settings.session.full_rate_bodies = settings.link != nullptr ? 0 : settings.session.full_rate_bodies;
     run_ = std::make_unique<WorldRun>(*this, settings);
     Roll<HapticWorld>::enter(this);
     owed_seconds_ = 0.0;
@@ -306,6 +310,11 @@ void HapticWorld::node_removed(Node* node) {
         run_->forget(proxy);
     } else if (auto* recorder = Object::cast_to<HapticRecorder>(node)) {
         run_->forget(recorder);
+    } else if (auto* link = Object::cast_to<MMTLink>(node)) {
+        run_->forget(link);
+        if (link->is_networked() && is_ancestor_of(link)) {
+            call_deferred("_link_changed");
+        }
     } else if (is_mirrored(node)) {
         run_->bodies_changed();
     }
@@ -458,7 +467,7 @@ PackedStringArray HapticWorld::get_problems() const {
 
 PackedStringArray HapticWorld::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    if (const HapticWorld* outer = world_above()) {
+    if (const HapticWorld* outer = above(this)) {
         warnings.push_back("This HapticWorld stands inside another one, '" + String(outer->get_name()) +
                            "', and stays inactive: remove one of the two, or put them side by side.");
         return warnings;
@@ -500,6 +509,7 @@ void HapticWorld::_bind_methods() {
     ClassDB::bind_method(D_METHOD("_node_added", "node"), &HapticWorld::node_added);
     ClassDB::bind_method(D_METHOD("_node_removed", "node"), &HapticWorld::node_removed);
     ClassDB::bind_method(D_METHOD("_shape_changed"), &HapticWorld::shape_changed);
+    ClassDB::bind_method(D_METHOD("_link_changed"), &HapticWorld::link_changed);
 
     ADD_PROPERTY(PropertyInfo(Variant::INT, "tick_rate", PROPERTY_HINT_RANGE,
                               "100,4000,1,or_less,or_greater,suffix:Hz"),

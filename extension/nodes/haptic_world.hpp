@@ -61,6 +61,10 @@ public:
 
     // The running world above the node; else the first one that runs anywhere; null where none does.
     static HapticWorld* of(const godot::Node* node);
+    // The nearest one above, whether it runs or not.
+    static HapticWorld* above(const godot::Node* node);
+    // It becomes a side of a teleoperation, or none, or another one.
+    void link_changed() { restart(); }
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder* recorder);
     TouchMaterial default_touch() const;
@@ -71,7 +75,6 @@ protected:
     void _notification(int what);
 
 private:
-    const HapticWorld* world_above() const;
     void start();
     void stop();
     void restart();

@@ -9,6 +9,7 @@
 #include "nodes/haptic_path.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_world.hpp"
+#include "nodes/mmt_link.hpp"
 #include "nodes/proxy_pointer.hpp"
 
 namespace tactus {
@@ -25,6 +26,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticDevice);
     GDREGISTER_CLASS(ProxyPointer);
     GDREGISTER_CLASS(HapticRecorder);
+    GDREGISTER_CLASS(MMTLink);
     GDREGISTER_CLASS(HapticWorld);
 }
 

@@ -9,6 +9,7 @@
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_world.hpp"
+#include "nodes/mmt_link.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "realtime/clock.hpp"
@@ -34,6 +35,17 @@ double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
 }
 
+// Where another hand is put in the place of the device's own.
+class StandInDevice final : public Device {
+public:
+    DeviceSample read(Nanoseconds) override {
+        DeviceSample sample;
+        sample.connected = true;
+        return sample;
+    }
+    void write(Nanoseconds, const Vec3&) override {}
+};
+
 bool same(const Workspace& a, const Workspace& b) {
     return a.pose.position == b.pose.position && a.pose.rotation == b.pose.rotation && a.scale == b.scale &&
            a.force_limit == b.force_limit && a.clutch == b.clutch;
@@ -54,6 +66,11 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     mirror_by_handle_.resize(settings.session.most_bodies);
+    if (settings_.link != nullptr) {
+        link_ = std::make_unique<LinkRun>(*settings_.link, world_, session_,
+                                          settings_.real_time ? &clock_offset_ : nullptr);
+        stand_in_ = std::make_shared<StandInDevice>();
+    }
     if (settings_.baseline) {
         baseline_ = std::make_unique<BaselineLoop>();
     }
@@ -61,9 +78,16 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
 
 WorldRun::~WorldRun() {
     stop_loop();
+    if (link_ != nullptr) {
+        link_->leave();
+        tick(next_time_);
+    }
     session_.rest();
     for (const auto& mirror : mirrors_) {
         mirror->release(session_);
+    }
+    if (link_ != nullptr && link_->is_operator()) {
+        link_->view()->release();
     }
     for (const DeviceLink& link : devices_) {
         link.node->clear_state();
@@ -146,6 +170,7 @@ TickStatus WorldRun::take_status() {
 
 void WorldRun::synchronise(double seconds) {
     session_.collect();  // trees that the loop has let go of can be refitted
+    synchronise_link();
     synchronise_bodies(seconds);
     synchronise_joints();
     synchronise_devices();
@@ -197,6 +222,10 @@ void WorldRun::find_nodes() {
     std::vector<CollisionObject3D*> bodies;
     std::vector<Joint3D*> joints;
     collect_nodes(&world_, bodies, joints);
+    if (link_ != nullptr && link_->is_operator()) {
+        link_->view()->hold_still(bodies);
+        return;
+    }
     match(joints_, joints);
     match(mirrors_, bodies);
     mirror_by_id_.clear();
@@ -277,7 +306,9 @@ void WorldRun::drop_device(DeviceLink& link) {
 }
 
 void WorldRun::connect_device(DeviceLink& link) {
-    const std::shared_ptr<Device> port = link.node->port();
+    // At the far side the hand is the operator's: what is plugged in here has no part in it.
+    const bool stands_in = link_ != nullptr && !link_->is_operator();
+    const std::shared_ptr<Device> port = stands_in ? stand_in_ : link.node->port();
     if (port != link.port) {
         drop_device(link);
         link.port = port;
@@ -345,6 +376,20 @@ void WorldRun::synchronise_proxies() {
     }
 }
 
+// --- the far side
+// ----------------------------------------------------------------------------------------------------
+
+void WorldRun::synchronise_link() {
+    if (link_ == nullptr) {
+        return;
+    }
+    const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
+    link_->synchronise(workers_, {now, !loop_.running(), !settings_.real_time});
+    if (!link_->is_operator()) {
+        link_->tell(mirrors_, session_.snapshot(), now);
+    }
+}
+
 // --- recording
 // -------------------------------------------------------------------------------------------------------
 
@@ -389,8 +434,7 @@ void WorldRun::synchronise_recorder() {
                                    [node](const ProxyLink& proxy) { return proxy.node == node; });
     const SessionHandle proxy = node != nullptr && link != proxies_.end() ? link->handle : no_handle;
     const Node* object_node = recorder_->object_node();
-    BodyMirror* mirror = object_node != nullptr ? mirror_of(object_node->get_instance_id()) : nullptr;
-    const SessionHandle object = mirror != nullptr ? mirror->handle() : no_handle;
+    const SessionHandle object = body_of(object_node);
     if (const String problem = recorder_->problem(); !problem.is_empty()) {
         complaints_.say(*recorder_, problem);
     }
@@ -442,6 +486,12 @@ void WorldRun::forget(HapticRecorder* recorder) {
     recorder_ = nullptr;
 }
 
+void WorldRun::forget(MMTLink* link) {
+    if (link_ != nullptr && link_->is_of(link)) {
+        link_->forget_node();
+    }
+}
+
 void WorldRun::finish(HapticRecorder* recorder) {
     if (recorder == recorder_) {
         drain();
@@ -461,29 +511,50 @@ BodyMirror* WorldRun::mirror_of_handle(SessionHandle handle) {
     return handle < mirror_by_handle_.size() ? mirror_by_handle_[handle] : nullptr;
 }
 
+SessionHandle WorldRun::body_of(const Node* node) {
+    if (node == nullptr) {
+        return no_handle;
+    }
+    if (link_ != nullptr && link_->is_operator()) {
+        return link_->view()->body_of(node->get_instance_id());
+    }
+    const BodyMirror* mirror = mirror_of(node->get_instance_id());
+    return mirror != nullptr ? mirror->handle() : no_handle;
+}
+
+std::uint64_t WorldRun::node_of(SessionHandle body) {
+    if (link_ != nullptr && link_->is_operator()) {
+        return link_->view()->node_of(body);
+    }
+    const BodyMirror* mirror = mirror_of_handle(body);
+    return mirror != nullptr ? mirror->id() : 0;
+}
+
 ProxyPointer::BodyIds WorldRun::body_ids(const ProxyState& state) {
     ProxyPointer::BodyIds ids{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(state.contact_count); ++i) {
-        const BodyMirror* mirror = mirror_of_handle(state.bodies[i]);
-        ids[i] = mirror != nullptr ? mirror->id() : 0;
+        ids[i] = node_of(state.bodies[i]);
     }
     return ids;
 }
 
 void WorldRun::show() {
     drain();
-    if (!session_.refresh()) {
-        return;
+    const LinkRun::News news = link_ != nullptr ? link_->take_news() : LinkRun::News{};
+    if (session_.refresh()) {
+        const SessionSnapshot& snapshot = session_.snapshot();
+        show_bodies(snapshot);
+        show_devices(snapshot);
+        show_proxies(snapshot);
     }
-    const SessionSnapshot& snapshot = session_.snapshot();
-    show_bodies(snapshot);
-    show_devices(snapshot);
-    show_proxies(snapshot);
+    news.deliver();
 }
 
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
     for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-        if (BodyMirror* mirror = mirror_of_handle(snapshot.bodies[i].handle)) {
+        if (link_ != nullptr && link_->is_operator()) {
+            link_->view()->apply(snapshot.bodies[i]);
+        } else if (BodyMirror* mirror = mirror_of_handle(snapshot.bodies[i].handle)) {
             mirror->apply(snapshot.bodies[i], snapshot.tick);
         }
     }
@@ -523,7 +594,7 @@ void WorldRun::show_proxies(const SessionSnapshot& snapshot) {
 }
 
 std::vector<std::string> WorldRun::problems() const {
-    std::vector<std::string> all;
+    std::vector<std::string> all = link_ != nullptr ? link_->problems() : std::vector<std::string>{};
     for (const auto& mirror : mirrors_) {
         const CollisionObject3D* body = mirror->body();
         for (const std::string& problem : mirror->problems()) {

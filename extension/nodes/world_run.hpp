@@ -13,6 +13,7 @@
 
 #include "nodes/body_mirror.hpp"
 #include "nodes/joint_mirror.hpp"
+#include "nodes/link_run.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "realtime/baseline_loop.hpp"
@@ -24,12 +25,14 @@ namespace tactus {
 class HapticDevice;
 class HapticRecorder;
 class HapticWorld;
+class MMTLink;
 
 struct RunSettings {
     SessionSettings session;
     TickLoopSettings loop;
     bool real_time = true;
-    bool baseline = false;  // a bare loop runs beside
+    bool baseline = false;    // a bare loop runs beside
+    MMTLink* link = nullptr;  // null: nobody at a far side
 };
 
 class WorldRun {
@@ -57,6 +60,7 @@ public:
     void forget(HapticDevice* device);
     void forget(ProxyPointer* proxy);
     void forget(HapticRecorder* recorder);
+    void forget(MMTLink* link);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder* recorder);
 
@@ -66,7 +70,9 @@ public:
     BaselineLoop* baseline() { return baseline_.get(); }
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
-    std::size_t body_count() const { return mirrors_.size(); }
+    std::size_t body_count() const {
+        return link_ && link_->is_operator() ? link_->body_count() : mirrors_.size();
+    }
     std::size_t trees_building() const;         // bodies that wait for theirs
     std::vector<std::string> problems() const;  // each names its node
 
@@ -97,12 +103,15 @@ private:
     void synchronise_devices();
     void synchronise_proxies();
     void synchronise_recorder();
+    void synchronise_link();
     void connect_device(DeviceLink& link);
     void drop_device(DeviceLink& link);
     void want_trace();
     void drain();
     BodyMirror* mirror_of(std::uint64_t id);
     BodyMirror* mirror_of_handle(SessionHandle handle);
+    SessionHandle body_of(const godot::Node* node);
+    std::uint64_t node_of(SessionHandle body);
     SessionHandle device_handle(const HapticDevice* node) const;
     ProxyPointer::BodyIds body_ids(const ProxyState& state);
     void show_bodies(const SessionSnapshot& snapshot);
@@ -111,6 +120,9 @@ private:
 
     HapticWorld& world_;
     RunSettings settings_;
+    std::atomic<Nanoseconds> clock_offset_{
+        0};                          // a tick's time on the monotonic clock less its time in the session
+    std::unique_ptr<LinkRun> link_;  // null: nobody at a far side. Above the session, whose side uses it
     Session session_;
     Workers workers_;  // below the session, which their jobs use
     std::unique_ptr<TickTrace> trace_;
@@ -121,8 +133,6 @@ private:
     std::atomic<std::uint64_t> ticks_{0};
     Nanoseconds next_time_ = 0;  // of the session, for the next tick
     bool loop_is_new_ = true;
-    std::atomic<Nanoseconds> clock_offset_{
-        0};  // a tick's time on the monotonic clock less its time in the session
     Nanoseconds epoch_of_monotonic_clock_;  // its zero, since the epoch
     TickStatus stepped_status_ = 0;
 
@@ -138,6 +148,7 @@ private:
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
     std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
+    std::shared_ptr<Device> stand_in_;            // far side: the hand is the operator's
     BodyDefaults defaults_;
     Complaints complaints_;
 };

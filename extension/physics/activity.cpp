@@ -10,6 +10,7 @@
 #include "physics/collision_layers.hpp"
 #include "physics/far_islands.hpp"
 #include "physics/memory_recorder.hpp"
+#include "physics/sound_places.hpp"
 
 namespace tactus {
 
@@ -86,8 +87,10 @@ void ActivityListener::OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) 
     far_.release(woken, true);
     journal_.note(woken);
     trees_.may_differ(id);
-    if (in_step_)
+    if (in_step_) {
         moved_.push_back({id.GetIndexAndSequenceNumber()});
+        places_.keep(woken);
+    }
 }
 
 void ActivityListener::OnBodyDeactivated(const JPH::BodyID& id, JPH::uint64) {

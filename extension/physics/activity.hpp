@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/jolt.hpp"
+#include "physics/memory_recorder.hpp"
 #include "physics/physics_world.hpp"
 
 #include <Jolt/Physics/Body/BodyActivationListener.h>
@@ -22,6 +23,7 @@ class PhysicsSystem;
 namespace tactus {
 
 class FarIslands;
+class SoundPlaces;
 struct BodyRecord;
 
 // Bodies that woke or fell asleep move to the other tree a few a step, so that a thousand falling asleep at
@@ -63,11 +65,9 @@ public:
     void restart(std::uint64_t serial);
 
 private:
-    // Jolt's whole state of one body; 197 bytes in 5.6.0 with double precision.
-    static constexpr std::size_t state_bytes = 232;
     struct Entry {
         JPH::BodyID id;
-        std::array<std::byte, state_bytes> state;
+        std::array<std::byte, most_bytes_of_a_body> state;
     };
 
     JPH::PhysicsSystem& system_;
@@ -78,8 +78,9 @@ private:
 
 class ActivityListener final : public JPH::BodyActivationListener {
 public:
-    ActivityListener(TreeKeeper& trees, WakeJournal& journal, FarIslands& far, std::vector<BodyId>& moved)
-        : trees_(trees), journal_(journal), far_(far), moved_(moved) {}
+    ActivityListener(TreeKeeper& trees, WakeJournal& journal, FarIslands& far, SoundPlaces& places,
+                     std::vector<BodyId>& moved)
+        : trees_(trees), journal_(journal), far_(far), places_(places), moved_(moved) {}
 
     // What wakes during a step is part of what the step moved.
     void in_step(bool begins) { in_step_ = begins; }
@@ -91,6 +92,7 @@ private:
     TreeKeeper& trees_;
     WakeJournal& journal_;
     FarIslands& far_;
+    SoundPlaces& places_;
     std::vector<BodyId>& moved_;
     bool in_step_ = false;
 };

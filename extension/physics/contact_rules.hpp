@@ -4,6 +4,7 @@
 
 #include "physics/collision_layers.hpp"
 #include "physics/jolt.hpp"
+#include "physics/limits.hpp"
 
 #include <Jolt/Physics/Body/Body.h>
 #include <Jolt/Physics/Collision/ContactListener.h>
@@ -12,10 +13,12 @@ namespace tactus {
 
 // Jolt keeps one number for each; a negative one stands for rough or absorbent, as inside Godot.
 inline float stored_friction(const SurfaceMaterial& material) {
-    return static_cast<float>(material.rough ? -material.friction : material.friction);
+    const double friction = std::min(material.friction, limits::most_friction);
+    return static_cast<float>(material.rough ? -friction : friction);
 }
 inline float stored_restitution(const SurfaceMaterial& material) {
-    return static_cast<float>(material.absorbent ? -material.restitution : material.restitution);
+    const double restitution = std::min(material.restitution, 1.0);
+    return static_cast<float>(material.absorbent ? -restitution : restitution);
 }
 
 float combined_friction(const JPH::Body& a, const JPH::SubShapeID&, const JPH::Body& b,

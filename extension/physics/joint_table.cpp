@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "physics/jolt_units.hpp"
+#include "physics/limits.hpp"
 
 namespace tactus {
 
@@ -48,10 +49,12 @@ JPH::TwoBodyConstraint* hinge(const JointDescription& joint, JPH::Body& first, J
     settings->mLimitsMin = static_cast<float>(-half);
     settings->mLimitsMax = static_cast<float>(half);
     if (joint.motor_torque > 0.0)
-        settings->mMotorSettings.SetTorqueLimit(units::area(joint.motor_torque));
+        settings->mMotorSettings.SetTorqueLimit(
+            units::area(limits::cut(joint.motor_torque, limits::strongest)));
     auto* constraint = static_cast<JPH::HingeConstraint*>(settings->Create(first, second));
     if (joint.motor_torque > 0.0) {
-        constraint->SetTargetAngularVelocity(static_cast<float>(joint.motor_speed));
+        constraint->SetTargetAngularVelocity(
+            static_cast<float>(limits::cut(joint.motor_speed, limits::fastest_spin)));
         constraint->SetMotorState(JPH::EMotorState::Velocity);
     }
     return constraint;
@@ -71,8 +74,9 @@ JPH::TwoBodyConstraint* six_axes(const JointDescription& joint, JPH::Body& first
         else if (range.lower == 0.0 && range.upper == 0.0)
             settings->MakeFixedAxis(which);
         else
-            settings->SetLimitedAxis(which, static_cast<float>(range.lower * to_jolt),
-                                     static_cast<float>(range.upper * to_jolt));
+            settings->SetLimitedAxis(
+                which, static_cast<float>(limits::cut(range.lower, limits::farthest) * to_jolt),
+                static_cast<float>(limits::cut(range.upper, limits::farthest) * to_jolt));
     };
     const bool slider = joint.kind == JointKind::Slider;
     for (int i = 0; i < 3; ++i) {
@@ -99,9 +103,8 @@ JPH::TwoBodyConstraint* create(const JointDescription& joint, JPH::Body& first, 
 }  // namespace
 
 std::string wrong_in(const JointDescription& joint) {
-    const Vec3& p = joint.frame.position;
-    if (!std::isfinite(p.x + p.y + p.z) || !(std::abs(glm::length(joint.frame.rotation) - 1.0) < 1e-3))
-        return "the joint's transform is not finite or holds a scale; reset it";
+    if (!limits::is_pose(joint.frame))
+        return "the joint's transform is not finite, holds a scale or is more than 10,000 km away; reset it";
     for (const auto& ranges : {joint.linear, joint.angular})
         for (const JointRange& range : ranges)
             if (!std::isfinite(range.lower + range.upper))
@@ -152,9 +155,14 @@ void JointTable::remove(Joint& joint) {
 
 void JointTable::remove_all_of(const JPH::Body& body) {
     for (Joint& joint : joints_)
-        if (joint.constraint != nullptr &&
-            (joint.constraint->GetBody1() == &body || joint.constraint->GetBody2() == &body))
+        if (joint.holds(body))
             remove(joint);
+}
+
+void JointTable::forget_impulses_of(const JPH::Body& body) {
+    for (const Joint& joint : joints_)
+        if (joint.holds(body))
+            joint.constraint->ResetWarmStart();
 }
 
 void JointTable::shape_changed(const JPH::Body& body, JPH::Vec3Arg way) {

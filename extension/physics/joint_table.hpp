@@ -25,6 +25,7 @@ public:
     JointId add(const JointDescription& description, JPH::Body& first, JPH::Body& second);
     bool remove(JointId id);
     void remove_all_of(const JPH::Body& body);
+    void forget_impulses_of(const JPH::Body& body);  // of the last step, which the next would begin with
 
     // The centre of mass of a body moved within it.
     void shape_changed(const JPH::Body& body, JPH::Vec3Arg way);
@@ -41,6 +42,11 @@ private:
         JPH::CollisionGroup::GroupID second = 0;
         bool bodies_collide = true;
         std::uint32_t generation = 0;
+
+        bool holds(const JPH::Body& body) const {
+            return constraint != nullptr &&
+                   (constraint->GetBody1() == &body || constraint->GetBody2() == &body);
+        }
     };
 
     void remove(Joint& joint);

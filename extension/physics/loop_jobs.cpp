@@ -17,16 +17,17 @@ JPH::JobSystem::JobHandle LoopJobs::CreateJob(const char* name, JPH::ColorArg co
         std::abort();  // PhysicsWorld makes room for more than a step can have
     Place* place = free_.back();
     free_.pop_back();
-    Job* job = new (place->bytes) Job(name, color, this, work, dependencies);
-    JobHandle handle(job);
+    JobHandle handle(new (place->job) Job(name, color, this, no_work_, dependencies));
     if (dependencies == 0)
-        job->Execute();
+        work();
+    else
+        place->work = work;
     return handle;
 }
 
 void LoopJobs::FreeJob(Job* job) {
     job->~Job();
-    free_.push_back(reinterpret_cast<Place*>(job));
+    free_.push_back(&place_of(job));
 }
 
 }  // namespace tactus

@@ -1,7 +1,9 @@
 // Jolt's jobs, each carried out at once by the thread that made it.
 //
-// As Jolt's own single-threaded system, but with a plain stack of free places instead of a lock-free list: of
-// the 3.5 us that a step with one free body takes, making and freeing two dozen jobs there is a quarter.
+// As Jolt's own single-threaded system, but without what only several threads need: of the 3.5 us that a step
+// with one free body takes, making, running and freeing two dozen jobs there is a third. Free places are a
+// plain stack in place of a lock-free list, and the work stands beside its job: Job::Execute() would wrap it
+// in three atomic exchanges, which nobody looks at.
 #pragma once
 
 #include <cstddef>
@@ -26,10 +28,10 @@ public:
     void WaitForJobs(Barrier*) override {}
 
 protected:
-    void QueueJob(Job* job) override { job->Execute(); }
+    void QueueJob(Job* job) override { place_of(job).work(); }
     void QueueJobs(Job** jobs, JPH::uint count) override {
         for (JPH::uint i = 0; i < count; ++i)
-            jobs[i]->Execute();
+            place_of(jobs[i]).work();
     }
     void FreeJob(Job* job) override;
 
@@ -44,11 +46,14 @@ private:
         void OnJobFinished(Job*) override {}
     };
 
-    struct alignas(Job) Place {
-        std::byte bytes[sizeof(Job)];
+    struct Place {
+        alignas(Job) std::byte job[sizeof(Job)];  // first: a job's address is its place's
+        JobFunction work;
     };
+    static Place& place_of(Job* job) { return *reinterpret_cast<Place*>(job); }
 
     std::vector<Place> places_;
+    const JobFunction no_work_;
     std::vector<Place*> free_;  // a stack
     NothingToWaitFor barrier_;
 };

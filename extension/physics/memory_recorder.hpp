@@ -11,6 +11,9 @@
 
 namespace tactus {
 
+// Jolt's whole state of one body; 197 bytes in 5.6.0 with double precision.
+constexpr std::size_t most_bytes_of_a_body = 232;
+
 class MemoryWriter final : public JPH::StateRecorder {
 public:
     explicit MemoryWriter(std::span<std::byte> memory) : memory_(memory) {}

@@ -9,6 +9,7 @@
 
 #include "physics/jolt_runtime.hpp"
 #include "physics/jolt_units.hpp"
+#include "physics/limits.hpp"
 #include "physics/world_state.hpp"
 
 namespace tactus {
@@ -31,6 +32,17 @@ JPH::EMotionType motion_type(Motion motion) {
 
 Motion motion_of(const JPH::Body& body) {
     return body.IsDynamic() ? Motion::Dynamic : body.IsKinematic() ? Motion::Kinematic : Motion::Static;
+}
+
+// Where a force can act on the body.
+bool in_reach(const JPH::Body& body, const Vec3& point) {
+    return glm::distance(point, units::position(body.GetCenterOfMassPosition())) <= limits::longest_arm;
+}
+
+// A force of no length has no direction.
+bool is_sound(const SpringForce& spring) {
+    return limits::is_number(spring.force) && glm::length(spring.force) >= limits::weakest &&
+           limits::is_number(spring.hand_velocity) && spring.damping >= 0.0;
 }
 
 Pose pose_of(const JPH::Body& body) {
@@ -166,13 +178,15 @@ std::size_t PhysicsWorld::body_count() const {
 }
 
 void PhysicsWorld::set_gravity(const Vec3& gravity) {
-    impl_->settings.gravity = gravity;
-    impl_->system.SetGravity(units::vector(gravity));
+    if (!limits::is_number(gravity))
+        return;
+    impl_->settings.gravity = limits::cut(gravity, limits::most_gravity);
+    impl_->system.SetGravity(units::vector(impl_->settings.gravity));
 }
 
 void PhysicsWorld::set_pose(BodyId id, const Pose& pose) {
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr)
+    if (body == nullptr || !limits::is_pose(pose))
         return;
     const LoopMemoryScope scope(impl_->memory);
     // A still body's place is remembered as if it had woken.
@@ -187,7 +201,7 @@ void PhysicsWorld::set_pose(BodyId id, const Pose& pose) {
 
 void PhysicsWorld::move_to(BodyId id, const Pose& pose, double seconds) {
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr || body->IsStatic() || !(seconds > 0.0))
+    if (body == nullptr || body->IsStatic() || !limits::is_pose(pose) || !(seconds >= limits::shortest_way))
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
@@ -197,11 +211,13 @@ void PhysicsWorld::move_to(BodyId id, const Pose& pose, double seconds) {
 
 void PhysicsWorld::set_velocity(BodyId id, const Vec3& linear, const Vec3& angular) {
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr || body->IsStatic())
+    if (body == nullptr || body->IsStatic() || !limits::is_number(linear) || !limits::is_number(angular))
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
-    impl_->bodies().SetLinearAndAngularVelocity(body->GetID(), units::vector(linear), units::plain(angular));
+    impl_->bodies().SetLinearAndAngularVelocity(body->GetID(),
+                                                units::vector(limits::cut(linear, limits::fastest)),
+                                                units::plain(limits::cut(angular, limits::fastest_spin)));
 }
 
 bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
@@ -220,7 +236,8 @@ bool PhysicsWorld::set_motion(BodyId id, Motion motion) {
 }
 
 void PhysicsWorld::set_material(BodyId id, const SurfaceMaterial& material) {
-    if (JPH::Body* body = impl_->find(id)) {
+    JPH::Body* body = impl_->find(id);
+    if (body != nullptr && material.friction >= 0.0 && material.restitution >= 0.0) {
         body->SetFriction(stored_friction(material));
         body->SetRestitution(stored_restitution(material));
     }
@@ -236,9 +253,10 @@ void PhysicsWorld::set_damping(BodyId id, double linear, double angular) {
 
 void PhysicsWorld::set_gravity_scale(BodyId id, double scale) {
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr || !body->CanBeKinematicOrDynamic())
+    if (body == nullptr || !body->CanBeKinematicOrDynamic() || std::isnan(scale))
         return;
-    body->GetMotionPropertiesUnchecked()->SetGravityFactor(static_cast<float>(scale));
+    body->GetMotionPropertiesUnchecked()->SetGravityFactor(
+        static_cast<float>(limits::cut(scale, limits::most_gravity_scale)));
     wake(id);
 }
 
@@ -292,11 +310,13 @@ void PhysicsWorld::sleep(BodyId id) {
 
 void PhysicsWorld::apply_force(BodyId id, const Vec3& force, const Vec3& world_point) {
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr || !body->IsDynamic() || force == Vec3(0.0))
+    if (body == nullptr || !body->IsDynamic() || force == Vec3(0.0) || !limits::is_number(force) ||
+        !in_reach(*body, world_point))
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
-    impl_->bodies().AddForce(body->GetID(), units::vector(force), units::position(world_point));
+    impl_->bodies().AddForce(body->GetID(), units::vector(limits::cut(force, limits::strongest)),
+                             units::position(world_point));
 }
 
 void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
@@ -305,7 +325,7 @@ void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
         return;
     }
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr || !body->IsDynamic() || spring.force == Vec3(0.0))
+    if (body == nullptr || !body->IsDynamic() || !is_sound(spring) || !in_reach(*body, spring.point))
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
@@ -314,11 +334,11 @@ void PhysicsWorld::apply_spring_force(BodyId id, const SpringForce& spring) {
 
 void PhysicsWorld::apply_torque(BodyId id, const Vec3& torque) {
     JPH::Body* body = impl_->find(id);
-    if (body == nullptr || !body->IsDynamic() || torque == Vec3(0.0))
+    if (body == nullptr || !body->IsDynamic() || torque == Vec3(0.0) || !limits::is_number(torque))
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->wake(*body);
-    impl_->bodies().AddTorque(body->GetID(), units::torque(torque));
+    impl_->bodies().AddTorque(body->GetID(), units::torque(limits::cut(torque, limits::strongest)));
 }
 
 std::size_t PhysicsWorld::awake_count() const {

@@ -67,6 +67,7 @@ enum StepStatus : std::uint32_t {
     step_pairs_full = 1u << 1,     // raise max_touching_pairs; some bodies passed through others
     step_contacts_full = 1u << 2,  // raise max_contacts; likewise
     step_memory_full = 1u << 3,    // the world's memory was used up and the system's had to help
+    step_body_lost = 1u << 4,  // a body left the range of numbers and was put back, asleep (sound_places.hpp)
 };
 
 class PhysicsWorld {
@@ -164,6 +165,10 @@ public:
     // were added, removed, reshaped or frozen since, or when more bodies have woken than
     // `remembered_wakings`.
     bool restore(std::span<const std::byte> snapshot);
+
+    // One body as it is in another world that was made by the same calls, to the last bit: place, velocities,
+    // sleep. Contacts and joints stay as they are here. Nothing where one of the worlds has no such body.
+    void take_state(BodyId id, const PhysicsWorld& other);
 
     // --- looking at it
 

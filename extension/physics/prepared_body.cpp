@@ -12,6 +12,7 @@
 #include "physics/contact_rules.hpp"
 #include "physics/jolt_runtime.hpp"
 #include "physics/jolt_units.hpp"
+#include "physics/limits.hpp"
 #include "physics/shape_conversion.hpp"
 #include "physics/solid_properties.hpp"
 
@@ -19,16 +20,12 @@ namespace tactus {
 
 namespace {
 
-// Jolt cuts off what is faster; far above anything a hand does, so that nothing is cut while a contact is
-// solved.
-constexpr double fastest = 1e4;          // (unit: meters per second)
-constexpr float fastest_spin = 2000.0f;  // (unit: radians per second)
-
-bool finite(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 bool not_negative(double value) {
     return value >= 0.0 && std::isfinite(value);
+}
+
+bool is_inertia(double value) {
+    return value >= limits::least_inertia && value <= limits::most_inertia;
 }
 
 bool may_turn_dynamic(const BodyDescription& description) {
@@ -42,20 +39,22 @@ bool needs_motion(const BodyDescription& description) {
 std::string wrong_in(const BodyDescription& d) {
     if (d.shapes.empty())
         return "the body has no shape; add a CollisionShape3D with a shape";
-    if (!finite(d.pose.position) || !(std::abs(glm::length(d.pose.rotation) - 1.0) < 1e-3))
-        return "the body's transform is not finite or holds a scale; reset it";
-    if (needs_motion(d) && !(d.mass > 0.0 && std::isfinite(d.mass)))
-        return "the mass is " + std::to_string(d.mass) + " kg; make it positive";
-    if (d.center_of_mass && !finite(*d.center_of_mass))
-        return "the centre of mass is not finite";
-    if (d.inertia && !(finite(*d.inertia) && d.inertia->x > 0.0 && d.inertia->y > 0.0 && d.inertia->z > 0.0))
-        return "the inertia must be positive about all three axes; leave it at zero to have it computed";
+    if (!limits::is_pose(d.pose))
+        return "the body's transform is not finite, holds a scale or is more than 10,000 km away; reset it";
+    if (needs_motion(d) && !(d.mass >= limits::lightest && d.mass <= limits::heaviest))
+        return "the mass is " + std::to_string(d.mass) + " kg; make it between 0.000001 and 10^12 kg";
+    if (d.center_of_mass && !(glm::length(*d.center_of_mass) <= limits::longest_arm))
+        return "the centre of mass is not a point within 100 km of the body";
+    if (d.inertia && !(is_inertia(d.inertia->x) && is_inertia(d.inertia->y) && is_inertia(d.inertia->z)))
+        return "the inertia must be between 10^-18 and 10^18 kg m^2 about all three axes; leave it at zero "
+               "to "
+               "have it computed";
     if (!not_negative(d.material.friction) || !not_negative(d.material.restitution))
         return "friction and bounce must not be negative";
     if (!not_negative(d.linear_damping) || !not_negative(d.angular_damping) ||
         !std::isfinite(d.gravity_scale))
         return "damping must not be negative and the gravity scale must be finite";
-    if (!finite(d.linear_velocity) || !finite(d.angular_velocity))
+    if (!limits::is_number(d.linear_velocity) || !limits::is_number(d.angular_velocity))
         return "the initial velocity is not finite";
     return {};
 }
@@ -189,8 +188,8 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.SetShape(converted.shape);
     settings.mPosition = units::position(description.pose.position);
     settings.mRotation = units::rotation(description.pose.rotation);
-    settings.mLinearVelocity = units::vector(description.linear_velocity);
-    settings.mAngularVelocity = units::plain(description.angular_velocity);
+    settings.mLinearVelocity = units::vector(limits::cut(description.linear_velocity, limits::fastest));
+    settings.mAngularVelocity = units::plain(limits::cut(description.angular_velocity, limits::fastest_spin));
     settings.mObjectLayer = object_layer(0, needs_motion(description) ? Tree::Awake : Tree::Still);
     settings.mMotionType = motion_type(description.motion);
     settings.mMotionQuality =
@@ -200,9 +199,10 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.mRestitution = stored_restitution(description.material);
     settings.mLinearDamping = static_cast<float>(description.linear_damping);
     settings.mAngularDamping = static_cast<float>(description.angular_damping);
-    settings.mMaxLinearVelocity = units::length(fastest);
-    settings.mMaxAngularVelocity = fastest_spin;
-    settings.mGravityFactor = static_cast<float>(description.gravity_scale);
+    settings.mMaxLinearVelocity = units::length(limits::fastest);
+    settings.mMaxAngularVelocity = static_cast<float>(limits::fastest_spin);
+    settings.mGravityFactor =
+        static_cast<float>(limits::cut(description.gravity_scale, limits::most_gravity_scale));
     record->body = body_factory().AllocateBody(settings);
     return PreparedBody(std::move(record));
 }

@@ -2,6 +2,7 @@
 //
 // A snapshot is a header, the bodies and Jolt's contacts and joints. In the header stands how many wakings
 // there had been: what was asleep then and is not now finds its resting place in the journal of wakings.
+#include <array>
 #include <cstring>
 
 #include "physics/memory_recorder.hpp"
@@ -93,6 +94,21 @@ bool PhysicsWorld::restore(std::span<const std::byte> snapshot) {
     }
     system.RestoreState(reader);
     return true;
+}
+
+void PhysicsWorld::take_state(BodyId id, const PhysicsWorld& other) {
+    JPH::Body* body = impl_->find(id);
+    const JPH::Body* same = other.impl_->find(id);
+    if (body == nullptr || same == nullptr)
+        return;
+    const LoopMemoryScope scope(impl_->memory);
+    impl_->far.release(*body, false);
+    std::array<std::byte, most_bytes_of_a_body> state;
+    MemoryWriter writer(state);
+    other.impl_->system.SaveBodyState(*same, writer);
+    MemoryReader reader(state);
+    impl_->system.RestoreBodyState(*body, reader);
+    impl_->trees.may_differ(body->GetID());
 }
 
 }  // namespace tactus

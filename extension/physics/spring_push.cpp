@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "physics/jolt_units.hpp"
+#include "physics/limits.hpp"
 
 namespace tactus {
 
@@ -46,14 +47,14 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
     push_ = {};
     push_.body = &body;
     push_.sticks = spring.sticks;
-    push_.force = units::vector(spring.force);
+    push_.force = units::vector(limits::cut(spring.force, limits::strongest));
     push_.direction = push_.force.Normalized();
     push_.local_point = body.GetRotation().Conjugated() * JPH::Vec3(point - body.GetCenterOfMassPosition());
     push_.start = point;
-    push_.hand_velocity = along(units::vector(spring.hand_velocity));
+    push_.hand_velocity = along(units::vector(limits::cut(spring.hand_velocity, limits::fastest)));
     push_.first_velocity = along(body.GetPointVelocity(point));
-    push_.stiffness = static_cast<float>(spring.stiffness);
-    push_.damping = static_cast<float>(spring.damping);
+    push_.stiffness = static_cast<float>(limits::cut(spring.stiffness, limits::stiffest));
+    push_.damping = static_cast<float>(limits::cut(spring.damping, limits::stiffest));
 }
 
 // In terms of the impulse l and with the hand's velocity w, the force at a sub-step's end is

@@ -73,11 +73,15 @@ bool Timeline::reshape(BodyId id, PreparedBody& other, PreparedBody& same_other)
     return done;
 }
 
-// Two worlds with the same history of changes give the same numbers to their joints.
+// Two worlds with the same history of changes give the same numbers to their joints. A joint holds bodies as
+// they are when it is made, and the twin's are wherever its last replay left them.
 JointId Timeline::add_joint(const JointDescription& joint, BodyId first, BodyId second) {
     const JointId id = present_.add_joint(joint, first, second);
-    if (id.valid() && has_past())
+    if (id.valid() && has_past()) {
+        twin_->take_state(first, present_);
+        twin_->take_state(second, present_);
         twin_->add_joint(joint, first, second);
+    }
     forget_past();
     return id;
 }
@@ -241,6 +245,11 @@ bool Timeline::restore(std::span<const std::byte> snapshot) {
         return false;
     forget_past();
     return true;
+}
+
+void Timeline::take_state(BodyId id, const PhysicsWorld& other) {
+    present_.take_state(id, other);
+    forget_past();
 }
 
 std::uint32_t Timeline::step(double seconds) {

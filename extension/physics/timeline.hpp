@@ -89,6 +89,7 @@ public:
 
     // See PhysicsWorld; the past is forgotten.
     bool restore(std::span<const std::byte> snapshot);
+    void take_state(BodyId id, const PhysicsWorld& other);
 
     void set_hands(std::span<const Vec3> hands) { present_.set_hands(hands); }
     std::uint32_t step(double seconds);  // as PhysicsWorld::step()

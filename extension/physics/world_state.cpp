@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "physics/jolt_units.hpp"
+#include "physics/limits.hpp"
 #include "physics/world_settings.hpp"
 
 namespace tactus {
@@ -35,6 +36,9 @@ PhysicsSettings within_range(PhysicsSettings settings) {
     settings.max_contacts = std::clamp(settings.max_contacts, 16u, 65536u);
     settings.max_joints = std::clamp(settings.max_joints, 1u, 32768u);
     settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
+    settings.gravity = limits::is_number(settings.gravity)
+                           ? limits::cut(settings.gravity, limits::most_gravity)
+                           : Vec3(0.0, -9.81, 0.0);
     return settings;
 }
 
@@ -60,9 +64,10 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       jobs(jobs_per_sub_step * static_cast<std::size_t>(settings.sub_steps)),
       records(settings.max_bodies),
       far(system, records, settings.full_rate_bodies),
+      places(system, settings.max_bodies),
       trees(system, records, far),
       journal(system, settings.remembered_wakings),
-      activity(trees, journal, far, moved),
+      activity(trees, journal, far, places, moved),
       joints(system, settings.max_joints),
       pushes(most_pushes) {
     constexpr JPH::uint one_mutex = 1;
@@ -110,8 +115,11 @@ std::uint32_t PhysicsWorld::Impl::update(double seconds) {
                                               system.GetNumActiveBodies(JPH::EBodyType::RigidBody)};
     if (active.empty())
         return step_ok;
-    for (const JPH::BodyID id : active)
+    const std::size_t first = moved.size();
+    for (const JPH::BodyID id : active) {
         moved.push_back({id.GetIndexAndSequenceNumber()});
+        places.keep(*records[id.GetIndex()]->in_world);
+    }
     activity.in_step(true);
     const JPH::EPhysicsUpdateError error =
         system.Update(static_cast<float>(seconds), settings.sub_steps, &step_memory, &jobs);
@@ -125,7 +133,23 @@ std::uint32_t PhysicsWorld::Impl::update(double seconds) {
     if (has(JPH::EPhysicsUpdateError::ContactConstraintsFull) ||
         has(JPH::EPhysicsUpdateError::ManifoldCacheFull))
         status |= step_contacts_full;
+    if (put_back_the_lost(first))
+        status |= step_body_lost;
     return status;
+}
+
+bool PhysicsWorld::Impl::put_back_the_lost(std::size_t first) {
+    bool any = false;
+    for (const BodyId id : std::span(moved).subspan(first)) {
+        JPH::Body& body = *records[id.index()]->in_world;
+        if (SoundPlaces::is_sound(body)) [[likely]]
+            continue;
+        any = true;
+        far.release(body, false);
+        places.put_back(body);
+        joints.forget_impulses_of(body);
+    }
+    return any;
 }
 
 void PhysicsWorld::Impl::add_pushes() {

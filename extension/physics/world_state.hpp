@@ -15,6 +15,7 @@
 #include "physics/loop_jobs.hpp"
 #include "physics/loop_memory.hpp"
 #include "physics/physics_world.hpp"
+#include "physics/sound_places.hpp"
 #include "physics/spring_push.hpp"
 
 #include <Jolt/Core/TempAllocator.h>
@@ -45,6 +46,9 @@ struct PhysicsWorld::Impl {
     // One step of Jolt, and what it moves added to `moved`. StepStatus bits.
     std::uint32_t update(double seconds);
 
+    // Of those in `moved` from `first` on. True where there was one.
+    bool put_back_the_lost(std::size_t first);
+
     // Jolt keeps constraints in order: these come last and leave again in reverse, so that joints stay where
     // they are.
     void add_pushes();
@@ -62,6 +66,7 @@ struct PhysicsWorld::Impl {
     JPH::PhysicsSystem system;
     std::vector<BodyRecord*> records;  // by the body's index; owned
     FarIslands far;
+    SoundPlaces places;
     TreeKeeper trees;
     WakeJournal journal;
     std::vector<BodyId> moved;  // by the last step

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <deque>
 
+#include "physics/limits.hpp"
 #include "realtime/spsc_ring.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/session_loop.hpp"
@@ -13,10 +14,13 @@ namespace {
 
 constexpr std::size_t ring_capacity = 1024;
 
+// The longest way that a body can be told (unit: seconds).
+constexpr double most_seconds = 1e5;
+
 // Hands out the numbers 0 … count - 1, the lowest free one first.
 class HandlePool {
 public:
-    explicit HandlePool(std::size_t count) {
+    explicit HandlePool(std::size_t count) : in_use_(count) {
         for (std::size_t i = count; i-- > 0;) {
             free_.push_back(static_cast<SessionHandle>(i));
         }
@@ -27,16 +31,28 @@ public:
         }
         const SessionHandle handle = free_.back();
         free_.pop_back();
+        in_use_[handle] = true;
         return handle;
+    }
+    bool in_use(SessionHandle handle) const { return handle < in_use_.size() && in_use_[handle]; }
+    // Its owner lets go of it; the loop may still have it. False where nobody held it.
+    bool let_go(SessionHandle handle) {
+        const bool held = in_use(handle);
+        if (held) {
+            in_use_[handle] = false;
+        }
+        return held;
     }
     void give_back(SessionHandle handle) {
         if (handle != no_handle) {
+            in_use_[handle] = false;
             free_.push_back(handle);
         }
     }
 
 private:
     std::vector<SessionHandle> free_;
+    std::vector<bool> in_use_;
 };
 
 SessionSnapshot empty_snapshot(std::size_t most_bodies) {
@@ -49,11 +65,14 @@ std::string check_material(const TouchMaterial& m) {
     for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth,
                                m.magnet_force, m.viscosity, m.stick_slip_stiffness, m.stick_slip_force,
                                m.vibration_force, m.vibration_frequency, m.pop_through_force}) {
-        if (!(value >= 0.0) || !std::isfinite(value)) {
-            return "a value of the touch material is negative or not a number: set all of them to 0 or above";
+        if (!(value >= 0.0 && value <= limits::stiffest)) {
+            return "a value of the touch material is negative, above 10^9 or not a number: set all of them "
+                   "to "
+                   "0 or above";
         }
     }
-    if (!(m.texture_size > 0.0) || !(m.magnet_range > 0.0)) {
+    if (!(m.texture_size > 0.0 && m.texture_size <= limits::farthest) ||
+        !(m.magnet_range > 0.0 && m.magnet_range <= limits::farthest)) {
         return "the touch material's texture size or magnet range is not a positive length: set both above 0 "
                "m";
     }
@@ -74,8 +93,16 @@ TouchMaterial with_texture(TouchMaterial material, const HeightImage* image) {
     return material;
 }
 
+std::string check_workspace(const Workspace& w) {
+    return limits::is_pose(w.pose) && w.scale > 0.0 && w.scale <= limits::farthest && w.force_limit >= 0.0
+               ? ""
+               : "the device's workspace has no place, no scale above 0 or no force limit: reset its "
+                 "transform "
+                 "and its limit";
+}
+
 std::string check_proxy(const ProxyDescription& d) {
-    return d.settings.radius > 0.0 && std::isfinite(d.settings.radius)
+    return d.settings.radius > 0.0 && d.settings.radius <= limits::longest_arm
                ? ""
                : "the proxy's radius is not a positive length: set it above 0 m";
 }
@@ -118,6 +145,7 @@ struct Session::Impl {
             Retired remains;
             if (SessionLoop* const twin = loop.twin()) {
                 Command same;
+                twin->follow(loop, *command);
                 if (duplicate(*command, same) && twin->take(same, remains)) {
                     remains.handle = no_handle;  // given back once, by the loop itself
                     retired.try_push(std::move(remains));
@@ -201,15 +229,21 @@ AddResult Session::add_body(ReadyBody&& body) {
 }
 
 void Session::remove_body(SessionHandle body) {
-    impl_->send(command::RemoveBody{body});
+    if (impl_->bodies.let_go(body)) {
+        impl_->send(command::RemoveBody{body});
+    }
 }
 
 void Session::teleport_body(SessionHandle body, const Pose& pose) {
-    impl_->send(command::TeleportBody{body, pose});
+    if (limits::is_pose(pose)) {
+        impl_->send(command::TeleportBody{body, pose});
+    }
 }
 
 void Session::move_body(SessionHandle body, const Pose& pose, double seconds) {
-    impl_->send(command::MoveBody{body, pose, seconds});
+    if (limits::is_pose(pose) && std::abs(seconds) <= most_seconds) {
+        impl_->send(command::MoveBody{body, pose, seconds});
+    }
 }
 
 void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular) {
@@ -245,12 +279,17 @@ void Session::set_body_damping(SessionHandle body, double linear, double angular
 }
 
 void Session::set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque) {
-    impl_->send(command::SetBodyPush{body, force, torque});
+    if (limits::is_number(force) && limits::is_number(torque)) {
+        impl_->send(command::SetBodyPush{body, force, torque});
+    }
 }
 
 AddResult Session::add_joint(const JointDescription& joint, SessionHandle first, SessionHandle second) {
     if (std::string error = wrong_in(joint); !error.empty()) {
         return {no_handle, std::move(error)};
+    }
+    if (first == second) {
+        return {no_handle, "the joint joins a body with itself, or nothing at all: name two different ones"};
     }
     const SessionHandle handle = impl_->joints.take();
     if (handle == no_handle) {
@@ -262,7 +301,9 @@ AddResult Session::add_joint(const JointDescription& joint, SessionHandle first,
 }
 
 void Session::remove_joint(SessionHandle joint) {
-    impl_->send(command::RemoveJoint{joint});
+    if (impl_->joints.let_go(joint)) {
+        impl_->send(command::RemoveJoint{joint});
+    }
 }
 
 void Session::set_gravity(const Vec3& gravity) {
@@ -270,6 +311,9 @@ void Session::set_gravity(const Vec3& gravity) {
 }
 
 AddResult Session::add_device(Device& device, const Workspace& workspace) {
+    if (std::string error = check_workspace(workspace); !error.empty()) {
+        return {no_handle, std::move(error)};
+    }
     const SessionHandle handle = impl_->devices.take();
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(most_devices) + " devices: remove one"};
@@ -279,11 +323,15 @@ AddResult Session::add_device(Device& device, const Workspace& workspace) {
 }
 
 void Session::set_workspace(SessionHandle device, const Workspace& workspace) {
-    impl_->send(command::SetWorkspace{device, workspace});
+    if (impl_->devices.in_use(device) && check_workspace(workspace).empty()) {
+        impl_->send(command::SetWorkspace{device, workspace});
+    }
 }
 
 void Session::remove_device(SessionHandle device) {
-    impl_->send(command::RemoveDevice{device});
+    if (impl_->devices.let_go(device)) {
+        impl_->send(command::RemoveDevice{device});
+    }
 }
 
 AddResult Session::add_proxy(const ProxyDescription& description) {
@@ -302,13 +350,15 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
 }
 
 void Session::set_proxy(SessionHandle proxy, const ProxyDescription& description) {
-    if (check_proxy(description).empty()) {
+    if (impl_->proxies.in_use(proxy) && check_proxy(description).empty()) {
         impl_->send(command::SetProxy{proxy, description});
     }
 }
 
 void Session::remove_proxy(SessionHandle proxy) {
-    impl_->send(command::RemoveProxy{proxy});
+    if (impl_->proxies.let_go(proxy)) {
+        impl_->send(command::RemoveProxy{proxy});
+    }
 }
 
 void Session::record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object) {

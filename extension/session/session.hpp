@@ -6,6 +6,9 @@
 // buffer only; neither ever waits for the other. Objects that leave the loop come back through a ring and are
 // destroyed on the owner side.
 //
+// What makes no sense is refused: where a call gives a result, it says why; where it gives none (a place that
+// is not a number, a material below zero), nothing happens.
+//
 // A session reads no clock: the same calls with the same times give the same bits.
 #pragma once
 

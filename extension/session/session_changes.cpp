@@ -11,6 +11,16 @@ bool SessionLoop::take(Command& command, Retired& retired) {
     return std::visit([&](auto& c) { return carry_out(c, retired); }, command);
 }
 
+void SessionLoop::follow(const SessionLoop& other, const Command& command) {
+    if (const auto* const joint = std::get_if<command::AddJoint>(&command)) {
+        for (const SessionHandle handle : {joint->first, joint->second}) {
+            if (const Body* const joined = body(handle)) {
+                timeline_.take_state(joined->id, other.physics_);
+            }
+        }
+    }
+}
+
 SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
     return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
 }

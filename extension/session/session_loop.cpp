@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/haptics/nearest_surface.hpp"
+#include "physics/limits.hpp"
 
 namespace tactus {
 
@@ -192,7 +193,14 @@ void SessionLoop::read_devices(Nanoseconds now) {
         if (!slot.device) {
             continue;
         }
-        slot.sample = slot.device->read(now);
+        const DeviceSample sample = slot.device->read(now);
+        if (limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
+            limits::is_rotation(sample.rotation)) {
+            slot.sample = sample;
+        } else {
+            slot.sample.velocity = Vec3(0.0);  // nonsense: it stays where it was
+            slot.sample.connected = false;
+        }
         const Vec3 before = slot.hand;
         const Vec3 reached = into_scene(slot.workspace, slot.sample.position);
         if (slot.workspace.clutch && slot.was_held) {
@@ -386,6 +394,7 @@ void SessionLoop::step_physics() {
     const std::uint32_t step = timeline_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
+    status_ |= step & step_body_lost ? static_cast<TickStatus>(session_body_lost) : 0u;
     status_ |= step & step_memory_full ? static_cast<TickStatus>(session_step_memory_full) : 0u;
 }
 

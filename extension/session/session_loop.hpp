@@ -57,6 +57,9 @@ public:
     // something.
     bool take(Command& command, Retired& retired);
 
+    // Before a twin of `other` takes the same command: a joint holds bodies as they are in the present.
+    void follow(const SessionLoop& other, const Command& command);
+
     // After the first bodies have come in and before the first tick.
     void settle() { timeline_.settle_broad_phase(); }
 

@@ -66,6 +66,7 @@ enum SessionStatus : std::uint32_t {
     session_proxy_unfinished = 1u << 5,
     session_record_lost = 1u << 6,  // a recorder's ring was full
     session_commands_waiting = 1u << 7,
+    session_body_lost = 1u << 8,  // a body left the range of numbers and was put back where it was, asleep
 };
 
 struct BodyState {

@@ -99,13 +99,14 @@ public:
 
 class Rig {
 public:
-    Rig(std::uint32_t most_bodies, double stiffness)
+    Rig(std::uint32_t most_bodies, double stiffness, bool with_hand = true)
         : session_(settings(most_bodies)), stiffness_(stiffness) {
-        hand_handle_ = session_.add_device(hand, Workspace{}).handle;
+        if (!with_hand)
+            return;
         ProxyDescription finger;
-        finger.device = hand_handle_;
+        finger.device = session_.add_device(hand, Workspace{}).handle;
         finger.settings.radius = radius;
-        proxy_ = session_.add_proxy(finger).handle;
+        session_.add_proxy(finger);
     }
 
     SessionHandle add(const BodyDescription& description) {
@@ -124,6 +125,8 @@ public:
     }
 
     void settle() { session_.settle(); }
+
+    void kick(SessionHandle body) { session_.set_body_velocity(body, {0.0, 0.8, 0.0}, {3.0, 1.0, 2.0}); }
 
     double step() {  // (unit: microseconds)
         now_ += 1'000'000;
@@ -157,16 +160,14 @@ private:
 
     Session session_;
     double stiffness_;
-    SessionHandle hand_handle_ = no_handle;
-    SessionHandle proxy_ = no_handle;
     Nanoseconds now_ = 0;
     int sent_ = 0;
 };
 
 constexpr double edge = 0.15;  // of the box of the thesis (unit: meters)
 
-Vec3 place(int i) {
-    return {0.2 * (i % 32), 0.5 * edge, -0.2 * (i / 32)};
+Vec3 place(int i, double apart = 0.2) {
+    return {apart * (i % 32), 0.5 * edge, -apart * (i / 32)};
 }
 
 // The finger rubs the first box to and fro, pressing from above, so that it is awake and touched in every
@@ -179,15 +180,17 @@ void rub(Rig& rig, const Pose& first, int i) {
     rig.hand.velocity = {0.04 * std::numbers::pi * std::cos(phase), 0.0, 0.0};
 }
 
-struct RubbedBoxes {
-    RubbedBoxes(int awake, int still, int sleeping)
-        : rig(static_cast<std::uint32_t>(awake + still + sleeping + 8), 500.0) {
+struct Boxes {
+    Boxes(int awake, int still, int sleeping, bool with_hand = true, double apart = 0.2)
+        : rig(static_cast<std::uint32_t>(awake + still + sleeping + 8), 500.0, with_hand) {
         rig.add(ground());
         for (int i = 0; i < awake; ++i) {
-            BodyDescription body = box(Vec3(edge), place(i), 1.0);
+            BodyDescription body = box(Vec3(edge), place(i, apart), 1.0);
             body.can_sleep = false;
             const SessionHandle handle = rig.add(body);
             first = i == 0 ? handle : first;
+            if (i > 0)
+                others.push_back(handle);
         }
         for (int i = 0; i < still; ++i) {
             BodyDescription body =
@@ -201,7 +204,7 @@ struct RubbedBoxes {
         const int until_asleep = sleeping > 0 ? 2000 : 200;
         for (int i = 0; i < until_asleep; ++i)
             run();
-        if (rig.look().proxies[0].contact_count == 0) {
+        if (with_hand && rig.look().proxies[0].contact_count == 0) {
             std::fprintf(stderr, "the finger does not touch the box\n");
             std::exit(1);
         }
@@ -212,17 +215,26 @@ struct RubbedBoxes {
         return rig.step();
     }
 
+    // The same, and each of the others is thrown up every quarter of a second: they fly, fall and tumble.
+    double run_thrown() {
+        for (std::size_t i = static_cast<std::size_t>(ticks) % 256; i < others.size(); i += 256)
+            rig.kick(others[i]);
+        return run();
+    }
+
     Rig rig;
     SessionHandle first = no_handle;
+    std::vector<SessionHandle> others;
     int ticks = 0;
 };
 
 // Jolt as it comes: its own settings, metres for units, a force on the first box.
 class BareJolt {
 public:
-    explicit BareJolt(int boxes) : scratch_(16 << 20) {
+    explicit BareJolt(int boxes) : scratch_(32 << 20) {
+        const JPH::uint most = boxes < 1000 ? 1024 : 4096;
         jobs_.Init(256);
-        system_.Init(1024, 1, 2048, 1024, layers_, against_layer_, pairs_);
+        system_.Init(most, 1, 2 * most, most, layers_, against_layer_, pairs_);
         JPH::BodyCreationSettings floor(new JPH::BoxShape({100.0f, 1.0f, 100.0f}), {0, -1, 0},
                                         JPH::Quat::sIdentity(), JPH::EMotionType::Static, 0);
         bodies().CreateAndAddBody(floor, JPH::EActivation::DontActivate);
@@ -264,7 +276,7 @@ private:
 };
 
 void tick_over_jolt(Results& results, const std::string& name, int boxes, int rounds) {
-    RubbedBoxes whole(boxes, 0, 0);
+    Boxes whole(boxes, 0, 0);
     BareJolt bare(boxes);
     for (int i = 0; i < 300; ++i)
         bare.run();
@@ -280,21 +292,34 @@ void tick_over_jolt(Results& results, const std::string& name, int boxes, int ro
     results.add(name + "_tick_over_jolt_step", percentile(ours, 0.5) / percentile(jolt, 0.5));
 }
 
-void idle_crowd(Results& results, int rounds) {
-    RubbedBoxes alone(1, 0, 0);
-    RubbedBoxes crowd(1, 10'000, 1'000);
+// The ticks of two scenes in turns.
+template <class Scene>
+void compare(Results& results, const std::string& name, Scene& one, Scene& other, int rounds) {
     std::vector<double> few;
     std::vector<double> many;
     for (int i = 0; i < 100 * rounds; ++i) {
-        few.push_back(alone.run());
-        many.push_back(crowd.run());
+        few.push_back(one.run());
+        many.push_back(other.run());
     }
-    results.add("idle_crowd_awake", static_cast<double>(crowd.rig.look().awake_bodies));
-    results.add("idle_crowd_over_one_box", percentile(many, 0.5) / percentile(few, 0.5));
-    results.add("idle_crowd_over_one_box_p99", percentile(many, 0.99) / percentile(few, 0.99));
+    results.add(name, percentile(many, 0.5) / percentile(few, 0.5));
+    results.add(name + "_p99", percentile(many, 0.99) / percentile(few, 0.99));
 }
 
-// The same of physics alone: what is left of the difference is the proxy's.
+void idle_crowd(Results& results, int rounds) {
+    Boxes alone(1, 0, 0);
+    Boxes crowd(1, 10'000, 1'000);
+    compare(results, "idle_crowd_over_one_box", alone, crowd, rounds);
+    results.add("idle_crowd_awake", static_cast<double>(crowd.rig.look().awake_bodies));
+}
+
+// The same where no hand is: what is left of the difference is the proxy's.
+void idle_crowd_no_hand(Results& results, int rounds) {
+    Boxes alone(1, 0, 0, false);
+    Boxes crowd(1, 10'000, 1'000, false);
+    compare(results, "idle_crowd_no_hand_over_one_box", alone, crowd, rounds);
+}
+
+// And of physics alone.
 void idle_crowd_step(Results& results, int rounds) {
     struct Scene {
         Scene(int still, int sleeping) : world(settings()) {
@@ -331,25 +356,34 @@ void idle_crowd_step(Results& results, int rounds) {
     };
     Scene alone(0, 0);
     Scene crowd(10'000, 1'000);
-    std::vector<double> few;
-    std::vector<double> many;
-    for (int i = 0; i < 100 * rounds; ++i) {
-        few.push_back(alone.run());
-        many.push_back(crowd.run());
-    }
-    results.add("idle_crowd_step_over_one_box", percentile(many, 0.5) / percentile(few, 0.5));
-    results.add("idle_crowd_step_over_one_box_p99", percentile(many, 0.99) / percentile(few, 0.99));
+    compare(results, "idle_crowd_step_over_one_box", alone, crowd, rounds);
 }
 
+// Over the number of awake boxes, at rest and thrown about: a tick, how many boxes are slowed, and Jolt's
+// bare step of all of them (at rest).
 void awake_bodies(Results& results, bool quick) {
-    for (const int awake : {1, 3, 10, 30, 100, 300, 1000}) {
-        RubbedBoxes boxes(awake, 0, 0);
-        std::vector<double> times;
-        const int ticks = quick ? 200 : std::max(500, 20'000 / awake);
+    for (const int awake : {1, 3, 10, 30, 100, 300, 1000, 3000}) {
+        const int ticks = quick ? 200 : std::max(1000, 20'000 / awake);
+        const auto measure = [&](const std::string& row, Boxes& boxes, double (Boxes::*run)()) {
+            std::vector<double> times;
+            for (int i = 0; i < (quick ? 100 : 1000); ++i)
+                (boxes.*run)();
+            for (int i = 0; i < ticks; ++i)
+                times.push_back((boxes.*run)());
+            results.add(row + "_tick_p50_us", percentile(times, 0.5));
+            results.add(row + "_tick_p99_us", percentile(times, 0.99));
+            results.add(row + "_slowed", static_cast<double>(boxes.rig.look().slowed_bodies));
+        };
+        const std::string number = std::to_string(awake);
+        Boxes at_rest(awake, 0, 0);
+        measure("awake_" + number, at_rest, &Boxes::run);
+        Boxes thrown(awake, 0, 0, true, 0.5);
+        measure("thrown_" + number, thrown, &Boxes::run_thrown);
+        BareJolt bare(awake);
+        std::vector<double> jolt;
         for (int i = 0; i < ticks; ++i)
-            times.push_back(boxes.run());
-        results.add("awake_" + std::to_string(awake) + "_tick_p50_us", percentile(times, 0.5));
-        results.add("awake_" + std::to_string(awake) + "_tick_p99_us", percentile(times, 0.99));
+            jolt.push_back(bare.run());
+        results.add("awake_" + number + "_jolt_step_p50_us", percentile(jolt, 0.5));
     }
 }
 
@@ -598,6 +632,7 @@ int main(int count, char** arguments) {
     }
     if (part("crowd")) {
         idle_crowd(results, rounds);
+        idle_crowd_no_hand(results, rounds);
         idle_crowd_step(results, rounds);
     }
     if (part("feel")) {

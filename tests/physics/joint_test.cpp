@@ -174,6 +174,28 @@ TEST(Joint, SixAxesLimitEachOnItsOwn) {
     EXPECT_NEAR(world.pose(id).position.z, 0.0, 1e-4);
 }
 
+// Ranges that do not hold the place where the bodies are joined.
+TEST(Joint, SixAxesDriveBodiesIntoRangesThatAreElsewhere) {
+    PhysicsWorld world(weightless());
+    const BodyId slid = add(world, box(Vec3(0.1), Vec3(0.0), 1.0));
+    const BodyId turned = add(world, box(Vec3(0.1), {1.0, 0.0, 0.0}, 1.0));
+    JointDescription joint;
+    joint.kind = JointKind::SixAxes;
+    joint.linear[1] = {0.03, 0.04};
+    ASSERT_TRUE(world.add_joint(joint, BodyId{}, slid).valid());
+    joint = {};
+    joint.kind = JointKind::SixAxes;
+    joint.frame.position = {1.0, 0.0, 0.0};
+    joint.angular[0] = {0.2, 0.3};
+    ASSERT_TRUE(world.add_joint(joint, BodyId{}, turned).valid());
+    run(world, 2000);
+    EXPECT_GT(world.pose(slid).position.y, 0.03 - 1e-4);
+    EXPECT_LT(world.pose(slid).position.y, 0.04 + 1e-4);
+    const double angle = 2.0 * std::atan2(world.pose(turned).rotation.x, world.pose(turned).rotation.w);
+    EXPECT_GT(angle, 0.2 - 2e-3);
+    EXPECT_LT(angle, 0.3 + 2e-3);
+}
+
 TEST(Joint, JoinedBodiesOverlapUnlessToldToCollide) {
     for (const bool collide : {false, true}) {
         PhysicsWorld world(weightless());

@@ -141,5 +141,52 @@ TEST(ShapeContact, GivenCentreOfMassAndInertiaAreUsed) {
     EXPECT_NEAR(world.angular_velocity(id).z, 0.0025, 1e-7);
 }
 
+// A channel: a floor and two walls.
+std::vector<PlacedShape> channel_of_boxes() {
+    const Quat upright{1.0, 0.0, 0.0, 0.0};
+    return {{BoxShape{{0.1, 0.01, 0.1}}, {{0.0, 0.01, 0.0}, upright}},
+            {BoxShape{{0.01, 0.05, 0.1}}, {{-0.09, 0.05, 0.0}, upright}},
+            {BoxShape{{0.01, 0.05, 0.1}}, {{0.09, 0.05, 0.0}, upright}}};
+}
+
+std::shared_ptr<const TriangleMesh> channel_mesh() {
+    auto mesh = std::make_shared<TriangleMesh>();
+    for (const PlacedShape& part : channel_of_boxes()) {
+        const std::shared_ptr<const TriangleMesh> cube = cube_mesh(1.0);
+        const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+        for (const Vec3& vertex : cube->vertices)
+            mesh->vertices.push_back(part.pose.position +
+                                     std::get<BoxShape>(part.shape).half_extents * vertex);
+        for (const auto& t : cube->triangles)
+            mesh->triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return mesh;
+}
+
+// Where a ball of 20 mm comes to rest over the middle of the channel, which lies on the ground.
+double height_in_channel(std::vector<PlacedShape> shapes, Motion motion) {
+    PhysicsWorld world;
+    add(world, ground());
+    BodyDescription channel;
+    channel.shapes = std::move(shapes);
+    channel.motion = motion;
+    channel.mass = 2.0;
+    add(world, channel);
+    BodyDescription description = ball(0.02, {0.0, 0.125, 0.0}, 0.05);
+    description.angular_damping = 20.0;
+    const BodyId id = add(world, description);
+    run(world, 2000);
+    return world.pose(id).position.y;
+}
+
+// A mesh that moves collides as its convex hull; given as several convex shapes it is as concave as they
+// make it. One that stands still collides as it is.
+TEST(ShapeContact, AMovingConcaveMeshCollidesAsItsHullAndACompoundAsItsParts) {
+    const std::vector<PlacedShape> mesh = one(MeshShape{channel_mesh()});
+    EXPECT_NEAR(height_in_channel(mesh, Motion::Dynamic), 0.1 + 0.02, 2e-4);
+    EXPECT_NEAR(height_in_channel(mesh, Motion::Static), 0.02 + 0.02, 2e-4);
+    EXPECT_NEAR(height_in_channel(channel_of_boxes(), Motion::Dynamic), 0.02 + 0.02, 2e-4);
+}
+
 }  // namespace
 }  // namespace tactus

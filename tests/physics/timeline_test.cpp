@@ -202,6 +202,31 @@ TEST(Timeline, PastEndsWhereABodyCame) {
     EXPECT_TRUE(play.timeline.replay(100));
 }
 
+// The twin's bodies are wherever its last replay left them; a joint is made where they are in the present.
+TEST(Timeline, AJointMadeWhileBodiesMoveHoldsInTheReplayAsInThePresent) {
+    for (const JointKind kind : {JointKind::Pin, JointKind::Hinge, JointKind::Slider, JointKind::SixAxes}) {
+        Play play(4);
+        Play plain(4);
+        for (Play* each : {&play, &plain}) {
+            each->live(200);
+            JointDescription joint;
+            joint.kind = kind;
+            joint.frame = each->timeline.world().pose(each->ids[1]);
+            joint.angular[2] = {-0.2, 0.3};
+            joint.linear[0] = {-0.01, 0.02};
+            ASSERT_TRUE(each->timeline.add_joint(joint, each->ids[1], each->ids[2]).valid());
+            ASSERT_TRUE(each->timeline.add_joint(joint, each->ids[3], BodyId{}).valid());
+            each->live(60);
+        }
+        ASSERT_TRUE(play.timeline.correct(play.timeline.oldest_tick(), {}));
+        ASSERT_TRUE(play.timeline.replay(1000));
+        expect_same(play.poses(), plain.poses());
+        play.live(30);
+        plain.live(30);
+        expect_same(play.poses(), plain.poses());
+    }
+}
+
 TEST(Timeline, AllocatesNothing) {
     Play play(3);
     play.live(100);

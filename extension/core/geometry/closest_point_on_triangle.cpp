@@ -1,24 +1,22 @@
 #include "core/geometry/closest_point_on_triangle.hpp"
 
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace tactus {
 
 namespace {
 
-TriangleClosestPoint closest_on_segment(const Vec3& point, const Vec3& start, const Vec3& end) {
+struct OnSegment {
+    Vec3 point;
+    double share;  // of the way from the start to the end, beyond [0, 1] where an end is nearest
+};
+
+OnSegment closest_on_segment(const Vec3& point, const Vec3& start, const Vec3& end) {
     const Vec3 edge = end - start;
     const double squared_length = glm::dot(edge, edge);
-    const double along = squared_length > 1e-300 ? glm::dot(point - start, edge) / squared_length : 0.0;
-    if (along <= 0.0) {
-        return {start, TriangleFeature::corner, Vec3(0.0)};
-    }
-    if (along >= 1.0) {
-        return {end, TriangleFeature::corner, Vec3(0.0)};
-    }
-    return {start + edge * along, TriangleFeature::edge, edge / std::sqrt(squared_length)};
+    const double share = squared_length > 1e-300 ? glm::dot(point - start, edge) / squared_length : 0.0;
+    return {share <= 0.0 ? start : share >= 1.0 ? end : start + edge * share, share};
 }
 
 double squared_distance(const Vec3& p, const Vec3& q) {
@@ -32,11 +30,16 @@ double squared_distance(const Vec3& p, const Vec3& q) {
 TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                                const Vec3& c) {
     constexpr double flat_area = 1e-12;
-    TriangleClosestPoint best = closest_on_segment(point, a, b);
+    OnSegment best = closest_on_segment(point, a, b);
+    Vec3 best_edge = b - a;
+    double least = squared_distance(point, best.point);
     for (const auto& [start, end] : {std::array{b, c}, std::array{c, a}}) {
-        const TriangleClosestPoint other = closest_on_segment(point, start, end);
-        if (squared_distance(point, other.point) < squared_distance(point, best.point)) {
+        const OnSegment other = closest_on_segment(point, start, end);
+        const double squared = squared_distance(point, other.point);
+        if (squared < least) {
             best = other;
+            best_edge = end - start;
+            least = squared;
         }
     }
     const Vec3 ab = b - a;
@@ -52,7 +55,10 @@ TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a,
         const double height = glm::dot(normal, point - best.point) / squared_normal;
         return {point - normal * height, TriangleFeature::face, Vec3(0.0)};
     }
-    return best;
+    if (best.share <= 0.0 || best.share >= 1.0) {
+        return {best.point, TriangleFeature::corner, Vec3(0.0)};
+    }
+    return {best.point, TriangleFeature::edge, glm::normalize(best_edge)};
 }
 
 }  // namespace tactus

@@ -34,6 +34,19 @@ double belief(const ContactList& contacts, const Contact& contact, const Vec3& d
     return 1.001 * shortest;
 }
 
+// What of `motion` is along all the surfaces that hold the proxy back.
+Vec3 along_surfaces(const Vec3& motion, const ContactList& contacts, const ConstrainedStep& step) {
+    if (step.pressing_count == 0 || step.pressing_count == 3) {
+        return step.pressing_count == 0 ? motion : Vec3(0.0);
+    }
+    const Vec3& normal = pressing(contacts, step, 0).normal;
+    if (step.pressing_count == 1) {
+        return motion - normal * glm::dot(normal, motion);
+    }
+    const Vec3 line = glm::cross(normal, pressing(contacts, step, 1).normal);
+    return line * (glm::dot(line, motion) / std::max(glm::dot(line, line), 1e-300));
+}
+
 // The step along one direction of a surface that bends there with the given radius: `pull` > 0 is what is
 // left to go, `curvature` that of the Lagrangian, W = 1 - pressure / radius.
 //
@@ -153,13 +166,14 @@ ConstrainedStep constrained_step(const Vec3& pull, const ContactList& contacts, 
     const std::span<HalfSpace> planes = half_spaces(contacts, storage);
     const NearestInHalfSpaces nearest = nearest_free(pull, planes, tolerance);
     step.motion = nearest.point;
-    step.slide = nearest.point;
     for (int i = 0; i < nearest.active_count; ++i) {
         if (nearest.multiplier[i] > 0.0) {
             step.pressing[step.pressing_count] = nearest.active[i];
             step.pressure[step.pressing_count++] = nearest.multiplier[i];
         }
     }
+    step.slide = along_surfaces(nearest.point, contacts, step);
+    step.drop = nearest.point - step.slide;
     if (step.pressing_count == 0 || step.pressing_count == 3 || !bends(contacts, step)) {
         return step;
     }

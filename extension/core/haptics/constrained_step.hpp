@@ -11,6 +11,7 @@ struct ConstrainedStep {
     int pressing_count = 0;
     double pressure[3] = {0.0, 0.0, 0.0};  // how much each holds back (unit: meters), > 0
     Vec3 slide{0.0};                       // what of the pull is left along the surfaces (unit: meters)
+    Vec3 drop{0.0};  // the part of the motion that leads onto the surfaces (unit: meters)
 };
 
 // `pull` is hand - proxy. Every surface is convex by itself (a triangle, a box, a sphere, inflated), so the

@@ -37,9 +37,11 @@ bool NearTriangles::is_covered(int index, double same) const {
         if (i == index || !(nearer || (equal && stands_first))) {
             continue;
         }
+        // Neighbours mostly have their closest point in common.
         const Vec3& point = candidate.closest.point;
-        const Vec3 gap = closest_point_on_triangle(point, other.a, other.b, other.c).point - point;
-        if (glm::dot(gap, gap) <= on_it * on_it) {
+        if (glm::distance(point, other.closest.point) <= on_it ||
+            glm::distance(point, closest_point_on_triangle(point, other.a, other.b, other.c).point) <=
+                on_it) {
             return true;
         }
     }

@@ -1,6 +1,5 @@
 #include "core/haptics/neighbourhood.hpp"
 
-#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -16,27 +15,83 @@ std::size_t place_of(std::uint32_t pack) {
 
 }  // namespace
 
-void Neighbourhood::remember_bounds() {
-    std::memset(table_.data(), 0xff, sizeof(table_));  // no pack, bound -1
+void Neighbourhood::set_plane(std::size_t index, const PackPlane& plane) {
+    Block& block = blocks_[index / lane_count];
+    const std::size_t lane = index % lane_count;
+    block.normal.x[lane] = plane.normal.x;
+    block.normal.y[lane] = plane.normal.y;
+    block.normal.z[lane] = plane.normal.z;
+    block.offset[lane] = plane.offset;
+}
+
+Lanes Neighbourhood::look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
+                             double odometer) {
+    Remembered& remembered = packs_[index];
+    if (remembered.known >= 0 && remembered.looked_at == odometer) {
+        return least_distances(tangents_of(remembered), point);
+    }
+    const TrianglePack& triangles = tree.pack(remembered.pack);
+    const PackBound tangents = bound_from(offset_from_triangles(triangles, point), point);
+    const Lanes exact = least_distances(tangents, point);
+    const PackPlane plane = plane_before(triangles, tangents, exact);
+    if (remembered.known < 0 && known_count_ < known_capacity) {
+        remembered.known = static_cast<std::int32_t>(known_count_++);
+    }
+    if (remembered.known >= 0) {
+        (*known_)[static_cast<std::size_t>(remembered.known)] = {tangents, plane};
+        remembered.looked_at = odometer;
+    }
+    set_plane(index, plane);
+    set_clear(index, odometer + smallest(exact));
+    return exact;
+}
+
+// The end is looked at first: what is learnt there is asked again as soon as the proxy has arrived. Of old
+// tangents and those at the end, the start is seldom needed, too.
+bool Neighbourhood::may_meet(std::size_t index, const TriangleTree& tree, const LanesVec3& from,
+                             const LanesVec3& to, double length, double limit, double odometer) {
+    const Remembered& remembered = packs_[index];
+    const Lanes near = splat(limit);
+    if (remembered.known < 0) {
+        look_at(index, tree, from, odometer);
+        return remembered.known < 0 || may_meet(index, tree, from, to, length, limit, odometer);
+    }
+    const PackBound old = tangents_of(remembered);
+    const bool is_from_start = remembered.looked_at == odometer;
+    if (!any(lanes_min(least_distances(old, from), least_distances(old, to)) <= near)) {
+        return false;
+    }
+    const Lanes at_end = look_at(index, tree, to, odometer + length);
+    set_clear(index, odometer + smallest(at_end) - length);
+    const PackBound last = tangents_of(remembered);
+    if (is_from_start || !any(least_between(old, last, from, to) <= near)) {
+        return any(least_between(old, last, from, to) <= near);
+    }
+    const PackBound first = bound_from(offset_from_triangles(tree.pack(remembered.pack), from), from);
+    return any(least_between(first, last, from, to) <= near);
+}
+
+void Neighbourhood::remember_known() {
+    std::memset(table_.data(), 0xff, sizeof(table_));  // no pack, known -1
     for (std::size_t i = 0; i < count_; ++i) {
-        if (packs_[i].bound < 0) {
+        if (packs_[i].known < 0) {
             continue;
         }
         std::size_t place = place_of(packs_[i].pack);
-        while (table_[place].bound >= 0) {
+        while (table_[place].known >= 0) {
             place = (place + 1) % table_size;
         }
-        table_[place] = {packs_[i].pack, packs_[i].bound};
+        table_[place] = {packs_[i].pack, packs_[i].known};
     }
-    std::swap(bounds_, old_bounds_);
+    std::swap(known_, old_known_);
 }
 
-std::int32_t Neighbourhood::remembered_bound(std::uint32_t pack) const {
+std::int32_t Neighbourhood::remembered(std::uint32_t pack) const {
     std::size_t place = place_of(pack);
-    while (table_[place].bound >= 0 && table_[place].pack != pack) {
+    while (table_[place].known >= 0 && table_[place].pack != pack) {
         place = (place + 1) % table_size;
     }
-    return table_[place].bound;
+    return table_[place].known;
 }
 
 bool Neighbourhood::gather(const TriangleTree& tree, const Vec3& point, double reach, double soon,
@@ -47,28 +102,31 @@ bool Neighbourhood::gather(const TriangleTree& tree, const Vec3& point, double r
         clear();
         return false;
     }
-    remember_bounds();
+    remember_known();
     count_ = packs.count;
-    bound_count_ = 0;
+    known_count_ = 0;
     covered_until_ = odometer + reach;
-    const LanesVec3 here = splat(point);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < count_; ++i) {
-        double distance = static_cast<double>(found[i].distance);
+        const double distance = static_cast<double>(found[i].distance);
         const std::uint32_t pack = found[i].pack;
-        std::int32_t bound = remembered_bound(pack);
-        if (bound >= 0) {
-            const PackBound& old = (*old_bounds_)[static_cast<std::size_t>(bound)];
-            distance = std::max(distance, smallest(least_distances(old, here)));
-            bound = static_cast<std::int32_t>(bound_count_);
-            (*bounds_)[bound_count_++] = old;
+        std::int32_t known = remembered(pack);
+        PackPlane plane{Vec3(0.0), -infinity};
+        if (known >= 0) {
+            const Known& old = (*old_known_)[static_cast<std::size_t>(known)];
+            plane = old.plane;
+            known = static_cast<std::int32_t>(known_count_++);
+            (*known_)[static_cast<std::size_t>(known)] = old;
         } else if (distance <= soon) {
             tree.fetch_pack(pack);
         }
-        packs_[i] = {pack, bound, -1.0};
+        packs_[i] = {pack, known, -1.0};
+        set_plane(i, plane);
         set_clear(i, odometer + distance);
     }
     for (std::size_t i = count_; i % lane_count != 0; ++i) {
-        set_clear(i, std::numeric_limits<double>::infinity());
+        set_plane(i, {Vec3(0.0), -infinity});
+        set_clear(i, infinity);
     }
     return true;
 }

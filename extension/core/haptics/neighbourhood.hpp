@@ -1,9 +1,11 @@
 // What a proxy remembers about the triangles around it. Consecutive ticks ask almost the same question: the
 // packs found within `reach` of one place answer for every place until the proxy has travelled out of them.
 //
-// Each pack is known by three ever better bounds, and asked only as far as needed: how far the proxy must
-// travel before it can touch it; a tangent plane, true everywhere and nearly exact while the proxy slides
-// along the surface; and its triangles.
+// Each pack is known by four ever better bounds, and asked only as far as needed: how far the proxy must
+// travel before it can touch it; a plane that has the whole pack behind it, found when it was last looked at;
+// the tangents of its triangles then, true everywhere and nearly exact while the proxy slides along the
+// surface; and its triangles. The first two are held side by side for four packs at once: most packs that are
+// near are lateral, and cost no more than that.
 //
 // Travel is measured by an odometer that only grows: the length of the proxy's path relative to the part.
 #pragma once
@@ -29,39 +31,45 @@ public:
 
     // Empty, for another part.
     void clear() {
-        count_ = bound_count_ = 0;
+        count_ = known_count_ = 0;
         covered_until_ = -1.0;
     }
 
     // Odometer + distance up to which every pack is known (unit: meters).
     double covered_until() const { return covered_until_; }
 
-    // Calls visit(index) for every pack that may have a triangle within `limit` of a place that the proxy can
-    // have come to by now. Returns a lower bound of the distance of all others.
+    // Calls visit(index) for every pack that may have a triangle within `limit` of a place between two points
+    // that are `length` apart, the proxy being at the first. Returns a lower bound of the distance of all
+    // others.
     template <class Visit>
-    double visit_within(double limit, double odometer, Visit&& visit) {
-        const Lanes nearer = splat(odometer + limit);
-        Lanes least = splat(covered_until_);
-        for (std::size_t block = 0; block < count_; block += lane_count) {
-            Lanes& clear_until = clear_until_[block / lane_count];
-            const unsigned near = lane_bits(clear_until <= nearer);
-            least = lanes_min(least, select(clear_until <= nearer, least, clear_until));
-            for (unsigned left = near; left != 0; left &= left - 1) {
-                visit(block + static_cast<std::size_t>(std::countr_zero(left)));
+    double visit_between(const LanesVec3& from, const LanesVec3& to, double length, double limit,
+                         double odometer, Visit&& visit) {
+        const double travelled = odometer + length;
+        const Lanes near = splat(limit);
+        Lanes least = splat(covered_until_ - travelled);
+        for (std::size_t first = 0; first < count_; first += lane_count) {
+            const Block& block = blocks_[first / lane_count];
+            // A plane is linear: on a way it is lowest at an end.
+            const Lanes above = lanes_min(dot(block.normal, from), dot(block.normal, to)) + block.offset;
+            const Lanes bound = lanes_max(above, block.clear_until - splat(travelled));
+            const LaneMask reached = bound <= near;
+            least = lanes_min(least, select(reached, least, bound));
+            for (unsigned left = lane_bits(reached); left != 0; left &= left - 1) {
+                visit(first + static_cast<std::size_t>(std::countr_zero(left)));
             }
         }
-        return smallest(least) - odometer;
+        return smallest(least);
     }
 
     std::uint32_t pack(std::size_t index) const { return packs_[index].pack; }
 
-    // Lower bounds of the distances of its triangles from `point`: from the tangent plane where that is
-    // enough to see that they are farther than `limit`, from the triangles otherwise. Exact in the latter
-    // case.
+    // Lower bounds of the distances of its triangles from `point`, where the proxy is: from their tangents
+    // where that is enough to see that they are farther than `limit`, from the triangles otherwise. Exact in
+    // the latter case.
     Lanes distances(std::size_t index, const TriangleTree& tree, const LanesVec3& point, double limit,
                     double odometer) {
-        if (packs_[index].bound >= 0) {
-            const Lanes least = least_distances(bound_of(packs_[index]), point);
+        if (packs_[index].known >= 0) {
+            const Lanes least = least_distances(tangents_of(packs_[index]), point);
             if (!any(least <= splat(limit))) {
                 set_clear(index, odometer + smallest(least));
                 return least;
@@ -70,73 +78,62 @@ public:
         return look_at(index, tree, point, odometer);
     }
 
-    // The exact distances from `point`, where the proxy is at that odometer reading.
-    Lanes look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point, double odometer) {
-        Remembered& remembered = packs_[index];
-        if (remembered.bound >= 0 && remembered.looked_at == odometer) {
-            return least_distances(bound_of(remembered), point);
-        }
-        const PackBound bound = bound_from(offset_from_triangles(tree.pack(remembered.pack), point), point);
-        if (remembered.bound < 0 && bound_count_ < bound_capacity) {
-            remembered.bound = static_cast<std::int32_t>(bound_count_++);
-        }
-        if (remembered.bound >= 0) {
-            bound_of(remembered) = bound;
-            remembered.looked_at = odometer;
-        }
-        const Lanes exact = least_distances(bound, point);
-        set_clear(index, odometer + smallest(exact));
-        return exact;
-    }
-
-    // False where no triangle of the pack can be within `limit` of any place between two points, as far as is
-    // known without a look.
-    bool may_meet(std::size_t index, const LanesVec3& from, const LanesVec3& to, double limit) {
-        if (packs_[index].bound < 0) {
-            return true;
-        }
-        // Bounds are linear: a pack that neither end of the way can touch is not touched between them.
-        const PackBound& bound = bound_of(packs_[index]);
-        return any(lanes_min(least_distances(bound, from), least_distances(bound, to)) <= splat(limit));
-    }
+    // False where no triangle of the pack can be within `limit` of any place between two points that are
+    // `length` apart; the proxy is at the first.
+    bool may_meet(std::size_t index, const TriangleTree& tree, const LanesVec3& from, const LanesVec3& to,
+                  double length, double limit, double odometer);
 
 private:
     static constexpr std::size_t capacity = 768;
-    static constexpr std::size_t bound_capacity = 192;
+    static constexpr std::size_t known_capacity = 192;
 
     struct Remembered {
         std::uint32_t pack;
-        std::int32_t bound;  // its tangent plane, -1: not known
-        double looked_at;    // odometer reading at which that was found
+        std::int32_t known;  // what is known from a look, -1: nothing
+        double looked_at;    // odometer reading at that look
+    };
+    // Of a pack that has been looked at.
+    struct Known {
+        PackBound tangents;
+        PackPlane plane;
+    };
+    // Of four packs: no triangle is nearer to x than normal . x + offset, nor than clear_until - odometer.
+    struct Block {
+        LanesVec3 normal;
+        Lanes offset;       // (unit: meters)
+        Lanes clear_until;  // odometer + distance (unit: meters); infinite beyond count_
     };
 
-    // Odometer + distance: the pack is no nearer than this less the odometer (unit: meters).
-    void set_clear(std::size_t index, double until) {
-        clear_until_[index / lane_count][index % lane_count] = until;
-    }
-    PackBound& bound_of(const Remembered& remembered) {
-        return (*bounds_)[static_cast<std::size_t>(remembered.bound)];
-    }
-    void remember_bounds();
-    std::int32_t remembered_bound(std::uint32_t pack) const;
+    // The exact distances from `point`, where the proxy is at that odometer reading.
+    Lanes look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point, double odometer);
 
-    std::array<Lanes, capacity / lane_count> clear_until_;  // infinite beyond count_
+    void set_clear(std::size_t index, double until) {
+        blocks_[index / lane_count].clear_until[index % lane_count] = until;
+    }
+    void set_plane(std::size_t index, const PackPlane& plane);
+    PackBound& tangents_of(const Remembered& remembered) {
+        return (*known_)[static_cast<std::size_t>(remembered.known)].tangents;
+    }
+    void remember_known();
+    std::int32_t remembered(std::uint32_t pack) const;
+
+    std::array<Block, capacity / lane_count> blocks_;
     std::array<Remembered, capacity> packs_;
-    using Bounds = std::array<PackBound, bound_capacity>;
-    Bounds both_[2];
-    Bounds* bounds_ = &both_[0];
+    using Knowledge = std::array<Known, known_capacity>;
+    Knowledge both_[2];
+    Knowledge* known_ = &both_[0];
     std::size_t count_ = 0;
-    std::size_t bound_count_ = 0;
+    std::size_t known_count_ = 0;
     double covered_until_ = -1.0;
 
     // Of the last gathering, by pack: what was learnt then is still true.
-    static constexpr std::size_t table_size = 512;  // a power of two, above twice bound_capacity
+    static constexpr std::size_t table_size = 512;  // a power of two, above twice known_capacity
     struct Entry {
         std::uint32_t pack;
-        std::int32_t bound;
+        std::int32_t known;
     };
     std::array<Entry, table_size> table_;
-    Bounds* old_bounds_ = &both_[1];
+    Knowledge* old_known_ = &both_[1];
 };
 
 }  // namespace tactus

@@ -13,11 +13,9 @@ Proxy::Proxy(std::size_t most_parts, const ProxySettings& settings)
 // A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins
 // without a kick. Until then it is absent and follows the hand. A hand that starts by just touching has room
 // enough: the first step lifts the sphere off by the thousandth of its radius that may be missing.
-bool Proxy::appear(const Vec3& hand) {
+bool Proxy::appear() {
     const double room = settings_.radius * (1.0 - 1e-3);
-    position_ = hand;
-    present_ = surroundings_.clearance(hand, 2.0 * room) >= room;
-    surroundings_.invalidate();
+    present_ = surroundings_.has_room(position_, room);
     contacts_hold_ = false;
     return present_;
 }
@@ -69,13 +67,15 @@ void Proxy::ride_along(ProxyTick& tick) {
 }
 
 // Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
-// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts.
-double Proxy::friction_limit(const ConstrainedStep& step) const {
+// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts. What the proxy is
+// still above does not hold it, unless it has only just slid off it: a surface that bends away is `dropped`
+// below after a step along it.
+double Proxy::friction_limit(const ConstrainedStep& step, double dropped) const {
     double limit = 0.0;
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts_.items[static_cast<std::size_t>(step.pressing[i])];
         const TouchMaterial& material = scene_->body(contact.body).material;
-        const bool at_rest = contact.gap <= 4.0 * surroundings_.tolerances().skin;
+        const bool at_rest = contact.gap <= 4.0 * surroundings_.tolerances().skin + dropped;
         const double coefficient = sliding_ ? material.dynamic_friction : material.static_friction;
         limit += at_rest ? coefficient * step.pressure[i] : 0.0;
     }
@@ -111,9 +111,9 @@ bool Proxy::lift() {
     return position_ != before;
 }
 
-// What friction leaves of a step.
-void Proxy::brake(ConstrainedStep& step) {
-    const double limit = friction_limit(step);
+// What friction leaves of a step. It has no say in how far down the surface is.
+void Proxy::brake(ConstrainedStep& step, double dropped) {
+    const double limit = friction_limit(step, dropped);
     const double slide = glm::length(step.slide);
     if (limit <= 0.0 || slide <= 0.0) {
         return;
@@ -121,9 +121,9 @@ void Proxy::brake(ConstrainedStep& step) {
     double left = std::max(0.0, slide - limit);
     if (left > surroundings_.tolerances().step && !sliding_) {
         sliding_ = true;  // static friction has given way: what is left is held by the dynamic one
-        left = std::max(0.0, slide - friction_limit(step));
+        left = std::max(0.0, slide - friction_limit(step, dropped));
     }
-    step.motion *= left / slide;
+    step.motion = step.drop + (step.motion - step.drop) * (left / slide);
 }
 
 // How far a step of that length along a surface may end above it: no surface bends more than the sphere
@@ -132,19 +132,25 @@ double Proxy::drop_after(double length) const {
     return std::min(length * length / settings_.radius, 0.1 * settings_.radius);
 }
 
+// Where nothing can be in the way, there is nothing to do.
+bool Proxy::fly(const Vec3& hand) {
+    const double way = glm::length(hand - position_);
+    if (!surroundings_.is_clear(way)) {
+        return false;
+    }
+    position_ = hand;
+    surroundings_.travelled(way);
+    sliding_ = false;
+    contacts_hold_ = false;
+    return true;
+}
+
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Tolerances& tolerances = surroundings_.tolerances();
-    touching_.clear();
-    if (const double way = glm::length(hand - position_); surroundings_.is_clear(way)) {
-        position_ = hand;
-        surroundings_.travelled(way);
-        sliding_ = false;
-        contacts_hold_ = false;
-        return;
-    }
     bool slid = false;
     bool keep_all = false;
-    double beyond = 0.0;
+    double beyond = 0.0;   // how far above a surface the last step may have ended
+    double dropped = 0.0;  // the same, where it led along one
     ConstrainedStep step;
     for (tick.steps = 0; tick.steps < settings_.most_steps; ++tick.steps) {
         if (!contacts_hold_) {
@@ -156,17 +162,18 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             continue;
         }
         step = constrained_step(hand - position_, contacts_, tolerances.same);
-        brake(step);
+        brake(step, dropped);
         tick.residual = glm::length(step.motion);
         if (tick.residual <= tolerances.step || !surroundings_.may_go_on()) {
             break;
         }
-        slid = slid || step.pressing_count > 0;
+        slid = slid || (step.pressing_count > 0 && step.motion != step.drop);
         bool free = true;
         const Vec3 before = position_;
         advance(step.motion, free);
         contacts_hold_ = false;
         beyond = drop_after(glm::distance(before, position_));
+        dropped = step.pressing_count > 0 ? beyond : 0.0;
         // Stopped without having moved by something that is no contact: look at every edge and corner there
         // is.
         keep_all = !free && position_ == before;
@@ -192,19 +199,23 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     const Vec3 size = glm::abs(given_hand);
     hand_ = size.x <= farthest && size.y <= farthest && size.z <= farthest ? given_hand : hand_;
     const Vec3 hand = hand_;
+    if (!present_) {
+        surroundings_.jumped(glm::distance(hand, position_));
+        position_ = hand;
+    }
     const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
     contacts_hold_ = contacts_hold_ && !changed;
-    if (!present_) {
+    if (!present_ && !appear()) {
         touching_.clear();
-        if (!appear(hand)) {
-            tick.position = hand;
-            tick.status = proxy_absent;
-            return tick;
-        }
-        surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
+        tick.position = hand;
+        tick.status = proxy_absent;
+        return tick;
     }
     ride_along(tick);
-    descend(hand, tick);
+    touching_.clear();
+    if (!fly(hand)) {
+        descend(hand, tick);
+    }
     tick.position = position_;
     tick.status |= touching_.count > 0 ? static_cast<std::uint32_t>(proxy_touching) : 0u;
     tick.status |= sliding_ ? static_cast<std::uint32_t>(proxy_sliding) : 0u;

@@ -63,7 +63,7 @@ public:
     // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
     void displace(const Vec3& offset) {
         position_ += offset;
-        surroundings_.travelled(glm::length(offset));
+        surroundings_.jumped(glm::length(offset));
         contacts_hold_ = false;
     }
     // The proxy as it was, to move it again from there.
@@ -91,15 +91,16 @@ public:
     }
 
 private:
-    bool appear(const Vec3& hand);
+    bool appear();
     void ride_along(ProxyTick& tick);
     void advance(const Vec3& motion, bool& free, int except = -1);
     int carrier() const;
+    bool fly(const Vec3& hand);
     void descend(const Vec3& hand, ProxyTick& tick);
     bool lift();
-    void brake(ConstrainedStep& step);
+    void brake(ConstrainedStep& step, double dropped);
     double drop_after(double length) const;
-    double friction_limit(const ConstrainedStep& step) const;
+    double friction_limit(const ConstrainedStep& step, double dropped) const;
     void keep_touching(const ConstrainedStep& step);
 
     ProxySettings settings_;

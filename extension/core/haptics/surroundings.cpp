@@ -30,35 +30,64 @@ Surroundings::Surroundings(std::size_t most_parts)
 
 bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius,
                               std::uint32_t mask) {
-    const bool changed =
-        scene_ != &scene || revision_ != scene.revision() || mask_ != mask || radius_ != radius;
-    scene_ = &scene;
-    mask_ = mask;
-    radius_ = radius;
-    if (changed) {
-        revision_ = scene.revision();
-        forget(center);
-    }
+    const bool changed = take_in_changes(scene, center, radius, mask);
     work_left_ = most_work;
     pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
     odometer_at_tick_ = odometer_;
-    for (const int index : scene.moved_bodies()) {
-        const TouchBody& body = scene.body(index);
+    follow_moved_bodies();
+    return_passed(center);
+    retire_distant_parts();
+    return changed || passed_count_ > 0 || !scene.moved_bodies().empty();
+}
+
+bool Surroundings::take_in_changes(const TouchScene& scene, const Vec3& center, double radius,
+                                   std::uint32_t mask) {
+    const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius});
+    // Bodies may have gone anywhere in ticks without this proxy.
+    const bool missed = scene.ticks() > ticks_ + 1;
+    ticks_ = scene.ticks();
+    const bool other =
+        scene_ != &scene || mask_ != mask || radius_ != radius || farthest > magnitude_ || missed;
+    if (!other && revision_ == scene.revision()) {
+        return false;
+    }
+    scene_ = &scene;
+    mask_ = mask;
+    radius_ = radius;
+    if (other || scene.revision() - revision_ > TouchScene::remembered_changes) {
+        forget_all(center);
+    } else {
+        const double good_for = magnitude_;
+        for (std::uint64_t revision = revision_ + 1; revision <= scene.revision(); ++revision) {
+            const TouchScene::Change& change = scene.change(revision);
+            for (std::uint32_t i = 0; i < change.part_count; ++i) {
+                forget(change.first_part + i, center);
+            }
+        }
+        if (magnitude_ > good_for) {
+            forget_all(center);
+        }
+    }
+    revision_ = scene.revision();
+    return true;
+}
+
+// What moves comes nearer by as much. A far part has been given some way to move before that matters.
+void Surroundings::follow_moved_bodies() {
+    for (const int index : scene_->moved_bodies()) {
+        const TouchBody& body = scene_->body(index);
         for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
             const auto part = static_cast<std::uint32_t>(body.first_part + i);
             Record& record = records_[part];
             if (record.place == Place::absent) {
                 continue;
             }
-            if (record.place == Place::far) {
+            record.slack += body.moved_by;
+            if (record.place == Place::far && record.slack > record.slack_until) {
                 make_near(part);
             }
-            record.slack += body.moved_by;
         }
     }
-    return_passed(center);
-    retire_distant_parts();
-    return changed || passed_count_ > 0 || !scene.moved_bodies().empty();
 }
 
 bool Surroundings::pass_through(int body) {
@@ -95,29 +124,40 @@ void Surroundings::return_passed(const Vec3& center) {
     }
 }
 
-// Everything is far and due at once: the first question looks at each part again.
-void Surroundings::forget(const Vec3& center) {
+// Everything is as far as the ball around it; what that is not enough for is looked at when it is asked for.
+void Surroundings::forget_all(const Vec3& center) {
     far_.clear();
     near_.clear();
     free_hoods_.clear();
     for (std::size_t i = 0; i < hood_count; ++i) {
         free_hoods_.push_back(static_cast<std::int16_t>(i));
     }
-    double magnitude = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius_});
-    const auto parts = scene_->parts();
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        Record& record = records_[i];
-        record = {0.0, 0.0, Place::absent, -1, record.stamp + 1};
-        if (!parts[i].part || (scene_->body(static_cast<int>(parts[i].body)).layer & mask_) == 0) {
-            continue;
-        }
-        record.place = Place::far;
-        far_.push_back({odometer_, static_cast<std::uint32_t>(i), record.stamp});
-        if (const TriangleTree* tree = parts[i].part->tree()) {
-            magnitude = std::max(magnitude, tree->magnitude());
+    const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius_});
+    magnitude_ = 2.0 * farthest;
+    for (const ScenePart& placed : scene_->parts()) {
+        if (placed.part && placed.part->tree()) {
+            magnitude_ = std::max(magnitude_, placed.part->tree()->magnitude());
         }
     }
-    tolerances_ = make_tolerances(radius_, magnitude);
+    tolerances_ = make_tolerances(radius_, magnitude_);
+    for (std::size_t i = 0; i < scene_->parts().size(); ++i) {
+        records_[i] = {0.0, 0.0, 0.0, Place::absent, -1, records_[i].stamp};
+        forget(static_cast<std::uint32_t>(i), center);
+    }
+}
+
+void Surroundings::forget(std::uint32_t part, const Vec3& center) {
+    Record& record = records_[part];
+    leave_near(part);
+    record = {0.0, 0.0, 0.0, Place::absent, -1, record.stamp + 1};
+    const ScenePart& placed = scene_->parts()[part];
+    if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
+        return;
+    }
+    if (const TriangleTree* tree = placed.part->tree()) {
+        magnitude_ = std::max(magnitude_, tree->magnitude());
+    }
+    send_far(part, std::max(0.0, distance_to_ball(part, center)));
 }
 
 void Surroundings::make_near(std::uint32_t part) {
@@ -128,34 +168,58 @@ void Surroundings::make_near(std::uint32_t part) {
     near_.push_back(part);
 }
 
-void Surroundings::send_far(std::uint32_t part, double distance) {
+void Surroundings::leave_near(std::uint32_t part) {
     Record& record = records_[part];
-    record.place = Place::far;
-    ++record.stamp;
+    if (record.place == Place::near) {
+        std::erase(near_, part);
+    }
     if (record.hood >= 0) {
         free_hoods_.push_back(record.hood);
         record.hood = -1;
     }
-    far_.push_back({odometer_ + distance, part, record.stamp});
-    std::push_heap(far_.begin(), far_.end(), [](const Far& p, const Far& q) { return p.due > q.due; });
 }
 
-// A part that cannot be reached within the next ticks leaves the near list; a body that keeps moving stays.
+// A part that has never moved may be met after the whole distance; of one that has, half is its own.
+void Surroundings::send_far(std::uint32_t part, double distance) {
+    Record& record = records_[part];
+    const double own = record.slack > 0.0 ? 0.5 * distance : 0.0;
+    record.place = Place::far;
+    record.slack_until = record.slack + own;
+    push_far({odometer_ + distance - own, part, ++record.stamp});
+}
+
+// Entries that are out of date leave the heap when it is full: far rarer than entries come.
+void Surroundings::push_far(const Far& far) {
+    const auto later = [](const Far& p, const Far& q) { return p.due > q.due; };
+    if (far_.size() == far_.capacity()) {
+        std::erase_if(far_, [&](const Far& entry) { return records_[entry.part].stamp != entry.stamp; });
+        std::make_heap(far_.begin(), far_.end(), later);
+    }
+    far_.push_back(far);
+    std::push_heap(far_.begin(), far_.end(), later);
+}
+
+// A part that cannot be reached within the next ticks leaves the near list.
 void Surroundings::retire_distant_parts() {
-    const double distant = 40.0 * pace_ + 0.1 * radius_;
     for (std::size_t i = 0; i < near_.size();) {
         const std::uint32_t part = near_[i];
         const Record& record = records_[part];
+        const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
         const double distance = record.clear_until - odometer_for(record);
-        const bool moves = scene_->body(static_cast<int>(scene_->parts()[part].body)).moved;
-        if (moves || distance <= distant || far_.size() + 1 >= far_.capacity()) {
+        if (distance <= 40.0 * (pace_ + body.moved_by) + 0.1 * radius_) {
             ++i;
             continue;
         }
-        near_[i] = near_.back();
-        near_.pop_back();
+        leave_near(part);
         send_far(part, distance);
     }
+}
+
+// How far the sphere is from the ball around the part, and a little less.
+double Surroundings::distance_to_ball(std::uint32_t index, const Vec3& center) const {
+    const ScenePart& placed = scene_->parts()[index];
+    const double margin = radius_ + 2.0 * tolerances_.reach + tolerances_.skin;
+    return glm::distance(center, to_parent(placed.pose, placed.part->center)) - placed.part->radius - margin;
 }
 
 // A lower bound of the distance between the sphere and the part.
@@ -166,11 +230,9 @@ double Surroundings::distance_bound(std::uint32_t index, const Vec3& center) con
     if (!placed.part->tree()) {
         return distance_to_solid(placed.part->solid(), local).distance - margin;
     }
-    const double to_ball = glm::length(local - placed.part->center) - placed.part->radius;
-    if (to_ball > margin + placed.part->radius) {
-        return to_ball - margin;
-    }
-    return placed.part->tree()->nearest(local, 1e30).distance - margin;
+    const double to_ball = distance_to_ball(index, center);
+    return to_ball > placed.part->radius ? to_ball
+                                         : placed.part->tree()->nearest(local, 1e30).distance - margin;
 }
 
 // Makes sure that every part within `length` of the sphere is on the near list.
@@ -180,17 +242,16 @@ void Surroundings::bring_near(double length, const Vec3& center) {
         const Far soonest = far_.front();
         std::pop_heap(far_.begin(), far_.end(), later);
         far_.pop_back();
-        if (records_[soonest.part].stamp != soonest.stamp) {
+        Record& record = records_[soonest.part];
+        if (record.stamp != soonest.stamp) {
             continue;
         }
         const double distance = distance_bound(soonest.part, center);
-        if (distance > 2.0 * length) {
-            far_.push_back({odometer_ + distance, soonest.part, soonest.stamp});
-            std::push_heap(far_.begin(), far_.end(), later);
+        if (distance > 4.0 * length) {
+            send_far(soonest.part, distance);
             continue;
         }
         make_near(soonest.part);
-        Record& record = records_[soonest.part];
         record.clear_until = odometer_for(record) + distance;
     }
 }
@@ -258,7 +319,7 @@ double Surroundings::look_around(Neighbourhood& hood, const TriangleTree& tree, 
                                  double limit) {
     const LanesVec3 center = splat(local);
     double nearest = std::numeric_limits<double>::infinity();
-    const double others = hood.visit_within(limit, now, [&](std::size_t i) {
+    const double others = hood.visit_between(center, center, 0.0, limit, now, [&](std::size_t i) {
         --work_left_;
         const Lanes distances = hood.distances(i, tree, center, limit, now);
         for (int k = 0; k < lane_count; ++k) {
@@ -375,14 +436,9 @@ double Surroundings::sweep_hood(Neighbourhood& hood, const TriangleTree& tree, d
     bool found = false;
     const LanesVec3 from = splat(start);
     LanesVec3 to = splat(start + motion * best);
-    hood.visit_within(reach + length * limit, now, [&](std::size_t i) {
-        if (!hood.may_meet(i, from, to, reach)) {
-            return;
-        }
-        // A tangent plane from here is cheaper than a sweep, and mostly enough.
-        hood.look_at(i, tree, from, now);
+    hood.visit_between(from, to, length * limit, reach, now, [&](std::size_t i) {
         --work_left_;
-        if (!hood.may_meet(i, from, to, reach)) {
+        if (!hood.may_meet(i, tree, from, to, length * best, reach, now)) {
             return;
         }
         work_left_ -= sweep_work;
@@ -450,18 +506,14 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
     return false;
 }
 
-double Surroundings::clearance(const Vec3& center, double far) const {
-    double nearest = far;
-    std::uint32_t looked_at = 0xffff'ffffu;
-    for (const ScenePart& placed : scene_->parts()) {
-        const bool touchable =
-            placed.part && (scene_->body(static_cast<int>(placed.body)).layer & mask_) != 0;
-        if (touchable && placed.body != looked_at) {
-            looked_at = placed.body;
-            nearest = nearest_surface(*scene_, static_cast<int>(placed.body), center, nearest).distance;
-        }
-    }
-    return nearest;
+bool Surroundings::has_room(const Vec3& center, double room) {
+    bring_near(room, center);
+    return std::ranges::all_of(near_, [&](std::uint32_t index) {
+        const Record& record = records_[index];
+        const auto body = static_cast<int>(scene_->parts()[index].body);
+        return record.clear_until > odometer_for(record) + room ||
+               nearest_surface(*scene_, body, center, 2.0 * room).distance >= room;
+    });
 }
 
 }  // namespace tactus

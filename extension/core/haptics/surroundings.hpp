@@ -29,8 +29,13 @@ public:
     // nothing near the proxy has changed since the last tick.
     bool begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
 
-    // The proxy has moved by `length`, or a way of that length is about to be asked for.
+    // The proxy has moved by `length`.
     void travelled(double length) { odometer_ += length; }
+    // The proxy has been put elsewhere, `length` away.
+    void jumped(double length) {
+        odometer_ += length;
+        odometer_at_tick_ += length;
+    }
 
     // True where nothing can be met within `length` of the centre, as far as is already known.
     bool is_clear(double length) const;
@@ -59,11 +64,8 @@ public:
     // False where this tick has looked at so much that it must end: what is still missing is for the next.
     bool may_go_on() const { return work_left_ > 0; }
 
-    // Everything remembered is void: the proxy has been put elsewhere.
-    void invalidate() { revision_ = 0; }
-
-    // Distance from the centre to the nearest surface, up to `far`. Negative inside a solid.
-    double clearance(const Vec3& center, double far) const;
+    // False where a surface is nearer to the centre than `room`, or the centre is inside a solid.
+    bool has_room(const Vec3& center, double room);
 
     const Tolerances& tolerances() const { return tolerances_; }
 
@@ -73,6 +75,7 @@ private:
     struct Record {
         double clear_until = 0.0;  // odometer + slack reading before which the sphere cannot touch the part
         double slack = 0.0;        // how far the part itself has moved since it was first met
+        double slack_until = 0.0;  // far: it stays so until it has moved that far
         Place place = Place::absent;
         std::int16_t hood = -1;   // its neighbourhood, -1: none
         std::uint32_t stamp = 0;  // tells entries of the far heap that are out of date
@@ -84,19 +87,25 @@ private:
         std::uint32_t stamp;
     };
 
-    void forget(const Vec3& center);
     struct Passed {
         int body;
         bool entered;  // the sphere has been within its surface since
     };
 
+    bool take_in_changes(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
+    void forget_all(const Vec3& center);
+    void forget(std::uint32_t part, const Vec3& center);
+    void follow_moved_bodies();
     bool is_passed(std::uint32_t body) const;
     void return_passed(const Vec3& center);
     void bring_near(double length, const Vec3& center);
     void make_near(std::uint32_t part);
+    void leave_near(std::uint32_t part);
     void send_far(std::uint32_t part, double distance);
+    void push_far(const Far& far);
     void retire_distant_parts();
     double odometer_for(const Record& record) const { return odometer_ + record.slack; }
+    double distance_to_ball(std::uint32_t part, const Vec3& center) const;
     double distance_bound(std::uint32_t part, const Vec3& center) const;
     Neighbourhood* hood_around(std::uint32_t part, const Vec3& local, double way);
     double sweep_tree(std::uint32_t part, const Vec3& start, const Vec3& motion, double length, double limit);
@@ -115,9 +124,11 @@ private:
 
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
+    std::uint64_t ticks_ = 0;
     std::uint32_t mask_ = 0;
     double radius_ = 0.0;
     Tolerances tolerances_{};
+    double magnitude_ = 0.0;  // largest coordinate that the tolerances are good for (unit: meters)
     double odometer_ = 0.0;
     double odometer_at_tick_ = 0.0;
     double pace_ = 0.0;  // recent travel per tick (unit: meters)

@@ -30,7 +30,7 @@ TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts)
 // First fit: removed bodies leave gaps that later ones fill.
 int TouchScene::find_parts(std::size_t count) const {
     std::size_t free = 0;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
+    for (std::size_t i = parts_full_below_; i < parts_.size(); ++i) {
         free = parts_[i].part ? 0 : free + 1;
         if (free == count) {
             return static_cast<int>(i + 1 - count);
@@ -41,7 +41,9 @@ int TouchScene::find_parts(std::size_t count) const {
 
 int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material,
                     std::uint32_t layer) {
-    const auto slot = std::ranges::find_if(bodies_, [](const TouchBody& body) { return !body.shape; });
+    const auto is_free = [](const TouchBody& body) { return !body.shape; };
+    const auto slot = std::find_if(bodies_.begin() + static_cast<std::ptrdiff_t>(bodies_full_below_),
+                                   bodies_.end(), is_free);
     const int first_part = find_parts(shape.parts.size());
     if (slot == bodies_.end() || first_part < 0) {
         return -1;
@@ -52,7 +54,11 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
         const Pose placed = compose(pose, shape.parts[i].pose);
         parts_[slot->first_part + i] = {&shape.parts[i], static_cast<std::uint32_t>(index), placed, placed};
     }
-    ++revision_;
+    bodies_full_below_ = static_cast<std::size_t>(index) + 1;
+    if (slot->first_part <= parts_full_below_) {
+        parts_full_below_ = slot->first_part + shape.parts.size();
+    }
+    note_change(*slot);
     return index;
 }
 
@@ -62,11 +68,19 @@ void TouchScene::remove(int body) {
         parts_[removed.first_part + i] = {};
     }
     std::erase(moved_, body);
+    note_change(removed);
+    bodies_full_below_ = std::min(bodies_full_below_, static_cast<std::size_t>(body));
+    parts_full_below_ = std::min(parts_full_below_, static_cast<std::size_t>(removed.first_part));
     removed = {};
-    ++revision_;
+}
+
+void TouchScene::note_change(const TouchBody& body) {
+    changes_[++revision_ % remembered_changes] = {body.first_part,
+                                                  static_cast<std::uint32_t>(body.shape->parts.size())};
 }
 
 void TouchScene::begin_tick() {
+    ++ticks_;
     for (const int index : moved_) {
         TouchBody& body = body_at(index);
         body.previous = body.pose;
@@ -88,7 +102,7 @@ void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {
     body.pose = pose;
     if (teleport) {
         body.previous = pose;
-        ++revision_;
+        note_change(body);
     } else if (!body.moved) {
         body.moved = true;
         moved_.push_back(index);
@@ -111,7 +125,7 @@ void TouchScene::displace(int index, const Pose& motion) {
 
 void TouchScene::set_layer(int body, std::uint32_t layer) {
     body_at(body).layer = layer;
-    ++revision_;
+    note_change(body_at(body));
 }
 
 }  // namespace tactus

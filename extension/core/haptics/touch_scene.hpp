@@ -5,6 +5,7 @@
 // whoever adds a body keeps its shape alive until the body is removed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,18 +55,31 @@ public:
     const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
     std::span<const ScenePart> parts() const { return parts_; }
     std::span<const int> moved_bodies() const { return moved_; }
-    // Changes whenever bodies were added, removed, teleported or changed layers: what a proxy remembers is
-    // void then.
+    std::uint64_t ticks() const { return ticks_; }  // begun so far
+
+    // Parts of a body that was added, removed, teleported or changed its layer: what a proxy remembers of
+    // them is void.
+    struct Change {
+        std::uint32_t first_part = 0;
+        std::uint32_t part_count = 0;
+    };
+    // Counts the changes. The last `remembered_changes` can be asked for by their number.
+    static constexpr std::uint64_t remembered_changes = 64;
     std::uint64_t revision() const { return revision_; }
+    const Change& change(std::uint64_t revision) const { return changes_[revision % remembered_changes]; }
 
 private:
     TouchBody& body_at(int slot) { return bodies_[static_cast<std::size_t>(slot)]; }
     int find_parts(std::size_t count) const;
+    void note_change(const TouchBody& body);
 
     std::vector<TouchBody> bodies_;
     std::vector<ScenePart> parts_;
     std::vector<int> moved_;
+    std::size_t bodies_full_below_ = 0, parts_full_below_ = 0;  // no slot is free before these
+    std::array<Change, remembered_changes> changes_;
     std::uint64_t revision_ = 1;
+    std::uint64_t ticks_ = 0;
 };
 
 // Where a point fixed to the body was one tick ago, given where it is now.

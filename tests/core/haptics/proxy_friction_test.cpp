@@ -141,5 +141,31 @@ TEST(ProxyFriction, EachBodyHoldsByItsOwnCoefficient) {
     EXPECT_NEAR(back, 0.2 * 0.02 + 0.6 * 0.01, 5e-3 * 0.01);
 }
 
+// Every facet ends at an edge, and beyond it the next one lies lower than a straight step leads. The pull is
+// held there as anywhere else.
+TEST(ProxyFriction, HoldsAllTheWayAroundAFacetedBall) {
+    constexpr double friction = 0.3;
+    TouchRig rig(radius);
+    rig.add(shared::icosphere(3, 0.4), {}, TouchMaterial{1.0, 0.0, friction, friction});
+    const auto hand = [](double angle, double depth) {
+        return (0.4 + radius - depth) * Vec3(std::cos(angle), std::sin(angle), 0.31 * std::cos(angle));
+    };
+    rig.draw(hand(0.0, -0.1), hand(0.0, 0.03), 100);
+    int ticks = 0;
+    for (double angle = 0.0; angle < 2.0; angle += 0.002) {
+        const ProxyTick tick = rig.tick(hand(angle, 0.03));
+        if (angle < 0.1) {
+            continue;  // until static friction has given way
+        }
+        double pressure = 0.0;
+        for (const Contact& contact : rig.proxy.touching()) {
+            pressure += contact.pressure;
+        }
+        ASSERT_NEAR(glm::length(tick.slide) / pressure, friction, 0.005 * friction) << "angle " << angle;
+        ++ticks;
+    }
+    EXPECT_GT(ticks, 900);
+}
+
 }  // namespace
 }  // namespace tactus

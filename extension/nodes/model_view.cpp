@@ -1,0 +1,261 @@
+#include "nodes/model_view.hpp"
+
+#include <godot_cpp/classes/box_mesh.hpp>
+#include <godot_cpp/classes/capsule_mesh.hpp>
+#include <godot_cpp/classes/cylinder_mesh.hpp>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/classes/plane_mesh.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/classes/sphere_mesh.hpp>
+#include <godot_cpp/core/object.hpp>
+
+#include "nodes/body_reading.hpp"
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/mesh_drawing.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+// A plane without end is drawn so wide (unit: meters).
+constexpr real_t drawn_plane = 20.0F;
+
+const Color picture_color(0.55F, 0.62F, 0.7F);
+
+// The triangles between the heights of a grid.
+TriangleMesh triangles_of(const HeightFieldShape& field) {
+    TriangleMesh mesh;
+    const Vec3 middle(0.5 * (field.columns - 1), 0.0, 0.5 * (field.rows - 1));
+    for (std::uint32_t row = 0; row < field.rows; ++row) {
+        for (std::uint32_t column = 0; column < field.columns; ++column) {
+            const Vec3 at(column, (*field.heights)[std::size_t{row} * field.columns + column], row);
+            mesh.vertices.push_back((at - middle) * field.scale);
+        }
+    }
+    for (std::uint32_t row = 0; row + 1 < field.rows; ++row) {
+        for (std::uint32_t column = 0; column + 1 < field.columns; ++column) {
+            const std::uint32_t a = row * field.columns + column;
+            const std::uint32_t b = a + field.columns;
+            mesh.triangles.push_back({a, b, a + 1});
+            mesh.triangles.push_back({a + 1, b, b + 1});
+        }
+    }
+    return mesh;
+}
+
+// (1 + cos, sin axis) is twice the half angle's (cos, sin axis), but for a turn by pi.
+Quat turn_from_up(const Vec3& normal) {
+    const Vec3 up(0.0, 1.0, 0.0);
+    const double cosine = glm::dot(up, normal);
+    return cosine < -0.999999 ? Quat(0.0, 1.0, 0.0, 0.0)
+                              : glm::normalize(Quat(1.0 + cosine, glm::cross(up, normal)));
+}
+
+struct Drawing {
+    Ref<Mesh> mesh;
+    Pose pose;  // of the mesh in the shape
+};
+
+struct Draw {
+    Drawing operator()(const SphereShape& shape) const {
+        Ref<SphereMesh> mesh;
+        mesh.instantiate();
+        mesh->set_radius(static_cast<float>(shape.radius));
+        mesh->set_height(static_cast<float>(2.0 * shape.radius));
+        return {mesh, {}};
+    }
+    Drawing operator()(const BoxShape& shape) const {
+        Ref<BoxMesh> mesh;
+        mesh.instantiate();
+        mesh->set_size(to_godot(2.0 * shape.half_extents));
+        return {mesh, {}};
+    }
+    Drawing operator()(const CapsuleShape& shape) const {
+        Ref<CapsuleMesh> mesh;
+        mesh.instantiate();
+        mesh->set_radius(static_cast<float>(shape.radius));
+        mesh->set_height(static_cast<float>(2.0 * (shape.radius + shape.half_segment)));
+        return {mesh, {}};
+    }
+    Drawing operator()(const CylinderShape& shape) const {
+        Ref<CylinderMesh> mesh;
+        mesh.instantiate();
+        mesh->set_top_radius(static_cast<float>(shape.radius));
+        mesh->set_bottom_radius(static_cast<float>(shape.radius));
+        mesh->set_height(static_cast<float>(2.0 * shape.half_height));
+        return {mesh, {}};
+    }
+    Drawing operator()(const PlaneShape& shape) const {
+        Ref<PlaneMesh> mesh;
+        mesh.instantiate();
+        mesh->set_size(Vector2(drawn_plane, drawn_plane));
+        return {mesh, {shape.offset * shape.normal, turn_from_up(shape.normal)}};
+    }
+    Drawing operator()(const ConvexHullShape& shape) const { return {drawn_mesh(*shape.hull), {}}; }
+    Drawing operator()(const MeshShape& shape) const { return {drawn_mesh(*shape.mesh), {}}; }
+    Drawing operator()(const HeightFieldShape& shape) const { return {drawn_mesh(triangles_of(shape)), {}}; }
+};
+
+}  // namespace
+
+void ModelView::hold_still(const std::vector<CollisionObject3D*>& bodies) {
+    for (CollisionObject3D* body : bodies) {
+        if (is_rigid(*body)) {
+            PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(),
+                                                            PhysicsServer3D::BODY_MODE_STATIC);
+            held_.insert(body->get_instance_id());
+        }
+    }
+}
+
+void ModelView::note(const ObjectDescription& description) {
+    described_[description.object] = {description.body.pose, description.touch_shapes.empty()
+                                                                 ? description.body.shapes
+                                                                 : description.touch_shapes};
+}
+
+// A name that leads out of the world names nothing.
+CollisionObject3D* ModelView::scene_body(const std::string& name) const {
+    const String path = to_godot(name);
+    if (path.is_empty() || path.begins_with("/")) {
+        return nullptr;
+    }
+    Node* found = world_.get_node_or_null(NodePath(path));
+    return found != nullptr && world_.is_ancestor_of(found) && is_solid_body(found)
+               ? Object::cast_to<CollisionObject3D>(found)
+               : nullptr;
+}
+
+Node3D* ModelView::make_picture(const std::string& name, const Description& description) const {
+    auto* picture = memnew(Node3D);
+    picture->set_name(to_godot(name).get_file().validate_node_name());
+    for (const PlacedShape& placed : description.touched) {
+        const Drawing drawing = std::visit(Draw{}, placed.shape);
+        auto* part = memnew(MeshInstance3D);
+        part->set_mesh(drawing.mesh);
+        part->set_material_override(lit_material(picture_color));
+        part->set_transform(to_godot(placed.pose) * to_godot(drawing.pose));
+        picture->add_child(part);
+    }
+    world_.add_child(picture, true);
+    return picture;
+}
+
+void ModelView::place(const Shown& shown, const Pose& pose) {
+    if (auto* node = Object::cast_to<Node3D>(ObjectDB::get_instance(shown.node))) {
+        const Transform3D to = to_godot(pose);
+        node->set_global_transform(Transform3D(to.basis * shown.scaling, to.origin));
+    }
+}
+
+void ModelView::show(Shown& shown, const ModelObject& object) {
+    const Description& description = described_[object.object];
+    if (CollisionObject3D* body = scene_body(object.name)) {
+        shown.node = body->get_instance_id();
+        shown.scaling = without_rounding(scaling_of(body->get_global_transform().basis));
+    } else {
+        shown.node = make_picture(object.name, description)->get_instance_id();
+        shown.is_picture = true;
+    }
+    place(shown, description.pose);
+}
+
+void ModelView::hide(const Shown& shown) {
+    if (shown.body != no_handle) {
+        object_of_body_.erase(shown.body);
+    }
+    if (auto* picture =
+            shown.is_picture ? Object::cast_to<Node>(ObjectDB::get_instance(shown.node)) : nullptr) {
+        picture->queue_free();
+    }
+}
+
+std::vector<ModelNews> ModelView::update(const std::vector<ModelObject>& objects) {
+    std::vector<ModelNews> news;
+    std::unordered_map<ObjectId, Shown> before = std::move(shown_);
+    shown_.clear();
+    for (const ModelObject& object : objects) {
+        const auto was = before.find(object.object);
+        const bool same = was != before.end() && was->second.name == object.name &&
+                          was->second.body == object.body && was->second.problem == object.problem;
+        Shown shown;
+        if (same) {
+            shown = was->second;
+            before.erase(was);
+        } else {
+            if (was != before.end()) {
+                hide(was->second);
+                before.erase(was);
+            }
+            shown.name = object.name;
+            shown.body = object.body;
+            shown.problem = object.problem;
+            const bool refused = object.body == no_handle;
+            if (!refused) {
+                show(shown, object);
+            }
+            news.push_back({refused ? ModelNews::Kind::refused : ModelNews::Kind::discovered,
+                            to_godot(object.name), shown.node, to_godot(object.problem)});
+        }
+        if (shown.body != no_handle) {
+            object_of_body_[shown.body] = object.object;
+        }
+        shown_[object.object] = shown;
+    }
+    for (const auto& [id, gone] : before) {
+        hide(gone);
+        described_.erase(id);
+        news.push_back({ModelNews::Kind::removed, to_godot(gone.name), 0, String()});
+    }
+    return news;
+}
+
+void ModelView::apply(const BodyState& state) {
+    const auto object = object_of_body_.find(state.handle);
+    if (object == object_of_body_.end()) {
+        return;
+    }
+    Shown& shown = shown_[object->second];
+    if (shown.changed_at == state.changed_at) {
+        return;
+    }
+    shown.changed_at = state.changed_at;
+    place(shown, state.pose);
+    if (auto* rigid = Object::cast_to<RigidBody3D>(ObjectDB::get_instance(shown.node))) {
+        rigid->set_linear_velocity(to_godot(state.linear_velocity));
+        rigid->set_angular_velocity(to_godot(state.angular_velocity));
+    }
+}
+
+std::uint64_t ModelView::node_of(SessionHandle body) const {
+    const auto object = object_of_body_.find(body);
+    return object != object_of_body_.end() ? shown_.at(object->second).node : 0;
+}
+
+SessionHandle ModelView::body_of(std::uint64_t node) const {
+    for (const auto& [id, shown] : shown_) {
+        if (shown.node == node) {
+            return shown.body;
+        }
+    }
+    return no_handle;
+}
+
+void ModelView::release() {
+    for (const auto& [id, shown] : shown_) {
+        hide(shown);
+    }
+    shown_.clear();
+    for (const std::uint64_t id : held_) {
+        if (const auto* body = Object::cast_to<RigidBody3D>(ObjectDB::get_instance(id))) {
+            PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(), own_mode(*body));
+        }
+    }
+    held_.clear();
+}
+
+}  // namespace tactus

@@ -1,0 +1,70 @@
+// Where the operator is: the bodies of the far side, shown. A body of this scene that has the same path below
+// its HapticWorld shows its far twin; where there is none, a picture is made. Main thread only.
+#pragma once
+
+#include <godot_cpp/classes/collision_object3d.hpp>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "core/geometry/shape.hpp"
+#include "network/messages.hpp"
+#include "nodes/mmt_link.hpp"
+#include "session/model_builder.hpp"
+
+namespace tactus {
+
+class HapticWorld;
+
+class ModelView {
+public:
+    explicit ModelView(HapticWorld& world) : world_(world) {}
+
+    // The bodies of this scene. They stay where they are until the far side says where they should be.
+    void hold_still(const std::vector<godot::CollisionObject3D*>& bodies);
+
+    // Described just now, before it is built.
+    void note(const ObjectDescription& description);
+
+    // Brings nodes and bodies together; says what has become of which.
+    std::vector<ModelNews> update(const std::vector<ModelObject>& objects);
+
+    void apply(const BodyState& state);
+
+    // 0 and no_handle where there is none.
+    std::uint64_t node_of(SessionHandle body) const;
+    SessionHandle body_of(std::uint64_t node) const;
+
+    // Gives the scene's bodies back to Godot's own physics and takes the pictures away.
+    void release();
+
+private:
+    struct Description {
+        Pose pose;
+        std::vector<PlacedShape> touched;
+    };
+    struct Shown {
+        std::string name;
+        SessionHandle body = no_handle;
+        std::uint64_t node = 0;
+        bool is_picture = false;       // made here
+        godot::Basis scaling;          // of a node of the scene
+        std::uint64_t changed_at = 0;  // BodyState::changed_at that is shown
+        std::string problem;
+    };
+
+    void show(Shown& shown, const ModelObject& object);
+    void hide(const Shown& shown);
+    godot::CollisionObject3D* scene_body(const std::string& name) const;
+    godot::Node3D* make_picture(const std::string& name, const Description& description) const;
+    static void place(const Shown& shown, const Pose& pose);
+
+    HapticWorld& world_;
+    std::unordered_set<std::uint64_t> held_;  // rigid bodies of the scene
+    std::unordered_map<ObjectId, Description> described_;
+    std::unordered_map<ObjectId, Shown> shown_;
+    std::unordered_map<SessionHandle, ObjectId> object_of_body_;
+};
+
+}  // namespace tactus

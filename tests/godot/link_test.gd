@@ -1,0 +1,307 @@
+extends "nodes_case.gd"
+## Touch over a network: the operator's world and the far one, in one process and in stepped time.
+
+const STIFFNESS := 500.0
+
+var _operator: HapticWorld
+var _far: HapticWorld
+var _here: MMTLink
+var _there: MMTLink
+
+
+func _link(world: HapticWorld, side: MMTLink.Side, scenario: MMTLink.Scenario) -> MMTLink:
+	var link := MMTLink.new()
+	link.name = "Link"
+	link.side = side
+	link.scenario = scenario
+	world.add_child(link)
+	return link
+
+
+## Two worlds with the same hand; only the far one has bodies. `delay`: there and back.
+func _connect(scenario: MMTLink.Scenario, delay := 0.0) -> void:
+	_operator = add_world()
+	_operator.name = "Operator"
+	_far = add_world()
+	_far.name = "Far"
+	_here = _link(_operator, MMTLink.SIDE_OPERATOR, scenario)
+	_there = _link(_far, MMTLink.SIDE_TELEOPERATOR, scenario)
+	_here.partner = NodePath("../../Far/Link")
+	_there.partner = NodePath("../../Operator/Link")
+	_here.emulated_delay = delay / 2.0
+	_there.emulated_delay = delay / 2.0
+	await frames(2)
+
+
+func _advance(seconds: float) -> void:
+	for _tick in roundi(seconds / TICK):
+		_operator.advance(TICK)
+		_far.advance(TICK)
+
+
+## Rests above the floor, then goes down into it within a tenth of a second.
+func _down_after(rests: float) -> HapticPath:
+	var way := HapticPath.new()
+	way.form = HapticPath.FORM_POINTS
+	way.points_positions = PackedVector3Array(
+		[Vector3(0, 0.05, 0), Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)]
+	)
+	way.points_times = PackedFloat64Array([0.0, rests, rests + 0.1])
+	way.points_interpolation = HapticPath.INTERPOLATION_LINEAR
+	return way
+
+
+func _add_hands(rests := 0.5) -> void:
+	for world: HapticWorld in [_operator, _far]:
+		add_hand(world, _down_after(rests))
+
+
+func _felt(world: HapticWorld) -> Vector3:
+	return (world.get_node("Device") as HapticDevice).get_force()
+
+
+func test_the_two_sides_find_each_other() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	_advance(0.2)
+	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state: " + _here.get_state_text())
+	check_equal(_there.get_state(), MMTLink.STATE_CONNECTED, "state: " + _there.get_state_text())
+
+
+func test_the_model_is_filled_from_the_far_side_and_touched_at_once() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.1)
+	add_floor(_far, STIFFNESS)
+	_add_hands()
+	var found := []
+	_here.object_discovered.connect(func(name: String, node: Node3D) -> void: found.append([name, node]))
+	_advance(0.5)
+	check_equal(found.size(), 1, "discovered objects")
+	check_equal(found[0][0], "Floor", "name")
+	check_near(found[0][1].position, Vector3(0, -0.1, 0), 1e-6, "place of its picture")
+	_advance(0.1)
+	# The proxy's sphere rests on the floor, its centre a radius above: the hand is 2 cm from it.
+	check_near(_felt(_operator), Vector3(0, 10.0 * 0.8, 0), 1e-3, "force, limited to 8 N, without any delay")
+	_advance(0.2)
+	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "force at the far side")
+
+
+func test_a_body_of_the_scene_shows_the_far_one_of_the_same_name() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	for world: HapticWorld in [_operator, _far]:
+		var body := with_shape(RigidBody3D.new(), box(Vector3.ONE * 0.1)) as RigidBody3D
+		body.name = "Box"
+		world.add_child(body)
+	_add_hands()
+	var mine: RigidBody3D = _operator.get_node("Box")
+	var shown := []
+	_here.object_discovered.connect(func(_name: String, node: Node3D) -> void: shown.append(node))
+	(_far.get_node("Box") as RigidBody3D).position = Vector3(0.3, 0, 0)
+	(_far.get_node("Box") as RigidBody3D).linear_velocity = Vector3(0.1, 0, 0)
+	(_far.get_node("Box") as RigidBody3D).linear_damp_mode = RigidBody3D.DAMP_MODE_REPLACE
+	_advance(0.5)
+	# The far world is one tick of 0.1 mm behind.
+	check_near(mine.position, (_far.get_node("Box") as RigidBody3D).position, 2e-4, "place of the twin")
+	check_equal(shown, [mine], "what shows it")
+
+
+func test_traditional_touch_is_felt_one_delay_later() -> void:
+	await _connect(MMTLink.SCENARIO_TRADITIONAL, 0.1)
+	add_floor(_far, STIFFNESS)
+	_add_hands()
+	_advance(0.5 + 0.1)
+	check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force before the far side has answered")
+	_advance(0.15)
+	check_near(_felt(_operator).y, 8.0, 1e-3, "force when it has")
+	check_near(_here.get_statistics().round_trip_s, 0.1, 0.003, "round trip (s)")
+
+
+func test_the_same_scene_goes_from_one_scenario_to_the_next_while_it_runs() -> void:
+	await _connect(MMTLink.SCENARIO_TRADITIONAL, 0.1)
+	for world: HapticWorld in [_far, _operator]:
+		add_floor(world, STIFFNESS)
+	_add_hands()
+	for scenario: MMTLink.Scenario in [
+		MMTLink.SCENARIO_TRADITIONAL,
+		MMTLink.SCENARIO_MMT,
+		MMTLink.SCENARIO_SINGLE,
+		MMTLink.SCENARIO_MMT,
+		MMTLink.SCENARIO_TRADITIONAL
+	]:
+		for link: MMTLink in [_here, _there]:
+			link.scenario = scenario
+		(_operator.get_node("Device") as HapticDevice).path = _down_after(0.5)
+		_advance(0.4)
+		check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force above the floor, scenario %d" % scenario)
+		_advance(0.4)
+		check_near(_felt(_operator).y, 8.0, 1e-3, "force of scenario %d" % scenario)
+	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state: " + _here.get_state_text())
+
+
+func test_every_property_may_change_while_a_body_is_pressed() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.05)
+	add_floor(_far, STIFFNESS)
+	_add_hands(0.3)
+	_advance(1.0)
+	var changes := {}
+	for property in _here.get_property_list():
+		var name: String = property.name
+		if (
+			property.type == TYPE_FLOAT
+			and name.get_slice("_", 0) in ["emulated", "stand", "threshold", "stealth", "drag", "deadband"]
+		):
+			changes[name] = float(_here.get(name)) * 0.5
+		elif (
+			property.hint == PROPERTY_HINT_ENUM
+			and name in ["control_scheme", "correction_scheme", "derivation"]
+		):
+			changes[name] = 1
+	check(changes.size() > 30, "only %d properties are found" % changes.size())
+	for name: String in changes:
+		for link: MMTLink in [_here, _there]:
+			link.set(name, changes[name])
+		_advance(0.01)
+		check_near(_felt(_operator).y, 8.0, 1e-3, "force after the change of " + name)
+
+
+func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
+	var link := MMTLink.new()
+	add_child(link)
+	for wrong: Array in [
+		["emulated_delay", -1.0],
+		["emulated_delay", NAN],
+		["emulated_loss", 1.5],
+		["local_port", 70000],
+		["remote_port", -1],
+		["states_every", 0],
+		["repeated_samples", 10],
+		["emulated_clock_drift", 0.1],
+		["stealth_window", 0.0],
+		["scenario", 3],
+		["side", 7],
+	]:
+		var before: Variant = link.get(wrong[0])
+		expect_error("%s = %s was refused" % wrong)
+		link.set(wrong[0], wrong[1])
+		check(link.get(wrong[0]) == before, "%s took %s" % wrong)
+	link.emulated_jitter_shape = MMTLink.JITTER_TRACE
+	link.emulated_trace_file = "res://nothing.txt"
+	check(link.get_warnings()[-1].contains("there is no file"), "no warning about the trace")
+	link.queue_free()
+
+
+func test_a_link_says_what_it_lacks() -> void:
+	var lonely := MMTLink.new()
+	add_child(lonely)
+	check(
+		lonely.get_warnings()[0].contains("no HapticWorld above it"),
+		"without a world: %s" % lonely.get_warnings()
+	)
+	var world := add_world()
+	var first := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
+	var second := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
+	check(second.get_warnings()[0].contains("another MMTLink"), "two of them: %s" % second.get_warnings())
+	check_equal(first.get_warnings().size(), 0, "warnings of the first")
+	first.key = "short"
+	check(first.get_warnings()[0].contains("64 hexadecimal digits"), "key: %s" % first.get_warnings())
+	first.key = ""
+	first.local_port = 5000
+	first.remote_port = 5000
+	check(first.get_warnings()[0].contains("different ports"), "ports: %s" % first.get_warnings())
+	first.partner = NodePath("../../Nothing")
+	check(first.get_warnings()[0].contains("is not an MMTLink"), "partner: %s" % first.get_warnings())
+	world.position.x = 1.0
+	check(first.get_warnings()[-1].contains("at the origin"), "moved world: %s" % first.get_warnings())
+
+
+func test_partners_of_the_same_side_stay_apart() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	_there.side = MMTLink.SIDE_OPERATOR
+	_advance(0.2)
+	for link: MMTLink in [_here, _there]:
+		check_equal(link.get_state(), MMTLink.STATE_FAILED, "state")
+		check(link.get_state_text().contains("plays the same side"), link.get_state_text())
+
+
+func test_a_far_side_that_vanishes_leaves_no_force_and_moves_nothing() -> void:
+	for scenario: MMTLink.Scenario in [MMTLink.SCENARIO_TRADITIONAL, MMTLink.SCENARIO_MMT]:
+		await _connect(scenario, 0.02)
+		add_floor(_far, STIFFNESS)
+		_add_hands(0.3)
+		_advance(0.6)
+		check_near(_felt(_operator).y, 8.0, 1e-3, "force before")
+		var lost := [0]
+		_here.peer_lost.connect(func() -> void: lost[0] += 1)
+		for _tick in 1500:
+			_operator.advance(TICK)
+		check_equal(_here.get_state(), MMTLink.STATE_LOST, "state: " + _here.get_state_text())
+		check_equal(lost[0], 1, "peer_lost")
+		var wanted := 0.0 if scenario == MMTLink.SCENARIO_TRADITIONAL else 8.0
+		check_near(_felt(_operator).y, wanted, 1e-3, "force when nobody answers")
+		_operator.free()
+		_far.free()
+
+
+func test_a_far_side_that_restarts_is_met_again_with_its_bodies() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.02)
+	add_floor(_far, STIFFNESS)
+	_add_hands(0.3)
+	_advance(0.6)
+	var restarts := [0]
+	_here.peer_restarted.connect(func() -> void: restarts[0] += 1)
+	_far.most_bodies = 512  # starts it anew
+	_advance(1.0)
+	check_equal(restarts[0], 1, "peer_restarted")
+	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state: " + _here.get_state_text())
+	check_equal(_here.get_statistics().objects, 1, "objects")
+
+
+func test_a_body_that_comes_and_goes_at_the_far_side_comes_and_goes_here() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.02)
+	_advance(0.3)
+	var floor_body := add_floor(_far, STIFFNESS)
+	_advance(0.3)
+	check_equal(_here.get_statistics().objects, 1, "objects")
+	var removed := []
+	_here.object_removed.connect(func(name: String) -> void: removed.append(name))
+	floor_body.free()
+	_advance(0.3)
+	check_equal(removed, ["Floor"], "removed")
+	await frames(1)
+	check_equal(_operator.find_children("*", "MeshInstance3D", true, false).size(), 0, "pictures")
+
+
+func test_what_an_experiment_makes_wrong_about_the_model_is_corrected() -> void:
+	await _connect(MMTLink.SCENARIO_MMT, 0.05)
+	_here.model_errors = {"Floor": {"move": [0, -0.01, 0]}}
+	_here.correction_scheme = MMTLink.CORRECTION_NONE
+	add_floor(_far, STIFFNESS)
+	_add_hands(0.3)
+	await frames(1)
+	_advance(1.0)
+	check_near(_felt(_operator).y, 5.0, 1e-3, "force of the wrong model")
+	_here.correction_scheme = MMTLink.CORRECTION_STEALTHY_DIRECTION
+	_advance(5.0)
+	check_near(_felt(_operator).y, 8.0, 0.02, "force of the corrected model")
+	check(
+		_here.get_statistics().correction_force_step_max_n < 0.02,
+		"a step of %s N" % _here.get_statistics().correction_force_step_max_n
+	)
+
+
+func test_two_runs_are_the_same_to_the_bit() -> void:
+	var forces: Array[PackedVector3Array] = []
+	for run in 2:
+		await _connect(MMTLink.SCENARIO_MMT, 0.05)
+		for link: MMTLink in [_here, _there]:
+			link.emulated_jitter = 0.01
+			link.emulated_loss = 0.2
+		add_floor(_far, STIFFNESS)
+		_add_hands(0.3)
+		var one := PackedVector3Array()
+		for _tick in 600:
+			_advance(TICK)
+			one.append(_felt(_operator))
+		forces.append(one)
+		_operator.free()
+		_far.free()
+	check(forces[0] == forces[1], "they differ")
+	check(forces[0][599].length() > 1.0, "nothing is felt")

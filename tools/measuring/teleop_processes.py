@@ -1,0 +1,241 @@
+"""Cases of teleoperation in real time: two Godot processes over UDP on this machine, and a third run in virtual time
+in which the same hand touches the true environment directly.
+"""
+
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from measuring import records
+from measuring.scene_run import START_AND_END
+from project import FOLDER
+from setup import cache, godot
+
+TRADITIONAL, MODEL_MEDIATED = 2, 4
+OPERATOR, FAR = 0, 1
+# One processor for each haptic thread, where there are two.
+PROCESSORS = {OPERATOR: 1, FAR: 0}
+PORTS = {OPERATOR: 47011, FAR: 47012}
+
+CORRECTIONS = ("none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction")
+DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resimulate")
+
+# A reference of fewer rows, from its first movement on, is found in the other record (unit: rows).
+MATCHED = 50
+TICK = 1e-3
+
+
+@dataclass(frozen=True)
+class Case:
+    """What the two sides are told. The delay is there and back, half of it each way (unit: seconds)."""
+
+    name: str
+    scene: str
+    seconds: float
+    scenario: int = MODEL_MEDIATED
+    delay: float = 0.0
+    correction: str = "stealthy_direction"
+    derivation: str = "resimulate"
+    wrong: dict[str, dict] | None = None  # of the model, by body
+    corrects_from_touch: bool = False
+    loss: float = 0.0
+    warmup: float = 0.5  # of the statistics (unit: seconds)
+
+    def options(self, side: int) -> dict[str, object]:
+        options: dict[str, object] = {
+            "link.scenario": self.scenario, "link.side": side, "link.emulated_delay": self.delay / 2,
+            "link.emulated_loss": self.loss, "link.local_port": PORTS[side], "link.remote_port": PORTS[1 - side],
+            "processor": PROCESSORS[side], "clock": "real", "duration": self.seconds, "warmup": self.warmup,
+        }  # fmt: skip
+        if side == OPERATOR:
+            options["link.correction_scheme"] = CORRECTIONS.index(self.correction)
+            options["link.derivation"] = DERIVATIONS.index(self.derivation)
+            options["link.model_errors"] = json.dumps(self.wrong or {})
+            options["corrects"] = "touch" if self.corrects_from_touch else "always"
+        return options
+
+
+@dataclass(frozen=True)
+class Run:
+    case: Case
+    here: records.Record
+    there: records.Record
+    direct: records.Record
+    statistics: dict[int, dict]  # by side: HapticWorld's, with the link's as "link"
+
+
+def play(case: Case, folder: Path, direct: records.Record) -> Run:
+    folder.mkdir(parents=True, exist_ok=True)
+    far = _start(case.scene, f"{case.name}_far", folder, case.options(FAR))
+    try:
+        here = _start(case.scene, case.name, folder, case.options(OPERATOR))
+        _finish(here, case.seconds)
+        _finish(far, case.seconds)
+    finally:
+        far.kill()
+    names = {OPERATOR: case.name, FAR: f"{case.name}_far"}
+    statistics = {side: json.loads((folder / f"{name}_statistics.json").read_text()) for side, name in names.items()}
+    rows = {side: records.read(folder / f"{name}.csv") for side, name in names.items()}
+    for name in names.values():
+        for ending in ("_statistics.json", "_periods.json", ".csv"):
+            (folder / f"{name}{ending}").unlink()
+    return _aligned(case, rows[OPERATOR], rows[FAR], direct, statistics)
+
+
+def direct_touch(scene: str, seconds: float, folder: Path, options: dict[str, object] | None = None) -> records.Record:
+    """The same hand in the true environment, in virtual time."""
+    folder.mkdir(parents=True, exist_ok=True)
+    given = {"clock": "stepped", "duration": seconds, **(options or {})}
+    _finish(_start(scene, "direct", folder, given), seconds)
+    record = records.read(folder / "direct.csv")
+    for path in folder.glob("direct*"):
+        path.unlink()
+    return record
+
+
+def _start(scene: str, name: str, folder: Path, options: dict[str, object]) -> subprocess.Popen:
+    chosen = {"scene": scene, "case": name, "output": folder, **options}
+    words = [f"--{key}={value}" for key, value in chosen.items()]
+    command = [str(godot.command()), "--headless", "--path", str(FOLDER), "--", *words]
+    return subprocess.Popen(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def _finish(process: subprocess.Popen, seconds: float) -> None:
+    said, _ = process.communicate(timeout=3 * seconds + START_AND_END)
+    if process.returncode != 0:
+        raise RuntimeError(f"Godot could not play its side:\n{said[-3000:]}")
+
+
+def _first_movement(hand: np.ndarray) -> int:
+    moves = np.flatnonzero((hand[1:] != hand[0]).any(axis=1))
+    if moves.size == 0:
+        raise RuntimeError("the hand does not move")
+    return int(moves[0]) + 1
+
+
+def _aligned(case: Case, here: records.Record, there: records.Record, direct: records.Record, statistics: dict) -> Run:
+    """All three begin where the hand sets out; the far side's rows are those that answer the operator's."""
+    first = _first_movement(direct.hand)
+    pattern = direct.hand[first : first + MATCHED]
+    begins = [
+        index for index in np.flatnonzero((here.hand == pattern[0]).all(axis=1))
+        if np.array_equal(here.hand[index : index + MATCHED], pattern)
+    ]  # fmt: skip
+    if not begins:
+        raise RuntimeError(f"{case.name}: the operator's hand did not take the way of the direct one")
+    count = min(len(here.hand) - begins[0], len(direct.hand) - first, round(case.seconds / TICK) - first)
+    return Run(
+        case, _part(here, begins[0], count), _answers(here.hand[begins[0] : begins[0] + count], there),
+        _part(direct, first, count), statistics,
+    )  # fmt: skip
+
+
+def _part(record: records.Record, first: int, count: int) -> records.Record:
+    rows = slice(first, first + count)
+    return records.Record(
+        record.time[rows] - record.time[first], record.force[rows], record.object_position[rows], record.hand[rows],
+        record.proxy[rows], record.contacts[rows],
+    )  # fmt: skip
+
+
+def _answers(hands: np.ndarray, there: records.Record) -> records.Record:
+    """For each of the operator's rows the far one in which its hand was applied; NaN where it was lost."""
+    by_hand = {hand.tobytes(): index for index, hand in reversed(list(enumerate(there.hand)))}
+    found = np.array([by_hand.get(hand.tobytes(), -1) for hand in hands])
+    known = (found >= 0)[:, None]
+    return records.Record(
+        there.time[found], np.where(known, there.force[found], np.nan),
+        np.where(known, there.object_position[found], np.nan), hands,
+        np.where(known, there.proxy[found], np.nan), there.contacts[found],
+    )  # fmt: skip
+
+
+def figures(run: Run) -> dict[str, float]:
+    """The errors of extension/core/teleop/errors.hpp."""
+    error = np.linalg.norm(run.here.force - run.direct.force, axis=1)
+    shift = round(run.case.delay / TICK) + 1 if run.case.scenario == TRADITIONAL else 0
+    shifted = np.linalg.norm(run.here.force[shift:] - run.there.force[: len(run.there.force) - shift], axis=1)
+    box = np.linalg.norm(run.here.object_position - run.there.object_position, axis=1)
+    touch = np.flatnonzero(run.direct.contacts > 0)
+    wrong = np.flatnonzero(error > 0.02)
+    until_right = (wrong[-1] - touch[0]) * TICK if touch.size and wrong.size else 0.0
+    link = run.statistics[OPERATOR]["link"]
+    return {
+        "force_error_mean_N": float(error.mean()),
+        "force_error_p95_N": float(np.percentile(error, 95)),
+        "force_error_max_N": float(error.max()),
+        "force_error_shifted_mean_N": float(np.nanmean(shifted)),
+        "box_position_error_rms_mm": 1e3 * float(np.sqrt(np.nanmean(box**2))),
+        "seconds_until_right": max(0.0, float(until_right)),
+        "correction_force_step_max_N": float(link["correction_force_step_max_n"]),
+        "round_trip_ms": 1e3 * float(link["round_trip_s"]),
+        "packets_per_s": float(link["packets_sent_per_s"] + link["packets_received_per_s"]),
+    }
+
+
+def write_rows(run: Run, path: Path) -> None:
+    """The columns of tests/bench/teleop.cpp that both have, for the same plots."""
+    box = np.linalg.norm(run.here.object_position - run.there.object_position, axis=1)
+    columns = {"time_us": run.here.time[:, None] * 1e6, "hand": run.here.hand, "force": run.here.force}
+    columns |= {"direct": run.direct.force, "far": run.there.force, "model": run.here.object_position}
+    columns |= {"truth": run.there.object_position, "box_error_m": box[:, None]}
+    names = [f"{name}_{axis}" if data.shape[1] == 3 else name for name, data in columns.items() for axis in "xyz"[: data.shape[1]]]
+    np.savetxt(path, np.hstack(list(columns.values())), delimiter=",", fmt="%.9g", header=",".join(names), comments="")
+
+
+def play_all(cases: list[Case], output: Path) -> dict[str, dict[str, float]]:
+    """The figures of each, and its rows in `output`."""
+    rounds = cache.emptied(output / "rounds")
+    direct: dict[tuple[str, float], records.Record] = {}
+    found = {}
+    for case in cases:
+        key = (case.scene, case.seconds)
+        if key not in direct:
+            direct[key] = direct_touch(*key, rounds)
+        print(f"{case.name}: two processes for {case.seconds:g} s", flush=True)
+        run = play(case, rounds, direct[key])
+        found[case.name] = figures(run)
+        print(f"  force error {found[case.name]['force_error_mean_N']:.4f} N on average", flush=True)
+        write_rows(run, output / f"{case.name}.csv")
+    rounds.rmdir()
+    return found
+
+
+def static_mmt(description: dict, seconds: float, output: Path, names: tuple[str, ...] = ()) -> dict[str, float]:
+    """The flat summary of all cases, or of those named."""
+    scene, wrong = description["scene"], description["wrong"]
+    cases = [Case(f"traditional_{ms}ms", scene, seconds, TRADITIONAL, ms / 1000) for ms in (0, 100)]
+    cases += [Case(f"mmt_right_{ms}ms", scene, seconds, delay=ms / 1000) for ms in (0, 100, 500)]
+    cases += [
+        Case(f"mmt_wrong_{ms}ms", scene, seconds, delay=ms / 1000, correction="none", wrong=wrong) for ms in (0, 100, 500)
+    ]
+    corrected = "mmt_wrong_corrected_100ms"
+    cases.append(Case(corrected, scene, seconds, delay=0.1, wrong=wrong, corrects_from_touch=True))
+    found = play_all([case for case in cases if not names or case.name in names], output)
+    errors = ("force_error_mean_N", "force_error_p95_N", "force_error_max_N", "force_error_shifted_mean_N")
+    summary = {f"{name}.{key}": figures[key] for name, figures in found.items() for key in (*errors, "round_trip_ms")}
+    for key in ("seconds_until_right", "correction_force_step_max_N"):
+        if corrected in found:
+            summary[f"{corrected}.{key}"] = found[corrected][key]
+    return summary
+
+
+def dynamic_mmt(description: dict, seconds: float, output: Path) -> dict[str, float]:
+    """The schemes that say most, at four delays: never corrected, the thesis's, ours; and traditional touch."""
+    scene, wrong = description["scene"], description["wrong"]
+    cases = []
+    for ms in (0, 50, 100, 200):
+        delay = ms / 1000
+        cases.append(Case(f"traditional.{ms}ms.0pct", scene, seconds, TRADITIONAL, delay))
+        for correction, derivation in (("none", "none"), ("pose", "none"), ("stealthy_direction", "resimulate")):
+            name = f"{correction}.{derivation}.{ms}ms.0pct"
+            cases.append(Case(name, scene, seconds, MODEL_MEDIATED, delay, correction, derivation, wrong))
+    found = play_all(cases, output)
+    keys = (
+        "force_error_mean_N", "force_error_p95_N", "box_position_error_rms_mm", "correction_force_step_max_N",
+        "packets_per_s", "round_trip_ms",
+    )  # fmt: skip
+    return {f"{name}.{key}": figures[key] for name, figures in found.items() for key in keys}
