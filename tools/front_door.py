@@ -20,7 +20,7 @@ def needed(command: str) -> list[Step]:
         return plan
     if command in ("setup", "export", "test"):
         return [*plan, steps.export_template(), debug, release, imported]
-    return [*plan, debug, imported]
+    return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]
 
 
 def setup(_: list[str]) -> int:
@@ -29,7 +29,7 @@ def setup(_: list[str]) -> int:
 
 
 def demo(_: list[str]) -> int:
-    return experiment(["scenario1"]) or cache.run_tool("report.py")
+    return experiment(["scenario1"]) or experiment(["scenario4"]) or cache.run_tool("report.py")
 
 
 def test(arguments: list[str]) -> int:

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import report_page as html
-from measuring import targets
+from measuring import gain, targets
 from setup import cache
 
 CASES = {"static": "Static scene: ground and a sphere", "dynamic": "Dynamic scene: ground and a box of 0.3 kg"}
@@ -44,17 +44,18 @@ def main() -> int:
         return 1
     target = cache.clone() / "build/report/index.html"
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(page(folder))
+    target.write_text(page(folder, folder.with_name("scenario4")))
     print(target.relative_to(cache.clone()))
     return 0
 
 
-def page(scenario1: Path) -> str:
+def page(scenario1: Path, scenario4: Path) -> str:
     summary = json.loads((scenario1 / "summary.json").read_text())
+    network = [_scenario4(scenario4)] if (scenario4 / "summary.json").is_file() else []
     return html.page(
         "Tactus: touch in Godot at 1 kHz",
         "A scripted hand is drawn along the thesis's path through two scenes, in Godot itself. Measured on this machine.",
-        [_scenario1(summary, scenario1), _machine(summary)],
+        [_scenario1(summary, scenario1), *network, _machine(summary)],
     )
 
 
@@ -70,6 +71,22 @@ def _scenario1(summary: targets.Summary, folder: Path) -> str:
         parts.append(html.section(CASES[case], *_case(folder, case), level=3))
     parts.append(html.section("All figures", _figures(summary, cases), level=3))
     return html.section("Scenario 1: a hand and a virtual world", *parts)
+
+
+def _scenario4(folder: Path) -> str:
+    summary = json.loads((folder / "summary.json").read_text())
+    away = f"{float(summary['static.mmt.round_trip_ms']):.0f} ms"
+    return html.section(
+        f"Scenario 4: the same touch, {away} away",
+        html.paragraph(
+            "Two Godot processes over UDP: the hand is in one of them, what it touches in the other. Over a network the "
+            "traditional way sends the hand's place there and the force back. With a local model, which the far side fills "
+            "and corrects, the hand is answered at once. Errors are against direct touch with the same hand."
+        ),
+        html.table(gain.HEAD, gain.rows(summary)),
+        *_pictures(folder, "static_forces.png", "Ground and a sphere. The local model is exact; the traditional force is late."),
+        *_pictures(folder, "dynamic_forces.png", "Pushing a box whose model is 20 % too heavy and too slippery, corrected all the time."),
+    )
 
 
 def _case(folder: Path, case: str) -> list[str]:

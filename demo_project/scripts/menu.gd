@@ -10,6 +10,7 @@ const SCENES := {
 	"Dynamic: a box that can be pushed": "res://dynamic_testbed.tscn",
 	"Materials: rubber, ice, sandpaper, steel, sponge": "res://materials.tscn",
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
+	"Over a network: the box, far away": "res://networked_testbed.tscn",
 }
 
 var _scene: Node

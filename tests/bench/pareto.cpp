@@ -6,6 +6,7 @@
 // choice:
 //   steps N       at most N steps of the proxy a tick (the default is 64)
 //   triangles N   the mesh's resolution; error against the smooth sphere as well
+//   shaded N      the same with force shading: the proxy stays on the facets, the force turns smoothly
 //   closed form   the sphere as a sphere
 //   float         mesh, hand and proxy rounded to single precision, as in an engine that computes with floats
 //   physics T     the time step of the bodies that move (in milliseconds; the default is 1): errors of
@@ -16,7 +17,7 @@
 //                 (core/haptics/tolerances.hpp), so these are the rows of looser tolerances
 // Errors: `facets` against exact descent on the same facets, `sphere` against the place on the smooth sphere
 // that is nearest to the hand; `deg`: largest angle between the pull and the right pull, from a depth of 1e-4
-// on (degrees).
+// on (degrees). `force`: angle between the force on the hand and that of the smooth sphere, likewise.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -47,6 +48,7 @@ struct Row {
     int level = 4;  // of the icosphere; below 0: the sphere in closed form
     int most_steps = 64;
     bool in_float = false;
+    bool shaded = false;
     double from_origin = 0.0;  // (unit: meters)
 };
 
@@ -61,6 +63,7 @@ struct Figures {
     double facets_rms = 0.0, facets_max = 0.0;              // (unit: meters)
     double sphere_rms = 0.0, sphere_max = 0.0;              // (unit: meters)
     double direction_facets = 0.0, direction_sphere = 0.0;  // largest (unit: degrees)
+    double force_rms = 0.0, force_max = 0.0;                // (unit: degrees)
     double unfinished = 0.0;                                // share of the contact ticks
 };
 
@@ -90,14 +93,20 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
     Figures figures;
     std::vector<ProxyTick> ticks;
     std::vector<bool> touching;
+    std::vector<Vec3> forces;
     for (int round = 0; round < settings.rounds; ++round) {
         TouchRig rig(radius);
-        row.level < 0 ? rig.add(SphereShape{1.0}, Pose{place, Quat(1.0, 0.0, 0.0, 0.0)}) : rig.add(touched);
+        // Facets of the coarsest sphere meet at 42 degrees.
+        constexpr double smooth_below = 0.8;
+        row.level < 0 ? rig.add(SphereShape{1.0}, Pose{place, Quat(1.0, 0.0, 0.0, 0.0)})
+                      : rig.add(Shape(MeshShape{std::make_shared<const TriangleMesh>(touched),
+                                                row.shaded ? smooth_below : 0.0}));
         ProxySettings proxy = rig.proxy.settings();
         proxy.most_steps = row.most_steps;
         rig.proxy.set_settings(proxy);
         ticks.clear();
         touching.clear();
+        forces.clear();
         std::vector<double> times;
         for (const Vec3& hand : way) {
             const std::uint64_t start = clock.now();
@@ -110,6 +119,7 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
                 ticks.back().position = to_float(tick.position);
             }
             touching.push_back(force.contact_count > 0);
+            forces.push_back(force.total);
             if (touching.back()) {
                 times.push_back(time);
             }
@@ -122,6 +132,7 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
     const int every = std::max(1, contact / settings.checks);
     int seen = 0;
     int checked = 0;
+    int deep_ticks = 0;
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         if (!touching[i]) {
             continue;
@@ -136,6 +147,10 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
         if (deep) {
             figures.direction_sphere =
                 std::max(figures.direction_sphere, degrees_between(p - hand, on_sphere - hand));
+            const double off = degrees_between(forces[i], on_sphere - hand);
+            figures.force_max = std::max(figures.force_max, off);
+            figures.force_rms += off * off;
+            ++deep_ticks;
         }
         if (row.level >= 0 && seen++ % every == 0) {
             const Vec3 right(reference.settle(p, hand).position);
@@ -151,6 +166,7 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
     }
     figures.facets_rms = checked > 0 ? std::sqrt(figures.facets_rms / checked) : 0.0;
     figures.sphere_rms = std::sqrt(figures.sphere_rms);
+    figures.force_rms = std::sqrt(figures.force_rms / std::max(1, deep_ticks));
     return figures;
 }
 
@@ -190,26 +206,29 @@ int main(int argc, char** argv) {
     }
     std::vector<Row> rows;
     for (const int steps : {1, 2, 3, 4, 6, 8, 16, 64}) {
-        rows.push_back({"steps_" + std::to_string(steps), 4, steps, false, 0.0});
+        rows.push_back({"steps_" + std::to_string(steps), 4, steps});
     }
     for (int level = 1; level <= 7; ++level) {
-        rows.push_back({"triangles_" + std::to_string(20 << (2 * level)), level, 64, false, 0.0});
+        rows.push_back({"triangles_" + std::to_string(20 << (2 * level)), level});
     }
-    rows.push_back({"closed_form", -1, 64, false, 0.0});
-    rows.push_back({"float_5120", 4, 64, true, 0.0});
+    for (int level = 1; level <= 7; ++level) {
+        rows.push_back({"shaded_" + std::to_string(20 << (2 * level)), level, 64, false, true});
+    }
+    rows.push_back({"closed_form", -1});
+    rows.push_back({"float_5120", 4, 64, true});
     for (const auto& [name, distance] : {std::pair{"at_1e4", 1e4}, {"at_1e6", 1e6}, {"at_1e8", 1e8}}) {
-        rows.push_back({name, 4, 64, false, distance});
+        rows.push_back({name, 4, 64, false, false, distance});
     }
     shared::stay_on_one_processor();
     const SpanClock clock;
     Report report;
-    std::printf("%-18s %8s %8s %10s %10s %9s %10s %10s %9s %10s\n", "choice", "med us", "p99 us",
-                "facets rms", "max", "deg", "sphere rms", "max", "deg", "unfinished");
+    std::printf("%-18s %8s %8s %10s %10s %9s %10s %10s %9s %9s %10s\n", "choice", "med us", "p99 us",
+                "facets rms", "max", "deg", "sphere rms", "max", "deg", "force deg", "unfinished");
     for (const Row& row : rows) {
         const Figures f = measure(clock, settings, row);
-        std::printf("%-18s %8.2f %8.2f %10.1e %10.1e %9.1e %10.1e %10.1e %9.1e %10.4f\n", row.name.c_str(),
-                    f.median, f.p99, f.facets_rms, f.facets_max, f.direction_facets, f.sphere_rms,
-                    f.sphere_max, f.direction_sphere, f.unfinished);
+        std::printf("%-18s %8.2f %8.2f %10.1e %10.1e %9.1e %10.1e %10.1e %9.1e %9.1e %10.4f\n",
+                    row.name.c_str(), f.median, f.p99, f.facets_rms, f.facets_max, f.direction_facets,
+                    f.sphere_rms, f.sphere_max, f.direction_sphere, f.force_rms, f.unfinished);
         std::fflush(stdout);
         report.set(row.name + ".contact_median_us", f.median);
         report.set(row.name + ".contact_p99_us", f.p99);
@@ -221,6 +240,8 @@ int main(int argc, char** argv) {
         report.set(row.name + ".sphere_error_rms", f.sphere_rms);
         report.set(row.name + ".sphere_error_max", f.sphere_max);
         report.set(row.name + ".sphere_direction_max_deg", f.direction_sphere);
+        report.set(row.name + ".force_direction_rms_deg", f.force_rms);
+        report.set(row.name + ".force_direction_max_deg", f.force_max);
         report.set(row.name + ".unfinished_share", f.unfinished);
     }
     physics(report, std::max(20, settings.rounds));

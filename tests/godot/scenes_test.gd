@@ -69,7 +69,7 @@ func test_two_runs_of_the_dynamic_testbed_are_the_same_bytes() -> void:
 
 func test_every_scene_opens_and_runs() -> void:
 	for file in DirAccess.get_files_at("res://"):
-		if file.get_extension() != "tscn" or file == "main.tscn":
+		if file.get_extension() != "tscn" or file in ["main.tscn", "networked_testbed.tscn"]:
 			continue
 		var run := _record("res://" + file, 1.0, "any.csv")
 		check_equal(run.problems.size(), 0, "%s: %s" % [file, run.problems])

@@ -51,7 +51,18 @@ def page(tmp_path, pictures: tuple[str, ...] = ()) -> Page:
     (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
     for name in pictures:
         (tmp_path / name).write_bytes(tiny_picture())
-    return Page(report.page(tmp_path))
+    return Page(report.page(tmp_path, tmp_path / "scenario4"))
+
+
+def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
+    (tmp_path / "scenario4").mkdir()
+    keys = ("force_error_mean_N", "force_error_p95_N", "contact_delay_ms", "phantom_force_share", "round_trip_ms")
+    figures = {f"{scene}.{one}.{key}": 0.5 for scene in ("static", "dynamic") for one in ("traditional", "mmt") for key in keys}
+    figures |= {"static.mmt.force_error_mean_N": 0.0, "dynamic.mmt.force_error_mean_N": 0.05}
+    (tmp_path / "scenario4/summary.json").write_text(json.dumps(figures))
+    words = page(tmp_path).words
+    assert "all of it" in words
+    assert "10.0 × less" in words
 
 
 def test_it_needs_nothing_but_itself(tmp_path):

@@ -14,6 +14,7 @@ DEFAULT = "steps_64"
 GROUPS = {
     "steps_": ("steps a tick", style.MEASURED, "o"),
     "triangles_": ("triangles of the mesh", style.REFERENCE, "s"),
+    "shaded_": ("triangles of the mesh, with force shading", style.AXES["x"], "v"),
     "at_": ("distance from the origin (tolerances grow with it)", style.WARNING, "^"),
     "float": ("single precision", style.INK, "D"),
     "closed_form": ("closed form", style.AXES["y"], "P"),
@@ -56,12 +57,16 @@ def scatter(axes, table, metric: str) -> None:
 
 
 def draw(table: dict[str, dict[str, float]], path: Path) -> None:
-    drawn, ((facets, sphere),) = style.figure(1, 2, 13.0, 5.8)
-    scatter(facets, table, "facets_error_max")
-    facets.set(title="Against exact descent on the same facets", ylabel="largest error (m)")
-    scatter(sphere, table, "sphere_error_max")
-    sphere.set(title="Against the smooth sphere", ylabel="largest error (m)")
-    for axes in (facets, sphere):
+    drawn, ((facets, sphere, force),) = style.figure(1, 3, 19.0, 5.8)
+    motions = {name: case for name, case in table.items() if not name.startswith("shaded_")}
+    scatter(facets, motions, "facets_error_max")
+    facets.set(title="Proxy against exact descent on the same facets", ylabel="largest error (m)")
+    scatter(sphere, motions, "sphere_error_max")
+    sphere.set(title="Proxy against the smooth sphere", ylabel="largest error (m)")
+    shading = ("triangles_", "shaded_", "closed_form", "float")
+    scatter(force, {name: case for name, case in table.items() if name.startswith(shading)}, "force_direction_rms_deg")
+    force.set(title="Force against that of the smooth sphere", ylabel="angle, RMS (degrees)")
+    for axes in (facets, sphere, force):
         axes.legend(fontsize=8, ncols=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))
     style.save(drawn, path)
 

@@ -26,6 +26,10 @@ DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resim
 # A reference of fewer rows, from its first movement on, is found in the other record (unit: rows).
 MATCHED = 50
 TICK = 1e-3
+# What is felt at all (unit: newtons).
+FELT = 0.05
+# A touch that has lasted so long is waited for; so long before it nothing was touched (unit: rows).
+TOUCH = 50
 
 
 @dataclass(frozen=True)
@@ -169,11 +173,32 @@ def figures(run: Run) -> dict[str, float]:
         "force_error_max_N": float(error.max()),
         "force_error_shifted_mean_N": float(np.nanmean(shifted)),
         "box_position_error_rms_mm": 1e3 * float(np.sqrt(np.nanmean(box**2))),
+        "contact_delay_ms": 1e3 * contact_delay(run),
+        "phantom_force_share": phantom_share(run),
         "seconds_until_right": max(0.0, float(until_right)),
         "correction_force_step_max_N": float(link["correction_force_step_max_n"]),
         "round_trip_ms": 1e3 * float(link["round_trip_s"]),
         "packets_per_s": float(link["packets_sent_per_s"] + link["packets_received_per_s"]),
     }
+
+
+def contact_delay(run: Run) -> float:
+    """From where the hand meets a surface to where it feels that, in the middle of all touches (unit: seconds)."""
+    touches = run.direct.contacts > 0
+    delays = []
+    for begin in np.flatnonzero(touches[TOUCH:-TOUCH]) + TOUCH:
+        if not touches[begin - TOUCH : begin].any() and touches[begin : begin + TOUCH].all():
+            felt = np.flatnonzero(np.linalg.norm(run.here.force[begin:], axis=1) > FELT)
+            should = np.flatnonzero(np.linalg.norm(run.direct.force[begin:], axis=1) > FELT)
+            if felt.size and should.size:
+                delays.append((felt[0] - should[0]) * TICK)
+    return float(np.median(delays)) if delays else 0.0
+
+
+def phantom_share(run: Run) -> float:
+    """The share of time in which the hand feels something where there is nothing."""
+    felt = np.linalg.norm(run.here.force, axis=1) > FELT
+    return float((felt & (np.linalg.norm(run.direct.force, axis=1) == 0.0)).mean())
 
 
 def write_rows(run: Run, path: Path) -> None:

@@ -60,6 +60,27 @@ def _draw_correction(folder: Path) -> None:
     style.save(drawn, folder / "correction.png")
 
 
+def draw_gain(folder: Path, scene: str, delay: float) -> None:
+    """The force on the hand, over a network with and without a local model, against direct touch."""
+    rows = {scenario: read(folder / f"{scene}.{scenario}.csv") for scenario in ("traditional", "mmt")}
+    drawn, ((force,), (error,)) = style.figure(2, 1, 9.0, 5.4, sharex=True)
+    direct = rows["mmt"]
+    size = np.sqrt(sum(direct[f"direct_{axis}"] ** 2 for axis in "xyz"))
+    force.plot(direct["time"], size, color=style.QUIET, linewidth=3.0, alpha=0.5, label="direct touch")
+    for scenario, colour, label in (
+        ("traditional", style.WARNING, "traditional"),
+        ("mmt", style.MEASURED, "model-mediated"),
+    ):
+        size = np.sqrt(sum(rows[scenario][f"force_{axis}"] ** 2 for axis in "xyz"))
+        force.plot(rows[scenario]["time"], size, color=colour, linewidth=1.2, label=label)
+        error.plot(rows[scenario]["time"], force_error(rows[scenario]), color=colour, linewidth=1.2)
+    force.set(ylabel="force on the hand (N)", ylim=(0, None))
+    force.set_title(f"{round(delay * 1e3)} ms away, {scene} scene", pad=24)
+    _legend(force)
+    error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None))
+    style.save(drawn, folder / f"{scene}_forces.png")
+
+
 LABELS = {"none": "never corrected", "pose": "pose alone (thesis)", "stealthy_direction": "stealthy, re-simulated"}
 COLOURS = {"none": style.QUIET, "pose": style.WARNING, "stealthy_direction": style.MEASURED}
 

@@ -79,12 +79,13 @@ double TriangleTree::float_slack(const Vec3& relative) const {
     return 4.0 * 0x1p-23 * (largest + extent_);
 }
 
-FoundPacks TriangleTree::packs_within(const Vec3& point, double reach, std::span<FoundPack> out) const {
+FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const Vec3& point,
+                                      std::span<FoundPack> out) const {
     FoundPacks found;
-    const Vec3 relative = point - origin_;
-    const double slack = float_slack(relative);
-    const FloatPoint at = to_float_point(relative);
-    const float limit = square_up(reach + slack);
+    const double slack = std::max(float_slack(center - origin_), float_slack(point - origin_));
+    const FloatPoint middle = to_float_point(center - origin_);
+    const FloatPoint at = to_float_point(point - origin_);
+    const float limit = square_up(radius + slack);
     const float rounding = static_cast<float>(slack * (1.0 + 1e-6));
 
     std::uint32_t stack[stack_size];
@@ -93,7 +94,8 @@ FoundPacks TriangleTree::packs_within(const Vec3& point, double reach, std::span
     while (depth > 0) {
         const BoxNode& node = nodes_[stack[--depth]];
         const FloatLanes squared = squared_distance_to_boxes(node, at);
-        for (unsigned near = lanes_up_to(squared, limit); near != 0; near &= near - 1) {
+        for (unsigned near = lanes_up_to(squared_distance_to_boxes(node, middle), limit); near != 0;
+             near &= near - 1) {
             const int i = std::countr_zero(near);
             const std::uint32_t child = node.child[i];
             if (!(child & BoxNode::leaf_bit)) {

@@ -51,8 +51,13 @@ public:
     // shape.
     void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
 
-    // Every pack with a triangle within `reach` of the point, by its box: cheap, and with some that are not.
-    FoundPacks packs_within(const Vec3& point, double reach, std::span<FoundPack> out) const;
+    // Every pack with a triangle in the ball around `center`, by its box: cheap, and with some that have
+    // none. Their distances are those from `point`.
+    FoundPacks packs_within(const Vec3& center, double radius, const Vec3& point,
+                            std::span<FoundPack> out) const;
+    FoundPacks packs_within(const Vec3& point, double reach, std::span<FoundPack> out) const {
+        return packs_within(point, reach, point, out);
+    }
 
     // The nearest triangle, looked for up to the distance `far`.
     NearestTriangle nearest(const Vec3& point, double far) const;

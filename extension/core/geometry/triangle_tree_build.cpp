@@ -83,7 +83,8 @@ struct Range {
 constexpr int bin_count = 16;
 constexpr std::size_t chunk = std::size_t{1} << 16;  // triangles a task looks at when a large range is split
 constexpr std::size_t median_below = 24;  // at or below, a median that fills packs beats the heuristic
-constexpr int heuristic_levels = 8;       // below this depth only medians: bounds the depth of the tree
+constexpr std::size_t halves_above = 2048;
+constexpr int heuristic_levels = 8;  // below this depth only medians: bounds the depth of the tree
 
 struct Bins {
     std::array<std::array<Box, bin_count>, 3> box;
@@ -98,6 +99,10 @@ struct Bins {
         }
     }
 };
+
+int longest_axis(Float4 size) {
+    return size[0] >= size[1] && size[0] >= size[2] ? 0 : (size[1] >= size[2] ? 1 : 2);
+}
 
 // Maps a doubled centre to its bin on all three axes.
 struct BinScale {
@@ -283,7 +288,7 @@ private:
     // Halves along the longest side, with a whole number of packs on the left.
     void split_at_median(const Range& range, Range& left, Range& right) {
         const Float4 size = range.centers.high - range.centers.low;
-        const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : (size[1] >= size[2] ? 1 : 2);
+        const int axis = longest_axis(size);
         const std::size_t packs = (range.size() + lane_count - 1) / lane_count;
         const std::size_t middle = range.begin + (packs / 2) * lane_count;
         Primitive* const first = primitives_.get();
@@ -297,9 +302,23 @@ private:
         right = {middle, range.end, bounds_of(middle, range.end), centers_of(middle, range.end)};
     }
 
+    // Halves the space of the centres along its longest side: where triangles are spread evenly the heuristic
+    // comes to the same, at twice the cost. False where they are not.
+    bool split_in_the_middle(const Range& range, Range& left, Range& right) {
+        const Float4 size = range.centers.high - range.centers.low;
+        const int axis = longest_axis(size);
+        const float middle = range.centers.low[axis] + 0.5f * size[axis];
+        const std::size_t border =
+            partition(range, [&](Float4 center) { return center[axis] < middle; }, left, right);
+        return std::min(border - range.begin, range.end - border) >= range.size() / 8;
+    }
+
     void split(const Range& range, int level, const ParallelRunner& run, Range& left, Range& right) {
         if (range.size() <= median_below || level >= heuristic_levels) {
             split_at_median(range, left, right);
+            return;
+        }
+        if (range.size() > halves_above && split_in_the_middle(range, left, right)) {
             return;
         }
         const BinScale scale(range.centers);
@@ -308,19 +327,33 @@ private:
             split_at_median(range, left, right);
             return;
         }
-        Box left_centers, right_centers;
-        Primitive* const first = primitives_.get();
-        // A stable order is not needed, a repeatable one is: std::partition is a plain function of its input.
-        const Primitive* const middle =
-            std::partition(first + range.begin, first + range.end, [&](const Primitive& primitive) {
-                const Float4 center = primitive.doubled_center();
-                const bool goes_left = scale.bins_of(center)[best.axis] <= best.bin;
-                (goes_left ? left_centers : right_centers).grow(center);
-                return goes_left;
-            });
-        const auto border = static_cast<std::size_t>(middle - first);
-        left = {range.begin, border, best.left, left_centers};
-        right = {border, range.end, best.right, right_centers};
+        partition(
+            range, [&](Float4 center) { return scale.bins_of(center)[best.axis] <= best.bin; }, left, right);
+    }
+
+    // A stable order is not needed, a repeatable one is: this is a plain function of its input.
+    template <class GoesLeft>
+    std::size_t partition(const Range& range, GoesLeft&& goes_left, Range& left, Range& right) {
+        left = right = Range{};
+        Primitive* low = primitives_.get() + range.begin;
+        Primitive* high = primitives_.get() + range.end;
+        const auto take = [](Range& side, const Primitive& primitive) {
+            side.bounds.grow(primitive.bounds());
+            side.centers.grow(primitive.doubled_center());
+        };
+        while (low < high) {
+            if (goes_left(low->doubled_center())) {
+                take(left, *low++);
+                continue;
+            }
+            take(right, *low);
+            std::swap(*low, *--high);
+        }
+        const auto border = static_cast<std::size_t>(low - primitives_.get());
+        left.begin = range.begin;
+        left.end = right.begin = border;
+        right.end = range.end;
+        return border;
     }
 
     // Opens the child with the largest surface until there are eight, or only leaves.

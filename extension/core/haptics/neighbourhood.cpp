@@ -1,5 +1,7 @@
 #include "core/haptics/neighbourhood.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -94,10 +96,23 @@ std::int32_t Neighbourhood::remembered(std::uint32_t pack) const {
     return table_[place].known;
 }
 
-bool Neighbourhood::gather(const TriangleTree& tree, const Vec3& point, double reach, double soon,
-                           double odometer) {
+double Neighbourhood::covered_share(const Vec3& start, const Vec3& motion, double reach) const {
+    const double room = radius_ - reach;
+    const Vec3 off = start - center_;
+    const double inside = room * room - glm::dot(off, off);
+    if (room <= 0.0 || inside <= 0.0) {
+        return 0.0;
+    }
+    // |off + share * motion| = room
+    const double squared = glm::dot(motion, motion);
+    const double along = glm::dot(off, motion);
+    return (std::sqrt(along * along + squared * inside) - along) / std::max(squared, 1e-300);
+}
+
+bool Neighbourhood::gather(const TriangleTree& tree, const Vec3& center, double radius, const Vec3& point,
+                           double soon, double odometer) {
     std::array<FoundPack, capacity> found;
-    const FoundPacks packs = tree.packs_within(point, reach, found);
+    const FoundPacks packs = tree.packs_within(center, radius, point, found);
     if (!packs.complete) {
         clear();
         return false;
@@ -105,7 +120,8 @@ bool Neighbourhood::gather(const TriangleTree& tree, const Vec3& point, double r
     remember_known();
     count_ = packs.count;
     known_count_ = 0;
-    covered_until_ = odometer + reach;
+    center_ = center;
+    radius_ = radius;
     constexpr double infinity = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < count_; ++i) {
         const double distance = static_cast<double>(found[i].distance);

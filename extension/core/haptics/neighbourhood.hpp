@@ -1,5 +1,5 @@
 // What a proxy remembers about the triangles around it. Consecutive ticks ask almost the same question: the
-// packs found within `reach` of one place answer for every place until the proxy has travelled out of them.
+// packs found in one ball answer for every place until the proxy's own ball leaves it.
 //
 // Each pack is known by four ever better bounds, and asked only as far as needed: how far the proxy must
 // travel before it can touch it; a plane that has the whole pack behind it, found when it was last looked at;
@@ -14,6 +14,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/geometry/triangle_tree.hpp"
 
@@ -25,28 +27,32 @@ public:
     Neighbourhood(const Neighbourhood&) = delete;
     Neighbourhood& operator=(const Neighbourhood&) = delete;
 
-    // False where too many packs lie within reach: the neighbourhood is then empty and the tree itself must
-    // be asked. Packs up to `soon` are fetched from memory: they will be looked at next.
-    bool gather(const TriangleTree& tree, const Vec3& point, double reach, double soon, double odometer);
+    // All packs in the ball of the given radius around `center`, for a proxy at `point`. False where they are
+    // too many: the neighbourhood is then empty and the tree itself must be asked. Packs up to `soon` from
+    // the point are fetched from memory: they will be looked at next.
+    bool gather(const TriangleTree& tree, const Vec3& center, double radius, const Vec3& point, double soon,
+                double odometer);
 
     // Empty, for another part.
     void clear() {
         count_ = known_count_ = 0;
-        covered_until_ = -1.0;
+        radius_ = -1.0;
     }
 
-    // Odometer + distance up to which every pack is known (unit: meters).
-    double covered_until() const { return covered_until_; }
+    // Every pack is known that is nearer to the point than this (unit: meters). Negative: not even there.
+    double covered_around(const Vec3& point) const { return radius_ - glm::distance(point, center_); }
+    // The largest share of a way on which every pack within `reach` is known, above 1 where it is more.
+    double covered_share(const Vec3& start, const Vec3& motion, double reach) const;
 
     // Calls visit(index) for every pack that may have a triangle within `limit` of a place between two points
     // that are `length` apart, the proxy being at the first. Returns a lower bound of the distance of all
-    // others.
+    // other packs that are known.
     template <class Visit>
     double visit_between(const LanesVec3& from, const LanesVec3& to, double length, double limit,
                          double odometer, Visit&& visit) {
         const double travelled = odometer + length;
         const Lanes near = splat(limit);
-        Lanes least = splat(covered_until_ - travelled);
+        Lanes least = splat(std::numeric_limits<double>::infinity());
         for (std::size_t first = 0; first < count_; first += lane_count) {
             const Block& block = blocks_[first / lane_count];
             // A plane is linear: on a way it is lowest at an end.
@@ -124,7 +130,8 @@ private:
     Knowledge* known_ = &both_[0];
     std::size_t count_ = 0;
     std::size_t known_count_ = 0;
-    double covered_until_ = -1.0;
+    Vec3 center_{0.0};
+    double radius_ = -1.0;
 
     // Of the last gathering, by pack: what was learnt then is still true.
     static constexpr std::size_t table_size = 512;  // a power of two, above twice known_capacity

@@ -15,7 +15,9 @@ constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles
 
 // A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means
 // looking at more packs in between. Chosen by the bench `proxy`.
-constexpr double ticks_remembered = 4.0;
+constexpr double ticks_remembered = 2.5;
+// Share of that by which its ball is put ahead of the proxy: most ways go on as they began.
+constexpr double ahead_share = 0.6;
 
 }  // namespace
 
@@ -34,6 +36,10 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     work_left_ = most_work;
     pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
     odometer_at_tick_ = odometer_;
+    const Vec3 way = center - center_at_tick_;
+    const double length = glm::length(way);
+    heading_ = length > tolerances_.reach ? way / length : Vec3(0.0);
+    center_at_tick_ = center;
     follow_moved_bodies();
     return_passed(center);
     retire_distant_parts();
@@ -262,7 +268,7 @@ Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local,
     Record& record = records_[index];
     const double now = odometer_for(record);
     const double needed = radius_ + tolerances_.skin + tolerances_.reach + way;
-    if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_until() - now >= needed) {
+    if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_around(local) >= needed) {
         return &hoods_[static_cast<std::size_t>(record.hood)];
     }
     if (record.hood < 0) {
@@ -274,10 +280,13 @@ Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local,
         hoods_[static_cast<std::size_t>(record.hood)].clear();
     }
     Neighbourhood& hood = hoods_[static_cast<std::size_t>(record.hood)];
-    const TriangleTree& tree = *scene_->parts()[index].part->tree();
+    const ScenePart& placed = scene_->parts()[index];
+    const TriangleTree& tree = *placed.part->tree();
+    const Vec3 heading = direction_to_local(placed.pose, heading_);
     double margin = std::max(ticks_remembered * pace_, 4.0 * tolerances_.reach);
     for (int attempt = 0; attempt < 4; ++attempt) {
-        if (hood.gather(tree, local, needed + margin, needed, now)) {
+        const Vec3 center = local + heading * (ahead_share * margin);
+        if (hood.gather(tree, center, needed + margin, local, needed, now)) {
             return &hood;
         }
         margin *= 0.25;
@@ -329,7 +338,7 @@ double Surroundings::look_around(Neighbourhood& hood, const TriangleTree& tree, 
         }
         nearest = std::min(nearest, smallest(distances));
     });
-    return std::min(nearest, others);
+    return std::min({nearest, others, hood.covered_around(local)});
 }
 
 // The same where too many triangles are near to remember them.
@@ -417,8 +426,8 @@ double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Ve
             break;
         }
         const double now = odometer_for(records_[index]);
-        const double reached = (hood->covered_until() - now - stop - tolerances_.arrival) / length;
-        const double covered = std::min(limit, std::max(reached, 0.0));
+        const double reached = hood->covered_share(start, motion, stop + tolerances_.arrival);
+        const double covered = std::min(limit, reached);
         const double t = sweep_hood(*hood, tree, now, start, motion, covered);
         if (t <= covered || reached >= limit) {
             return t <= covered ? t : 2.0 * limit + 1.0;

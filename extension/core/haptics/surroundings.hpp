@@ -131,7 +131,9 @@ private:
     double magnitude_ = 0.0;  // largest coordinate that the tolerances are good for (unit: meters)
     double odometer_ = 0.0;
     double odometer_at_tick_ = 0.0;
-    double pace_ = 0.0;  // recent travel per tick (unit: meters)
+    double pace_ = 0.0;         // recent travel per tick (unit: meters)
+    Vec3 center_at_tick_{0.0};  // in the world
+    Vec3 heading_{0.0};         // which way the last tick led, in the world; unit, or none
     std::vector<Record> records_;
     std::vector<Far> far_;  // a heap, soonest due on top
     std::vector<std::uint32_t> near_;
