@@ -41,6 +41,7 @@ constexpr StatusWord status_words[] = {
     {session_force_limited, "a force was longer than its device's limit and was shortened"},
     {session_proxy_unfinished, "a proxy needed more than one tick to find its place"},
     {session_record_lost, "a recorder could not keep up"},
+    {session_body_lost, "a body left the range of numbers: it was put back where it was, asleep"},
     {session_commands_waiting, "many changes at once: they take effect over several ticks"},
     {tick_late, "a tick ended after the next one was due"},
     {tick_rebased, "the program stood still for so long that the schedule was moved"},

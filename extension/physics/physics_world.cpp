@@ -10,6 +10,7 @@
 #include "physics/jolt_runtime.hpp"
 #include "physics/jolt_units.hpp"
 #include "physics/limits.hpp"
+#include "physics/motion_type.hpp"
 #include "physics/world_state.hpp"
 
 namespace tactus {
@@ -17,18 +18,6 @@ namespace tactus {
 static_assert(JPH::BodyID::cMaxBodyIndex == 0x7fffffu, "BodyId::index() takes these bits");
 
 namespace {
-
-JPH::EMotionType motion_type(Motion motion) {
-    switch (motion) {
-        case Motion::Static:
-            return JPH::EMotionType::Static;
-        case Motion::Kinematic:
-            return JPH::EMotionType::Kinematic;
-        case Motion::Dynamic:
-            return JPH::EMotionType::Dynamic;
-    }
-    return JPH::EMotionType::Static;
-}
 
 Motion motion_of(const JPH::Body& body) {
     return body.IsDynamic() ? Motion::Dynamic : body.IsKinematic() ? Motion::Kinematic : Motion::Static;

@@ -13,6 +13,7 @@
 #include "physics/jolt_runtime.hpp"
 #include "physics/jolt_units.hpp"
 #include "physics/limits.hpp"
+#include "physics/motion_type.hpp"
 #include "physics/shape_conversion.hpp"
 #include "physics/solid_properties.hpp"
 
@@ -57,18 +58,6 @@ std::string wrong_in(const BodyDescription& d) {
     if (!limits::is_number(d.linear_velocity) || !limits::is_number(d.angular_velocity))
         return "the initial velocity is not finite";
     return {};
-}
-
-JPH::EMotionType motion_type(Motion motion) {
-    switch (motion) {
-        case Motion::Static:
-            return JPH::EMotionType::Static;
-        case Motion::Kinematic:
-            return JPH::EMotionType::Kinematic;
-        case Motion::Dynamic:
-            return JPH::EMotionType::Dynamic;
-    }
-    return JPH::EMotionType::Static;
 }
 
 JPH::EAllowedDOFs allowed_axes(const BodyDescription& d) {

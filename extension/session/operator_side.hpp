@@ -5,6 +5,9 @@
 // right model is never dragged back by the delay. What differs leads to the present state (derivation.hpp),
 // and that is brought in without being felt (stealth.hpp): bodies and the pointer that presses them are put
 // right at once; a second pointer, carried along, is the one that is felt.
+//
+// operator_side.cpp hears, compares and sends, operator_replay.cpp goes back and does the past again,
+// operator_touch.cpp brings corrections in and gives the hand its force.
 #pragma once
 
 #include <memory>

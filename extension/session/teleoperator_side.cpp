@@ -10,6 +10,10 @@ namespace {
 // Where a body has come to rest is said so many ticks longer: some of it is lost.
 constexpr std::uint64_t linger = 200;
 
+// Nobody sees such a difference in a body that moves (unit: meters, radians).
+constexpr double seen_position = 1e-3;
+constexpr double seen_angle = 0.02;
+
 }  // namespace
 
 TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
@@ -194,7 +198,13 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
     DerivationInput since;
     since.received = told.motion;
     since.seconds = static_cast<double>(tick_ - told.tick) * seconds_;
-    return motion_needs_sending(settings_.deadband, derive(Derivation::velocity, since), loop.motion(handle));
+    DeadbandSettings band = settings_.deadband;
+    if (settings_.traditional) {
+        // What is only seen may be off by more.
+        band.position = std::max(band.position, seen_position);
+        band.angle = std::max(band.angle, seen_angle);
+    }
+    return motion_needs_sending(band, derive(Derivation::velocity, since), loop.motion(handle));
 }
 
 // States by need: what moves often, everything now and then.

@@ -155,5 +155,55 @@ TEST(Mmt, ADeadbandDelaysNothing) {
     EXPECT_LT(figures.at("force_error_shifted_mean_N"), 0.1);
 }
 
+// An arm that is pushed back, pressing onto the ground.
+TeleopCase with_arm(double delay) {
+    TeleopCase made = with_delay(delay, 3.0);
+    made.uses_arm = true;
+    made.settled_from = 2.5;
+    made.settled_to = 3.0;
+    return made;
+}
+
+TeleopScene press() {
+    TeleopScene made = scene(false);
+    made.bodies.resize(1);
+    KeyframePath path;
+    path.interpolation = PathInterpolation::linear;
+    path.keyframes = {
+        {0, {0.0, 0.05, 0.0}}, {200'000'000, {0.0, 0.05, 0.0}}, {600'000'000, {0.0, -0.02, 0.0}}};
+    made.path = path;
+    return made;
+}
+
+TEST(Mmt, AnArmPressesTheModelAsItWouldPressWhatIsThere) {
+    const TeleopFigures figures = run_teleop(press(), with_arm(200.0));
+    EXPECT_EQ(figures.at("hand_deviation_rms_mm"), 0.0);
+    EXPECT_NEAR(figures.at("overshoot_mm"), figures.at("local_overshoot_mm"), 1e-3);
+    EXPECT_EQ(figures.at("energy_J"), figures.at("local_energy_J"));
+}
+
+TEST(Mmt, AnArmOverPenetratesAndRingsInTraditionalTouch) {
+    TeleopCase traditional = with_arm(100.0);
+    traditional.settings.traditional = true;
+    const TeleopFigures figures = run_teleop(press(), traditional);
+    EXPECT_GT(figures.at("penetration_max_mm"), 2.0 * figures.at("local_penetration_max_mm"));
+    EXPECT_GT(figures.at("energy_J"), 0.1) << "a wall that gives energy";
+}
+
+TEST(Mmt, AFarSideThatStartsLateIsFollowedAllTheSame) {
+    TeleopCase late = wrong_box(100.0);
+    late.late = 700'000'000;
+    late.phase = 400'000;
+    const TeleopFigures figures = run_teleop(scene(true), late);
+    EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
+}
+
+TEST(Mmt, PlacesThatAreSeenRoughlyAreNotFelt) {
+    TeleopCase rough = wrong_box(100.0);
+    rough.pose_noise = 1e-3;
+    const TeleopFigures figures = run_teleop(scene(true), rough);
+    EXPECT_LT(figures.at("correction_force_step_max_N"), 0.02);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -4,9 +4,9 @@ local model (what a scripted path leaves open: thesis 5.3, inference 5).
     ./run experiment closed_loop [--delays=0,25,50,100,200] [--pictures=1]
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
-too heavy and too slippery, and holds. Cases are SCENE.local, SCENE.traditional_DELAYms and SCENE.mmt_DELAYms. Figures: how
-deep the hand goes into the environment (penetration), how far beyond where it then settles (overshoot), by how much
-deeper than by local touch (over_penetration), and the energy that the device gives the hand: a wall takes some.
+too heavy and 30 % too slippery, and holds. Cases are SCENE.local, SCENE.traditional_DELAYms and SCENE.mmt_DELAYms. The
+figures: how deep the hand goes into the environment (penetration), how far beyond where it then settles (overshoot), by
+how much deeper than by local touch (over_penetration), and the energy that the device gives the hand: a wall takes some.
 """
 
 from dataclasses import dataclass

@@ -2,9 +2,9 @@
 
     ./run experiment data_reduction [--seconds=10] [--delay=100] [--pictures=1]
 
-Cases are WAY.BAND: WAY is traditional or mmt (its model 20 % too heavy and too slippery), BAND is none, fixed or weber.
-Beside the packets and bytes each way: by how much more the force is wrong than with everything said, in newtons and as
-a share of what a hand just notices (7 % of the force, at least 0.02 N).
+Cases are WAY.BAND: WAY is traditional or mmt (its model 20 % too heavy and 30 % too slippery), BAND is none, fixed or
+weber. Beside the packets and bytes each way: by how much the force is another one than with everything said, in newtons
+and as a share of what a hand just notices (7 % of the force, at least 0.02 N).
 """
 
 from dataclasses import dataclass

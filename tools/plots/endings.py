@@ -26,7 +26,7 @@ def draw(summary: dict[str, object], schemes: tuple[str, ...], title: str, path:
         apart.bar(places + offset, np.maximum(errors, 1e-4), 0.38, color=colour)
     alike.axhline(95.0, color=style.INK, linewidth=0.8, linestyle=":")
     alike.set(ylabel="runs that end alike (%)", ylim=(0, 110))
-    alike.legend(loc="lower left", fontsize=8)
+    alike.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2, fontsize=8)
     apart.set(ylabel="boxes apart at the end, median (mm)", yscale="log")
     for axes in (alike, apart):
         axes.set_xticks(places, [LABELS[scheme] for scheme in schemes], fontsize=8)

@@ -105,7 +105,7 @@ def draw_dynamic(folder: Path, names: tuple[str, ...]) -> None:
         force.plot(rows["time"], size, color=colour, linewidth=1.0, label=label)
         error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.0, label=label)
     place.set(ylabel="box off by (mm)", ylim=(1e-4, 3e3))
-    place.set_title("A box that is pushed 100 ms away, its model 20 % too heavy and too slippery", pad=24)
+    place.set_title("A box that is pushed 100 ms away, its model 20 % too heavy and 30 % too slippery", pad=24)
     _legend(place)
     force.set(ylabel="force (N)", ylim=(0, None))
     error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None), xlim=(1.0, 5.0))

@@ -1,0 +1,23 @@
+// How a body moves, in Jolt's words.
+#pragma once
+
+#include "physics/body_description.hpp"
+#include "physics/jolt.hpp"
+// Jolt's own headers need its first one before them.
+#include <Jolt/Physics/Body/MotionType.h>
+
+namespace tactus {
+
+inline JPH::EMotionType motion_type(Motion motion) {
+    switch (motion) {
+        case Motion::Static:
+            return JPH::EMotionType::Static;
+        case Motion::Kinematic:
+            return JPH::EMotionType::Kinematic;
+        case Motion::Dynamic:
+            return JPH::EMotionType::Dynamic;
+    }
+    return JPH::EMotionType::Static;
+}
+
+}  // namespace tactus
