@@ -19,7 +19,11 @@ public:
         if (!made.shape) {
             return -1;
         }
-        shapes_.push_back(made.shape);
+        return add(std::move(made.shape), pose, material);
+    }
+    int add(std::shared_ptr<const TouchShape> shape, const Pose& pose = {},
+            const TouchMaterial& material = {}) {
+        shapes_.push_back(std::move(shape));
         return scene.add(*shapes_.back(), pose, material, 1);
     }
     int add(const TriangleMesh& mesh, const Pose& pose = {}, const TouchMaterial& material = {}) {

@@ -14,7 +14,7 @@ DEFAULT = "steps_64"
 GROUPS = {
     "steps_": ("steps a tick", style.MEASURED, "o"),
     "triangles_": ("triangles of the mesh", style.REFERENCE, "s"),
-    "shaded_": ("triangles of the mesh, with force shading", style.AXES["x"], "v"),
+    "shaded_": ("triangles of the mesh, with force shading", style.AXES["z"], "v"),
     "at_": ("distance from the origin (tolerances grow with it)", style.WARNING, "^"),
     "float": ("single precision", style.INK, "D"),
     "closed_form": ("closed form", style.AXES["y"], "P"),
@@ -37,7 +37,8 @@ def group_of(name: str) -> str:
     return next(group for group in GROUPS if name.startswith(group))
 
 
-def scatter(axes, table, metric: str) -> None:
+def scatter(axes, table, metric: str, named: tuple[str, ...]) -> None:
+    """Only the groups in `named` have their names beside their points: the others lie on top of each other."""
     told = set()
     for number, (name, case) in enumerate(table.items()):
         if case.get(metric, 0.0) <= 0.0:
@@ -47,24 +48,25 @@ def scatter(axes, table, metric: str) -> None:
         point = (case["contact_median_us"], case[metric])
         axes.plot(*point, mark, color=colour, markersize=6, label=None if group in told else label)
         told.add(group)
-        text = name.removeprefix(group).strip("_") or name
-        # Points lie close together: their names stand at changing heights.
-        place = (6, 4 + 9 * (number % 4))
-        axes.annotate(text, point, textcoords="offset points", xytext=place, fontsize=7, color=colour)
+        if group in named:
+            text = name.removeprefix(group).strip("_") or name
+            below = group == "shaded_"
+            place = (5, -11 if below else 4 + 8 * (number % 2))
+            axes.annotate(text, point, textcoords="offset points", xytext=place, fontsize=7, color=colour)
         if name == DEFAULT:
-            axes.plot(*point, "o", markersize=15, fillstyle="none", color=style.MEASURED, label="the default")
+            axes.plot(*point, "o", markersize=15, fillstyle="none", color=style.MEASURED, label="the default, 64 steps")
     axes.set(yscale="log", xlabel="median of a tick in contact (µs)")
 
 
 def draw(table: dict[str, dict[str, float]], path: Path) -> None:
     drawn, ((facets, sphere, force),) = style.figure(1, 3, 19.0, 5.8)
     motions = {name: case for name, case in table.items() if not name.startswith("shaded_")}
-    scatter(facets, motions, "facets_error_max")
+    scatter(facets, motions, "facets_error_max", ("steps_", "at_", "float"))
     facets.set(title="Proxy against exact descent on the same facets", ylabel="largest error (m)")
-    scatter(sphere, motions, "sphere_error_max")
+    scatter(sphere, motions, "sphere_error_max", ("triangles_", "closed_form"))
     sphere.set(title="Proxy against the smooth sphere", ylabel="largest error (m)")
-    shading = ("triangles_", "shaded_", "closed_form", "float")
-    scatter(force, {name: case for name, case in table.items() if name.startswith(shading)}, "force_direction_rms_deg")
+    shading = {name: case for name, case in table.items() if name.startswith(("triangles_", "shaded_"))}
+    scatter(force, shading, "force_direction_rms_deg", ("triangles_", "shaded_"))
     force.set(title="Force against that of the smooth sphere", ylabel="angle, RMS (degrees)")
     for axes in (facets, sphere, force):
         axes.legend(fontsize=8, ncols=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))

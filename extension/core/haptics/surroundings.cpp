@@ -137,7 +137,7 @@ void Surroundings::forget_all(const Vec3& center) {
         free_hoods_.push_back(static_cast<std::int16_t>(i));
     }
     const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius_});
-    magnitude_ = 2.0 * farthest;
+    magnitude_ = 1.1 * farthest;
     for (const ScenePart& placed : scene_->parts()) {
         if (placed.part && placed.part->tree()) {
             magnitude_ = std::max(magnitude_, placed.part->tree()->magnitude());
