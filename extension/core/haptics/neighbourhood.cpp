@@ -66,8 +66,9 @@ bool Neighbourhood::may_meet(std::size_t index, const TriangleTree& tree, const 
     const Lanes at_end = look_at(index, tree, to, odometer + length);
     set_clear(index, odometer + smallest(at_end) - length);
     const PackBound last = tangents_of(remembered);
-    if (is_from_start || !any(least_between(old, last, from, to) <= near)) {
-        return any(least_between(old, last, from, to) <= near);
+    const bool meets = any(least_between(old, last, from, to) <= near);
+    if (is_from_start || !meets) {
+        return meets;
     }
     const PackBound first = bound_from(offset_from_triangles(tree.pack(remembered.pack), from), from);
     return any(least_between(first, last, from, to) <= near);

@@ -19,7 +19,15 @@ constexpr double ticks_remembered = 2.5;
 // Share of that by which its ball is put ahead of the proxy: most ways go on as they began.
 constexpr double ahead_share = 0.6;
 
+double largest_length(const Vec3& center, double radius) {
+    return std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius});
+}
+
 }  // namespace
+
+bool Surroundings::is_due_later(const Far& p, const Far& q) {
+    return p.due > q.due;
+}
 
 Surroundings::Surroundings(std::size_t most_parts)
     : records_(most_parts),
@@ -46,7 +54,7 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
 
 bool Surroundings::take_in_changes(const TouchScene& scene, const Vec3& center, double radius,
                                    std::uint32_t mask) {
-    const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius});
+    const double farthest = largest_length(center, radius);
     // Bodies may have gone anywhere in ticks without this proxy.
     const bool missed = scene.ticks() > ticks_ + 1;
     ticks_ = scene.ticks();
@@ -136,7 +144,7 @@ void Surroundings::forget_all(const Vec3& center) {
     for (std::size_t i = 0; i < hood_count; ++i) {
         free_hoods_.push_back(static_cast<std::int16_t>(i));
     }
-    const double farthest = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius_});
+    const double farthest = largest_length(center, radius_);
     magnitude_ = 1.1 * farthest;
     for (const ScenePart& placed : scene_->parts()) {
         if (placed.part && placed.part->tree()) {
@@ -194,13 +202,12 @@ void Surroundings::send_far(std::uint32_t part, double distance) {
 
 // Entries that are out of date leave the heap when it is full: far rarer than entries come.
 void Surroundings::push_far(const Far& far) {
-    const auto later = [](const Far& p, const Far& q) { return p.due > q.due; };
     if (far_.size() == far_.capacity()) {
         std::erase_if(far_, [&](const Far& entry) { return records_[entry.part].stamp != entry.stamp; });
-        std::make_heap(far_.begin(), far_.end(), later);
+        std::make_heap(far_.begin(), far_.end(), &is_due_later);
     }
     far_.push_back(far);
-    std::push_heap(far_.begin(), far_.end(), later);
+    std::push_heap(far_.begin(), far_.end(), &is_due_later);
 }
 
 // A part that cannot be reached within the next ticks leaves the near list.
@@ -240,10 +247,9 @@ double Surroundings::distance_bound(std::uint32_t index, const Vec3& center) con
 
 // Makes sure that every part within `length` of the sphere is on the near list.
 void Surroundings::bring_near(double length, const Vec3& center) {
-    const auto later = [](const Far& p, const Far& q) { return p.due > q.due; };
     while (!far_.empty() && far_.front().due <= odometer_ + length) {
         const Far soonest = far_.front();
-        std::pop_heap(far_.begin(), far_.end(), later);
+        std::pop_heap(far_.begin(), far_.end(), &is_due_later);
         far_.pop_back();
         Record& record = records_[soonest.part];
         if (record.stamp != soonest.stamp) {

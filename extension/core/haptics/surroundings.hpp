@@ -103,6 +103,7 @@ private:
     void leave_near(std::uint32_t part);
     void send_far(std::uint32_t part, double distance);
     void push_far(const Far& far);
+    static bool is_due_later(const Far& p, const Far& q);
     void retire_distant_parts();
     double odometer_for(const Record& record) const { return odometer_ + record.slack; }
     double distance_to_ball(std::uint32_t part, const Vec3& center) const;
