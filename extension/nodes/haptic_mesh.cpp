@@ -90,12 +90,12 @@ double HapticMesh::library_mass(const Basis& body_scale) const {
 // Each mesh is read by the first node that asks; when it changes, by the first that asks again.
 std::shared_ptr<MeshSource> HapticMesh::source() const {
     static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> by_mesh;
-    static std::unordered_map<std::uint32_t, std::weak_ptr<MeshSource>> by_name;
+    static std::unordered_map<std::string, std::weak_ptr<MeshSource>> by_name;
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
     std::weak_ptr<MeshSource>& known =
-        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[library_mesh_.hash()];
+        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[from_godot(library_mesh_)];
     source_ = known.lock();
     if (source_ != nullptr && source_ != former_) {
         former_.reset();

@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
+#include <string>
 #include <unordered_set>
 
 namespace tactus {
@@ -41,14 +42,14 @@ class Complaints {
 public:
     void say(const godot::Node& node, const godot::String& text) {
         const godot::String whole = name_of(node) + ": " + text;
-        if (said_.insert(whole.hash()).second) {
+        if (said_.insert(whole.utf8().get_data()).second) {
             godot::UtilityFunctions::push_warning(whole);
         }
     }
     void forget() { said_.clear(); }
 
 private:
-    std::unordered_set<std::uint32_t> said_;
+    std::unordered_set<std::string> said_;
 };
 
 }  // namespace tactus

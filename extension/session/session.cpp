@@ -207,9 +207,6 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(addition.description);
     ready.error = ready.body.error();
-    if (ready.body.ready() && (impl_->settings.history.ticks > 0 || impl_->has_twin)) {
-        ready.same_body = duplicate(ready.body);
-    }
     ready.material = with_texture(addition.touch_material, addition.texture.get());
     ready.texture = addition.texture;
     ready.layer = addition.description.collision.layer;
@@ -221,6 +218,10 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
 AddResult Session::add_body(ReadyBody&& body) {
     if (!body.error.empty()) {
         return {no_handle, std::move(body.error)};
+    }
+    // Here and not where it was prepared, on some other thread: a side may have been attached since.
+    if (body.body.ready() && (impl_->settings.history.ticks > 0 || impl_->has_twin)) {
+        body.same_body = duplicate(body.body);
     }
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {

@@ -52,7 +52,8 @@ struct MeshShape {
 struct HeightFieldShape {
     std::uint32_t columns = 0;  // samples along x, >= 2
     std::uint32_t rows = 0;     // samples along z, >= 2
-    Vec3 scale{1.0};            // spacing in x and z, factor on the heights in y
+    // Spacing in x (negative: mirrored) and z (unit: meters), factor on the heights in y.
+    Vec3 scale{1.0};
     std::shared_ptr<const std::vector<float>> heights;
 };
 

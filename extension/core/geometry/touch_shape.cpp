@@ -56,11 +56,16 @@ struct Check {
             return "the height field needs at least 2 x 2 samples and as many heights as samples: set its "
                    "size and data";
         }
-        if (!is_length(f.scale.x) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
-            return "the height field's spacing is not a positive length: set its scale above 0 m";
+        if (f.heights->size() > 0x1000'0000u) {
+            return "the height field has more than 268,435,456 samples: split it into several bodies";
         }
-        const bool finite = std::ranges::all_of(*f.heights, [](float h) { return std::isfinite(h); });
-        return finite ? "" : "a height of the height field is not a finite number: repair its data";
+        if (!is_length(std::abs(f.scale.x)) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
+            return "the height field's spacing is not a length: set its scale above 0 m";
+        }
+        const bool finite = std::ranges::all_of(
+            *f.heights, [&](float h) { return std::abs(f.scale.y * static_cast<double>(h)) <= 1e9; });
+        return finite ? ""
+                      : "a height of the height field is not a finite number within 1e9 m: repair its data";
     }
 };
 
@@ -114,11 +119,15 @@ TriangleMesh height_field_mesh(const HeightFieldShape& field) {
         }
     }
     mesh.triangles.reserve(2 * std::size_t{field.columns - 1} * (field.rows - 1));
+    const bool mirrored = field.scale.x < 0.0;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        mesh.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
+    };
     for (std::uint32_t z = 0; z + 1 < field.rows; ++z) {
         for (std::uint32_t x = 0; x + 1 < field.columns; ++x) {
             const std::uint32_t corner = z * field.columns + x;
-            mesh.triangles.push_back({corner, corner + field.columns, corner + 1});
-            mesh.triangles.push_back({corner + 1, corner + field.columns, corner + field.columns + 1});
+            add(corner, corner + field.columns, corner + 1);
+            add(corner + 1, corner + field.columns, corner + field.columns + 1);
         }
     }
     return mesh;

@@ -46,7 +46,8 @@ struct TouchShapeResult {
 TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes,
                                   const ParallelRunner& run = run_serially);
 
-// The surface of a height field as triangles, two a cell, counter-clockwise from above.
+// The surface of a height field as triangles, counter-clockwise from above; each cell is cut from its corner
+// (column + 1, row) to (column, row + 1), as Godot's is.
 TriangleMesh height_field_mesh(const HeightFieldShape& field);
 
 }  // namespace tactus
