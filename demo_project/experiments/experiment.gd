@@ -15,8 +15,9 @@ extends Node
 ## --processor=NUMBER   the one on which the haptic thread stays; see HapticWorld.processor
 ## --screenshots=1,2.5  saves CASE_1.png, CASE_2.5.png at these times; needs a screen
 ## --link.NAME=VALUE    a property of the scene's MMTLink, or of its resources as in link.conditions.delay.
-##                      With --link.scenario=2 or 4 this is one side of a teleoperation: the operator's hand waits until it knows all bodies of the far side,
-##                      and the duration counts from there; the far side stays until the operator has gone
+##                      With --link.scenario=2 or 4 this is one side of a teleoperation: the operator's hand
+##                      waits until it knows all bodies of the far side, and the duration counts from there;
+##                      the far side stays until the operator has gone
 ## --device.NAME=VALUE  a property of the scene's HapticDevice
 ## --corrects=touch     the model is left as it is until it is touched
 

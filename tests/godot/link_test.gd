@@ -232,7 +232,8 @@ func test_links_share_their_conditions() -> void:
 	await _connect(MMTLink.SCENARIO_MMT)
 	_there.conditions = _here.conditions
 	_here.conditions.delay = 0.05
-	_add_hands()
+	add_floor(_far, STIFFNESS)
+	_add_hands(0.1)
 	_advance(1.0)
 	check_near(_here.get_statistics().round_trip_s, 0.1, 0.02, "round trip")
 	var seen := [0]
