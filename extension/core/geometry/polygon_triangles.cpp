@@ -54,20 +54,18 @@ public:
             if (passed > 2 * left) {
                 break;
             }
+            if (is_needless(at)) {
+                at = take_out(at);
+                --left;
+                continue;
+            }
             if (!(turn(at) > flat_) || !(desperate || is_ear(at))) {
                 at = next_[at];
                 ++passed;
                 continue;
             }
             triangles.push_back({before_[at], at, next_[at]});
-            const std::size_t start = before_[at];
-            const std::size_t end = next_[at];
-            next_[start] = end;
-            before_[end] = start;
-            blunt_[at] = false;  // gone
-            blunt_[start] = turn(start) <= flat_;
-            blunt_[end] = turn(end) <= flat_;
-            at = next_[end];  // every other one: fans of thin triangles about one corner are rarer
+            at = next_[take_out(at)];  // every other one: fewer thin triangles about one corner
             passed = 0;
             --left;
         }
@@ -76,6 +74,25 @@ public:
 
 private:
     double turn(std::size_t i) const { return area(places_[before_[i]], places_[i], places_[next_[i]]); }
+
+    // At the place of the next, or the end of a way that is walked out and back.
+    bool is_needless(std::size_t i) const {
+        const Vec2 back = places_[before_[i]] - places_[i];
+        const Vec2 on = places_[next_[i]] - places_[i];
+        return on == Vec2(0.0) || (std::abs(turn(i)) <= flat_ && glm::dot(back, on) > 0.0);
+    }
+
+    // Returns the next.
+    std::size_t take_out(std::size_t i) {
+        const std::size_t start = before_[i];
+        const std::size_t end = next_[i];
+        next_[start] = end;
+        before_[end] = start;
+        blunt_[i] = false;
+        blunt_[start] = turn(start) <= flat_;
+        blunt_[end] = turn(end) <= flat_;
+        return end;
+    }
 
     // Corners that do not stick out are the only ones that can stand in an ear. One that stands on its rim
     // counts, so that it becomes a corner of triangles; one at the place of the ear's own corners does not.

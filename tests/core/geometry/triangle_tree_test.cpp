@@ -155,7 +155,7 @@ TEST(TriangleTree, AVertexThatNoTriangleUsesCostsNoPrecision) {
     mesh.vertices.push_back(Vec3(1e9, -1e9, 1e9));
     const TriangleTree tree = TriangleTree::build(mesh);
     EXPECT_LT(glm::length(tree.center()), 1e-12);
-    EXPECT_LT(tree.radius(), 1.01);
+    EXPECT_LT(tree.radius(), 1.3);
 }
 
 TEST(TriangleTree, SaysWhenThereWereMorePacksThanRoom) {
