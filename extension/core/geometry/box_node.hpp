@@ -98,31 +98,55 @@ inline FloatLanes squared_distance_to_boxes(const BoxNode& node, const FloatPoin
 // A sphere's way as the boxes see it: `distance` is less by what rounding may hide, `blur` is how much the
 // rate at which it nears a box may err (unit: meters).
 struct FloatWay {
-    FloatPoint start, motion;
+    FloatPoint start, end;  // where it is at t = 0 and at t = limit
+    FloatPoint motion;      // as t grows by 1
     float distance;
     float blur;
+    float limit;
 };
 
-// Lower bounds of the t at which the sphere meets what is in each box; infinite for boxes that it only leaves
-// behind and for unused slots. A box is convex: its distance lies above the tangent at the start, and that
-// tangent falls to the sphere's radius no earlier than t = gap / rate.
-inline FloatLanes earliest_meeting(const BoxNode& node, const FloatWay& way) {
-    using namespace box_detail;
+namespace box_detail {
+// Gap between the sphere and each box, and how fast it shrinks.
+struct Nearing {
+    FloatLanes gap, rate;
+};
+
+inline Nearing nearing(const BoxNode& node, const FloatWay& way, const FloatPoint& center) {
     const FloatLanes zero = splat_float(0.0f);
     const auto offset = [&](int axis, FloatLanes p) {
         return most(p - node.high[axis], least(p - node.low[axis], zero));
     };
-    const FloatLanes x = offset(0, way.start.x);
-    const FloatLanes y = offset(1, way.start.y);
-    const FloatLanes z = offset(2, way.start.z);
+    const FloatLanes x = offset(0, center.x);
+    const FloatLanes y = offset(1, center.y);
+    const FloatLanes z = offset(2, center.z);
     const FloatLanes distance = float_sqrt(x * x + y * y + z * z);
-    const FloatLanes gap = distance * splat_float(1.0f - 1e-6f) - splat_float(way.distance);
-    const FloatLanes nearing =
-        splat_float(way.blur) - (x * way.motion.x + y * way.motion.y + z * way.motion.z) / distance;
+    return {distance * splat_float(1.0f - 1e-6f) - splat_float(way.distance),
+            (x * way.motion.x + y * way.motion.y + z * way.motion.z) / -distance};
+}
+}  // namespace box_detail
+
+// Lower bounds of the t up to the limit at which the sphere meets what is in each box; infinite for boxes
+// that it passes by and for unused slots. A box is convex, so its distance as a function of t lies above its
+// tangents at both ends of the way: the first falls to the sphere's radius no earlier than t = gap / rate,
+// and where the two cross above it (or the second still falls at the end), no t is left.
+inline FloatLanes earliest_meeting(const BoxNode& node, const FloatWay& way) {
+    using namespace box_detail;
+    const FloatLanes zero = splat_float(0.0f);
     const FloatLanes never = splat_float(__builtin_inff());
-    const FloatLanes later = (nearing > zero) ? gap / nearing : never;
+    const Nearing first = nearing(node, way, way.start);
+    const Nearing last = nearing(node, way, way.end);
+    const FloatLanes fall = first.rate + splat_float(way.blur);
+    const FloatLanes rise = splat_float(way.blur) - last.rate;  // going back from the end: also a fall
+    const FloatLanes limit = splat_float(way.limit);
+    const FloatLanes crossing = (first.gap - last.gap + rise * limit) / (fall + rise);
+    const FloatLanes lowest = (rise > zero) ? first.gap - fall * crossing : last.gap;
+    // What the subtractions may lose: far less than 1e-6 of their operands.
+    const FloatLanes doubt = (first.gap + last.gap + rise * limit) * splat_float(1e-6f);
+    const auto apart =
+        (first.gap > zero) & ((fall <= zero) | ((last.gap > zero) & (lowest > most(doubt, zero))));
     const auto used = node.low[0] <= node.high[0];
-    return used ? ((gap > zero) ? later : zero) : never;
+    const FloatLanes key = (first.gap > zero) ? first.gap / fall : zero;
+    return (used & ~apart) ? key : never;
 }
 
 }  // namespace tactus

@@ -12,7 +12,7 @@ namespace {
 
 // Packs that lie side by side have numbers side by side (Fibonacci hashing).
 std::size_t place_of(std::uint32_t pack) {
-    return (pack * 2'654'435'769u) >> 23;
+    return (pack * 2'654'435'769u) >> 24;
 }
 
 }  // namespace

@@ -101,14 +101,16 @@ NearestTriangle TriangleTree::search(const Vec3& point, double far, double share
 }
 
 Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) const {
-    const Vec3 relative = way.start - origin_;
-    const double rounding = float_slack(relative);
+    const Vec3 start = way.start - origin_;
+    const Vec3 end = start + way.motion * limit;
+    const double rounding = std::max(float_slack(start), float_slack(end));
     const double reach = way.distance + way.slack + rounding;
     // The rate at which a box is neared errs by the rounding of its few operations, and by the angle by which
     // a rounded offset of at least `distance` is turned.
-    const FloatWay boxes{
-        to_float_point(relative), to_float_point(way.motion), static_cast<float>(reach * (1.0 + 1e-6)),
-        static_cast<float>(glm::length(way.motion) * (1e-6 + 2.0 * rounding / way.distance))};
+    const double blur = glm::length(way.motion) * (1e-6 + 2.0 * rounding / way.distance);
+    const FloatWay boxes{to_float_point(start),      to_float_point(end),
+                         to_float_point(way.motion), static_cast<float>(reach * (1.0 + 1e-6)),
+                         static_cast<float>(blur),   static_cast<float>(limit)};
     Hit hit;
     hit.t = limit;
     const auto round_up = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };

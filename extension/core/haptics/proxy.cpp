@@ -7,6 +7,13 @@
 
 namespace tactus {
 
+namespace {
+
+// No stride of a way is shorter than this share of the radius.
+constexpr double least_stride = 0.02;
+
+}  // namespace
+
 Proxy::Proxy(std::size_t max_parts, const ProxySettings& settings)
     : settings_(settings), surroundings_(max_parts) {}
 
@@ -20,12 +27,24 @@ bool Proxy::appear() {
     return present_;
 }
 
-// Straight on as far as the way is known to be free.
+// Straight on as far as the way is known to be free. A long way over a rough surface mostly ends early, and
+// the bounds of a short one leave out far more: it is gone in strides, each as long as the last ones let it
+// be.
 Hit Proxy::advance(const Vec3& motion, FeatureId& stopped_by, int except) {
-    const Hit hit = surroundings_.sweep(position_, motion, stopped_by, except);
-    const Vec3 moved = hit.is_free() ? motion : motion * hit.t;
-    position_ += moved;
-    surroundings_.travelled(glm::length(moved));
+    const Vec3 origin = position_;
+    const double length = glm::length(motion);
+    Hit hit;
+    for (double gone = 0.0; gone < 1.0 && hit.is_free();) {
+        const double share = stride_ / std::max(length, 1e-300);
+        const double end = gone + share > 0.99 ? 1.0 : gone + share;
+        hit = surroundings_.sweep(position_, motion * (end - gone), stopped_by, except);
+        const double free_share = (end - gone) * (hit.is_free() ? 1.0 : hit.t);
+        gone = hit.is_free() ? end : gone + free_share;
+        stride_ = std::max(least_stride * settings_.radius,
+                           hit.is_free() ? 4.0 * stride_ : 2.0 * free_share * length);
+        position_ = origin + motion * gone;
+        surroundings_.travelled(free_share * length);
+    }
     return hit;
 }
 

@@ -125,7 +125,8 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Vec3 hand_{0.0};  // the last that was a place
+    Vec3 hand_{0.0};       // the last that was a place
+    double stride_ = 0.0;  // how far the last ways were free (unit: meters)
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     TouchList touching_;
