@@ -182,7 +182,7 @@ Touch ContactLook::touch_of(const Contact& contact, double pressure) const {
         const std::uint32_t slot = contact.feature.triangle;
         const TriangleCorners t = triangle_corners(*part.part->tree(), slot);
         const Vec3 smooth = interpolated_normal(
-            (*part.part->smooth_normals)[part.part->tree()->triangle_id(slot)], t.a, t.b, t.c,
+            (*part.part->smooth_normals)[part.part->tree()->triangle_at(slot)], t.a, t.b, t.c,
             to_local(part.pose, touch.point), direction_to_local(part.pose, contact.normal));
         touch.force_direction = direction_to_parent(part.pose, smooth);
     }

@@ -186,7 +186,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         limit = limit_from(least, rest(), tolerances().reach, limit);
         for (int k = 0; k < lane_count; ++k) {
             const std::uint32_t slot = pack * lane_count + static_cast<std::uint32_t>(k);
-            const std::uint32_t id = tree.triangle_id(slot);
+            const std::uint32_t id = tree.triangle_at(slot);
             if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
                 work_.spend(cost::closest_point);
                 last_id = id;

@@ -193,7 +193,7 @@ TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
             const auto gap = static_cast<double>(shared::slow_distance(end, sample.mesh)) - radius;
             // It is the triangle it names that stops the way.
             ASSERT_LE(static_cast<double>(shared::slow_distance(
-                          end, shared::corners_of(sample.mesh, tree.triangle_id(hit.triangle)))) -
+                          end, shared::corners_of(sample.mesh, tree.triangle_at(hit.triangle)))) -
                           radius,
                       4.0 * slack)
                 << sample.name << " " << i;
