@@ -17,6 +17,7 @@ def step(target: str) -> Step:
 
 
 def build(target: str, *what: str) -> None:
+    """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
     command = [cache.venv_bin("scons"), "-s", f"-j{os.cpu_count() or 1}", f"target={target}", *what]
     done = subprocess.run(command, cwd=cache.clone(), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:
