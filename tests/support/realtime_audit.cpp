@@ -273,6 +273,33 @@ Function* next(const char* name, std::atomic<void*>& known) {
 
 }  // namespace
 
+#if TACTUS_SANITIZE_THREAD
+
+// Its hooks say nothing of these.
+extern "C" {
+
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+    static std::atomic<void*> known{nullptr};
+    Recorder::allocation();
+    return next<void*(std::size_t, std::size_t)>("memalign", known)(alignment, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+    static std::atomic<void*> known{nullptr};
+    Recorder::allocation();
+    return next<void*(std::size_t, std::size_t)>("aligned_alloc", known)(alignment, size);
+}
+
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
+    static std::atomic<void*> known{nullptr};
+    Recorder::allocation();
+    return next<int(void**, std::size_t, std::size_t)>("posix_memalign", known)(block, alignment, size);
+}
+
+}  // extern "C"
+
+#endif
+
 #define TACTUS_INTERPOSE(name, parameters, arguments, report) \
     extern "C" int name parameters noexcept {                 \
         static std::atomic<void*> known{nullptr};             \

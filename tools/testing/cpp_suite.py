@@ -17,7 +17,7 @@ SANITIZER_TIME_LIMIT = 3600  # they take up to twenty times as long
 SANITIZER_OPTIONS = {
     "ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_init_order=1",
     "UBSAN_OPTIONS": "print_stacktrace=1",
-    "TSAN_OPTIONS": f"second_deadlock_stack=1:suppressions={cache.clone()}/tools/testing/thread_suppressions.txt",
+    "TSAN_OPTIONS": "second_deadlock_stack=1",
 }
 
 
