@@ -6,15 +6,30 @@ import sys
 from pathlib import Path
 
 BINDING = Path("extension/binding")
+sys.path.append(str(BINDING.resolve()))
 
 
 def installed(prefix, target):
-    libraries = sorted(Path(prefix, "lib").glob(f"libgodot-cpp.linux.{target}.*.a")) or sorted(
-        Path(prefix, "lib").glob("libgodot-cpp*.a")
-    )
-    if not libraries:
-        raise RuntimeError(f"{prefix}/lib has no libgodot-cpp*.a")
-    return Path(prefix, "include"), libraries[0]
+    """Include folders and library of a godot-cpp: one that was installed (include/, lib/), or a checkout in which it
+    was built (include/, gen/include/, gdextension/, bin/)."""
+    root = Path(prefix)
+    includes = [root / name for name in ("include", "gen/include", "gdextension") if (root / name).is_dir()]
+    if not any((folder / "godot_cpp/godot.hpp").is_file() for folder in includes):
+        raise RuntimeError(f"{prefix} has no include/godot_cpp/godot.hpp: it is no godot-cpp")
+    if not any((folder / "godot_cpp/classes/node3d.hpp").is_file() for folder in includes):
+        raise RuntimeError(f"{prefix} has no generated classes yet: build godot-cpp first, with scons target={target}")
+    return includes, _installed_library(root, target)
+
+
+def _installed_library(root, target):
+    found = sorted(path for folder in ("lib", "bin") for path in (root / folder).glob("libgodot-cpp*.a"))
+    suits = [path for path in found if f".linux.{target}." in path.name and ".double." not in path.name]
+    # Without a target in its name it is the only one there is.
+    suits += [path for path in found if path.name == "libgodot-cpp.a"]
+    if not suits:
+        names = ", ".join(path.name for path in found) or "none"
+        raise RuntimeError(f"{root} has no libgodot-cpp for {target} (found: {names}): scons target={target} builds it")
+    return suits[0]
 
 
 def defines(target):
@@ -39,16 +54,33 @@ def generated(api):
     return output / "include", sorted(str(path) for path in (output / "src").rglob("*.cpp"))
 
 
+def class_bindings():
+    """The sources that bind the classes whose table is the class reference."""
+    import bind_classes
+
+    output = Path("build/classes")
+    sources = []
+    for table in map(bind_classes.ClassTable, sorted(Path("extension/doc_classes").glob("*.xml"))):
+        if table.is_bound():
+            _write_if_changed(output / f"{table.name}.cpp", table.source().encode())
+            sources.append(str(output / f"{table.name}.cpp"))
+    return sources
+
+
 def class_reference(target):
     """The source that gives the editor the class reference; a program for players has none."""
-    files = sorted(Path("extension/doc_classes").glob("*.xml"))
-    if target != "template_debug" or not files:
+    import bind_classes
+    import doc_data
+
+    tables = [bind_classes.ClassTable(path) for path in sorted(Path("extension/doc_classes").glob("*.xml"))]
+    if target != "template_debug" or not tables:
         return None
     output = Path("build", target, "doc_data.cpp")
-    command = [sys.executable, BINDING / "doc_data.py", "--output", output.with_suffix(".partial"), *files]
-    subprocess.run(command, check=True)
-    partial = output.with_suffix(".partial")
-    if not output.is_file() or output.read_bytes() != partial.read_bytes():
-        partial.replace(output)
-    partial.unlink(missing_ok=True)
+    _write_if_changed(output, doc_data.doc_source([table.help() for table in tables]).encode())
     return str(output)
+
+
+def _write_if_changed(path, content):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.is_file() or path.read_bytes() != content:
+        path.write_bytes(content)

@@ -76,6 +76,11 @@ def fetch_and_build(fast: bool = False) -> Jolt:
     return _built(folder, fast)
 
 
+def licence() -> str:
+    """Of the Jolt that is linked in; one built elsewhere is not asked for it."""
+    return (_jolt_source() / "LICENSE").read_text()
+
+
 def _source_folder() -> Path:
     return cache.root() / f"jolt-{VERSION}-source"
 
