@@ -200,10 +200,14 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.replay_steps = natural;
     } else if (key == "share") {
         s.stealth.share = number;
-    } else if (key == "drag_gain") {
-        s.drag.gain = number;
-    } else if (key == "drag_slow") {
-        s.drag.slow = number;
+    } else if (key == "estimate") {
+        s.estimate.gain = number;
+    } else if (key == "estimate_doubt") {
+        s.estimate.doubt = number;
+    } else if (key == "estimate_relative") {
+        s.estimate.relative_doubt = number;
+    } else if (key == "estimate_wander") {
+        s.estimate.wander = number;
     } else if (key == "fade_window") {
         s.stealth.window = number;
     } else if (key == "deadband") {
