@@ -25,7 +25,7 @@ public:
     bool peer_has_restarted() const { return starts_ > 1; }
 
     // The next message, or null. Valid until the next call.
-    const Message* receive();
+    const Packet* receive();
 
     void send(const Message& message) { link_.send(message); }
     bool try_send(const Message& message) { return link_.send(message); }

@@ -38,12 +38,42 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
                 remove(event->object);
                 break;
             case DiscoveryEvent::Kind::restarted:
-                clear();
+                outdate(now);
                 break;
         }
     }
+    if (any_outdated_ && (now - outdated_at_ >= patience || all_described(now, link))) {
+        remove_outdated();
+        changed = true;
+    }
     send_on();
     return changed;
+}
+
+void ModelBuilder::outdate(Nanoseconds now) {
+    for (ModelObject& object : objects_) {
+        bind(object.object, no_handle);
+        object.outdated = true;
+    }
+    any_outdated_ = !objects_.empty();
+    outdated_at_ = now;
+}
+
+// As many as the far side says that it has, and no more have come lately.
+bool ModelBuilder::all_described(Nanoseconds now, const LinkStatistics& link) const {
+    const auto current = std::ranges::count(objects_, false, &ModelObject::outdated);
+    return now - outdated_at_ >= settling && link.peer_hello.object_count > 0 &&
+           static_cast<std::uint64_t>(current) >= link.peer_hello.object_count;
+}
+
+void ModelBuilder::remove_outdated() {
+    for (const ModelObject& object : objects_) {
+        if (object.outdated) {
+            take_out(object);
+        }
+    }
+    std::erase_if(objects_, [](const ModelObject& object) { return object.outdated; });
+    any_outdated_ = false;
 }
 
 void ModelBuilder::build(ObjectDescription& description) {
@@ -51,7 +81,7 @@ void ModelBuilder::build(ObjectDescription& description) {
         distortion_(description);
     }
     ModelObject made{description.object, description.name, no_handle, {}};
-    const auto before = find(description.object);
+    const auto before = find_before(description);
     AddResult added = session_.add_body(addition_of(description));
     made.body = added.handle;
     made.problem = std::move(added.error);
@@ -100,7 +130,18 @@ void ModelBuilder::send_on() {
 }
 
 std::vector<ModelObject>::iterator ModelBuilder::find(ObjectId object) {
-    return std::ranges::find(objects_, object, &ModelObject::object);
+    return std::ranges::find_if(
+        objects_, [object](const ModelObject& one) { return one.object == object && !one.outdated; });
+}
+
+// What the described object takes the place of: itself, or what had its name before the far side started
+// anew.
+std::vector<ModelObject>::iterator ModelBuilder::find_before(const ObjectDescription& description) {
+    const auto itself = find(description.object);
+    return itself != objects_.end() ? itself
+                                    : std::ranges::find_if(objects_, [&description](const ModelObject& one) {
+                                          return one.outdated && one.name == description.name;
+                                      });
 }
 
 }  // namespace tactus

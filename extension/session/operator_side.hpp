@@ -11,6 +11,7 @@
 #pragma once
 
 #include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/pose_filter.hpp"
 #include "session/carried_pointer.hpp"
 #include "session/channel.hpp"
 #include "session/resimulator.hpp"
@@ -36,6 +37,7 @@ public:
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds now) override;
     void report(SessionLoop& loop, Nanoseconds now) override;
+    const ForceLimits& limits() const override { return channel_.settings().limits; }
     bool simulates() const override { return !settings().traditional; }
     SessionLoop* twin() override { return resimulator_.twin(); }
 
@@ -68,8 +70,10 @@ private:
     void start_over_if_peer_has();
     void bind(const ObjectBinding& binding);
     void forget_body(SessionHandle body);
+    void forget_place(std::uint32_t place);
+    BodyMotion believed(SessionHandle body, SampleSequence sample, const BodyMotion& received);
     SessionHandle body_of(ObjectId object) const;
-    void take(const ObjectStates& states, SessionLoop& loop);
+    void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
@@ -104,6 +108,7 @@ private:
     Resimulator resimulator_;
     TraditionalTouch traditional_;
     std::vector<ParameterEstimate> estimates_;  // by place
+    std::vector<PoseFilter> filters_;           // by place
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there

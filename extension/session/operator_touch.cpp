@@ -181,13 +181,13 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
     const StealthSettings& stealth = settings().stealth;
     if (corrected_) {
         CorrectionCost& cost = statistics_.cost;
+        const Vec3 before = pointer.uncorrected + pointer.felt.hidden();
         if (settings().correction == Correction::stealthy_direction) {
             pointer.felt.hide(stealth, pointer.uncorrected, modelled);
         } else if (settings().correction == Correction::stealthy_magnitude) {
             pointer.felt.hide_size(stealth, pointer.uncorrected, modelled);
         }
-        cost.force_step =
-            std::max(cost.force_step, glm::length(modelled + pointer.felt.hidden() - pointer.uncorrected));
+        cost.force_step = std::max(cost.force_step, glm::distance(modelled + pointer.felt.hidden(), before));
     }
     if (changed_ && pointer.known) {
         const Vec3 expected = pointer.modelled + (pointer.modelled - pointer.modelled_before);

@@ -14,8 +14,10 @@
 #include "core/teleop/derivation.hpp"
 #include "core/teleop/errors.hpp"
 #include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/force_exit.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/parameter_estimate.hpp"
+#include "core/teleop/pose_filter.hpp"
 #include "core/teleop/stealth.hpp"
 #include "network/discovery_receiver.hpp"
 #include "network/discovery_sender.hpp"
@@ -35,6 +37,8 @@ struct TeleopSettings {
     MotionThreshold threshold;
     StealthSettings stealth;
     EstimateSettings estimate;  // with re-simulation
+    PoseFilterSettings filter;  // with re-simulation
+    ForceLimits limits;         // of what leaves for the devices
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200

@@ -12,16 +12,16 @@ TruthStore::TruthStore(std::size_t most_bodies, std::size_t places)
     fresh_.reserve(most_bodies);
 }
 
-bool TruthStore::take(SessionHandle body, SampleSequence sample, Nanoseconds true_at,
+bool TruthStore::take(SessionHandle body, SampleSequence sample, std::uint64_t packet,
                       const BodyMotion& motion) {
     Truth& truth = truths_[body];
-    if (truth.true_at != 0 && true_at <= truth.true_at) {
+    if (!is_newer(body, packet)) {
         return false;
     }
-    truth.sample_before = truth.true_at != 0 ? truth.sample : no_sample;
+    truth.sample_before = truth.packet != 0 ? truth.sample : no_sample;
     truth.before = truth.motion;
     truth.sample = sample;
-    truth.true_at = true_at;
+    truth.packet = packet;
     truth.motion = motion;
     if (!truth.fresh) {
         truth.fresh = true;

@@ -152,7 +152,7 @@ func test_every_property_may_change_while_a_body_is_pressed() -> void:
 		var name: String = property.name
 		if (
 			property.type == TYPE_FLOAT
-			and name.get_slice("_", 0) in ["emulated", "stand", "threshold", "stealth", "drag", "deadband"]
+			and name.get_slice("_", 0) in ["emulated", "stand", "threshold", "stealth", "parameter", "deadband"]
 		):
 			changes[name] = float(_here.get(name)) * 0.5
 		elif (
