@@ -49,9 +49,11 @@ private:
     // Building a tree takes milliseconds for a large mesh; a frame should not take much longer for it.
     static constexpr int most_built_at_once = 32;
 
+    static constexpr Nanoseconds settling = 200'000'000;
     static constexpr Nanoseconds patience = 2'000'000'000;
 
     void outdate(Nanoseconds now);
+    bool all_described(Nanoseconds now, const LinkStatistics& link) const;
     void remove_outdated();
     void build(ObjectDescription& description);
     void remove(ObjectId object);
