@@ -2,13 +2,21 @@
 
 #include <algorithm>
 
+#include "core/teleop/body_motion.hpp"
+
 namespace tactus {
 
 namespace {
 
-BodyAddition addition_of(const ObjectDescription& description) {
+BodyAddition addition_of(const ObjectDescription& description, const Pose& frame) {
     BodyAddition addition;
     addition.description = description.body;
+    const BodyMotion motion =
+        to_parent(frame, BodyMotion{description.body.pose, description.body.linear_velocity,
+                                    description.body.angular_velocity});
+    addition.description.pose = motion.pose;
+    addition.description.linear_velocity = motion.linear_velocity;
+    addition.description.angular_velocity = motion.angular_velocity;
     addition.touch_shapes = description.touch_shapes;
     addition.touch_material = description.touch;
     addition.texture = description.texture;
@@ -21,7 +29,7 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     if (link.peer_epoch != 0 && (!gravity_known_ || link.peer_hello.gravity != gravity_)) {
         gravity_known_ = true;
         gravity_ = link.peer_hello.gravity;
-        session_.set_gravity(gravity_);
+        session_.set_gravity(direction_to_parent(frame_, gravity_));
     }
     bool changed = false;
     for (int built = 0; built < most_built_at_once; ++built) {
@@ -82,7 +90,7 @@ void ModelBuilder::build(ObjectDescription& description) {
     }
     ModelObject made{description.object, description.name, no_handle, {}};
     const auto before = find_before(description);
-    AddResult added = session_.add_body(addition_of(description));
+    AddResult added = session_.add_body(addition_of(description, frame_));
     made.body = added.handle;
     made.problem = std::move(added.error);
     port_->discovery.answer(description.object,

@@ -34,6 +34,9 @@ public:
     ModelBuilder(Session& session, std::shared_ptr<TeleopPort> port)
         : session_(session), port_(std::move(port)) {}
 
+    // Where this side's world stands in its scene (TeleopSettings::frame). Before anything is described.
+    void set_frame(const Pose& frame) { frame_ = frame; }
+
     void set_distortion(Distortion distortion) { distortion_ = std::move(distortion); }
 
     // Call it now and then, as each of Godot's frames does. `now`: any steady clock; `link`: the port's
@@ -72,6 +75,7 @@ private:
     std::deque<ObjectBinding> waiting_;  // found the ring full
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
     bool gravity_known_ = false;
+    Pose frame_;
 };
 
 }  // namespace tactus

@@ -198,7 +198,8 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
             ++statistics_.unknown_objects;
             continue;
         }
-        const BodyMotion motion{state.pose, state.linear_velocity, state.angular_velocity};
+        const BodyMotion motion = to_parent(
+            settings().frame, BodyMotion{state.pose, state.linear_velocity, state.angular_velocity});
         if (!truths_.is_newer(body, packet) ||
             !truths_.take(body, sample, packet, believed(body, sample, motion))) {
             ++statistics_.stale_states;
@@ -220,7 +221,11 @@ void OperatorSide::take(const ForceSample& force) {
     if (force.pointer >= most_proxies || force.newest_operator_sample > sample_) {
         return;
     }
-    if (!traditional_.take(force, body_of(force.object))) {
+
+    ForceSample here = force;
+    here.force = direction_to_parent(settings().frame, force.force);
+    here.proxy = to_parent(settings().frame, force.proxy);
+    if (!traditional_.take(here, body_of(force.object))) {
         ++statistics_.stale_states;
         return;
     }
@@ -230,7 +235,7 @@ void OperatorSide::take(const ForceSample& force) {
 // Traditional: bodies are shown where the far side last said.
 void OperatorSide::follow_far_side(SessionLoop& loop) {
     for (const SessionHandle body : truths_.fresh()) {
-        if (loop.body(body)) {
+        if (loop.body(body) && differs(truths_.of(body).motion, loop.motion(body), settings().threshold)) {
             loop.put_right(body, truths_.of(body).motion, true);
         }
     }

@@ -49,10 +49,11 @@ private:
         CarriedPointer carried;
         Vec3 uncorrected{0.0};      // force in this tick if nothing were corrected (unit: newtons)
         Vec3 modelled{0.0};         // by the model, one tick ago (unit: newtons)
-        Vec3 modelled_before{0.0};  // two ticks ago
+        Vec3 modelled_before{0.0};  // two ticks ago, or the same where a change was in between
         Vec3 hand{0.0};             // one tick ago (unit: meters)
         Vec3 force{0.0};            // given to the hand, one tick ago (unit: newtons)
         bool known = false;         // there was such a tick
+        bool answered = false;      // traditional: what the far side said last still held then
         // Sending.
         std::array<OperatorSample, OperatorSamples::most> sent{};
         std::size_t sent_count = 0;
@@ -90,7 +91,8 @@ private:
     Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
                            Nanoseconds now) const;
     Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
-    void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way);
+    void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
+                      bool changed);
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 

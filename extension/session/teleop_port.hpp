@@ -47,8 +47,9 @@ struct TeleopSettings {
     std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
     Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
     ClockSkew skew;                     // of this side's clock, as an experiment
-    bool leaving = false;               // says bye, once
-    std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
+    Pose frame;            // of this side's world in its scene: what is sent is relative to it, on both sides
+    bool leaving = false;  // says bye, once
+    std::uint32_t replay_steps = 32;  // ticks of the past that are replayed in one tick, >= 1
 };
 
 // What a pointer feels besides its model.

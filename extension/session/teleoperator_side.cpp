@@ -50,6 +50,10 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     take_orders();
     ++tick_;
     receive();
+    if (const std::uint64_t missing = channel_.link().statistics().missing; missing != missing_) {
+        lost_at_ = missing > missing_ ? tick_ : lost_at_;
+        missing_ = missing;
+    }
     if (channel_.link().statistics().peer_hello.period != peer_period_) {
         set_buffers();
     }
@@ -120,7 +124,7 @@ void TeleoperatorSide::describe(Nanoseconds now) {
         std::max(soonest, static_cast<Nanoseconds>(1.5 * channel_.link().clock().figures().mean_delay)));
     const DiscoveryCounts& counts = discovery_.counts();
     channel_.link().set_world(counts.waiting + counts.known + counts.refused + counts.no_room,
-                              settings().gravity);
+                              direction_to_local(settings().frame, settings().gravity));
     Message message;
     for (int i = 0; i < most_a_tick && channel_.link().hears_peer() && discovery_.next(now, message); ++i) {
         channel_.link().send(message);
@@ -128,7 +132,15 @@ void TeleoperatorSide::describe(Nanoseconds now) {
 }
 
 void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) {
-    if (pointer.buffer.play(pointer.played) == Playing::waiting || !pointer.played.connected) {
+    const bool waits = pointer.buffer.play(pointer.played) == Playing::waiting;
+    if (!waits) {
+        const Pose& frame = settings().frame;
+        pointer.here = pointer.played;
+        pointer.here.position = to_parent(frame, pointer.played.position);
+        pointer.here.velocity = direction_to_parent(frame, pointer.played.velocity);
+        pointer.here.force = direction_to_parent(frame, pointer.played.force);
+    }
+    if (waits || !pointer.played.connected) {
         if (!slot.idle) {
             keep(loop, pointer, slot);
         }
@@ -137,7 +149,7 @@ void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::Pr
         return;
     }
     if (!pointer.holds) {
-        pointer.hand = pointer.played.position;
+        pointer.hand = pointer.here.position;
         pointer.holds = true;
         come_back(loop, pointer, slot);
     }
@@ -146,7 +158,7 @@ void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::Pr
     pointer.hand =
         stand_in_hand(settings().control, settings().stand_in, stand_in_input(loop, pointer, slot));
     slot.hand = pointer.hand;
-    slot.hand_velocity = pointer.played.velocity;
+    slot.hand_velocity = pointer.here.velocity;
 }
 
 // Where a hand that is lost has pressed, so that it can go on pressing.
@@ -180,9 +192,9 @@ void TeleoperatorSide::come_back(SessionLoop& loop, Pointer& pointer, SessionLoo
 StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                               const SessionLoop::ProxySlot& slot) const {
     StandInInput in;
-    in.hand = pointer.played.position;
-    in.velocity = pointer.played.velocity;
-    in.force = pointer.played.force;
+    in.hand = pointer.here.position;
+    in.velocity = pointer.here.velocity;
+    in.force = pointer.here.force;
     in.own_hand = pointer.hand;
     in.own_proxy = slot.state.position;
     in.seconds = seconds_;
@@ -226,6 +238,13 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     statistics_.buffer_depth = pointers_[0].buffer.depth();
     statistics_.discovery = discovery_.counts();
     channel_.end_tick(statistics_);
+}
+
+// Whether packets have been lost lately. What the far side loses is known to it alone; links mostly lose both
+// ways.
+bool TeleoperatorSide::loses() const {
+    constexpr std::uint64_t lately = 1000;
+    return lost_at_ != 0 && tick_ - lost_at_ < lately;
 }
 
 // What moves is said often; with a deadband, when it goes on otherwise than was said.
@@ -275,9 +294,11 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
             continue;
         }
         const BodyMotion motion = loop.motion(handle);
-        told_[i] = {motion, tick_, now, loop.asleep(handle), settings().deadband.enabled && !told_[i].again};
-        message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), motion.pose,
-                                           motion.linear_velocity, motion.angular_velocity};
+        told_[i] = {motion, tick_, now, loop.asleep(handle),
+                    settings().deadband.enabled && loses() && !told_[i].again};
+        const BodyMotion said = to_local(settings().frame, motion);
+        message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), said.pose,
+                                           said.linear_velocity, said.angular_velocity};
         if (message.count == ObjectStates::most) {
             channel_.link().send(message);
             message.count = 0;
@@ -299,8 +320,8 @@ void TeleoperatorSide::send_force(SessionLoop& loop, std::size_t index, Nanoseco
     message.pointer = static_cast<std::uint16_t>(index);
     message.true_at = channel_.link().local_time(now);
     message.newest_operator_sample = pointer.played.sequence;
-    message.force = state.force;
-    message.proxy = state.position;
+    message.force = direction_to_local(settings().frame, state.force);
+    message.proxy = to_local(settings().frame, state.position);
     message.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
     if (channel_.link().send(message)) {
         pointer.force_sent = state.force;

@@ -21,6 +21,7 @@ private:
     struct Pointer {
         JitterBuffer<OperatorSample> buffer;
         OperatorSample played;
+        OperatorSample here;                   // the same in this side's scene
         bool holds = false;                    // a hand is there
         Vec3 hand{0.0};                        // where the stand-in has put it (unit: meters)
         SessionHandle kept_on = no_handle;     // a body that was pressed when the hand was lost
@@ -51,6 +52,7 @@ private:
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
     void set_buffers();
+    bool loses() const;
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
     void send_force(SessionLoop& loop, std::size_t index, Nanoseconds now);
@@ -64,6 +66,8 @@ private:
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;
+    std::uint64_t missing_ = 0;  // packets of the operator, so far
+    std::uint64_t lost_at_ = 0;  // the tick in which one more was
     TeleopStatistics statistics_;
 };
 
