@@ -435,17 +435,4 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
     return status | impl_->loop.tick(now, trace);
 }
 
-bool Session::correct(std::uint64_t tick, std::span<const BodyCorrection> truth) {
-    return impl_->loop.correct(tick, truth);
-}
-bool Session::correcting() const {
-    return impl_->loop.correcting();
-}
-std::uint64_t Session::oldest_correctable_tick() const {
-    return impl_->loop.oldest_correctable_tick();
-}
-std::span<const CorrectedBody> Session::corrected() const {
-    return impl_->loop.corrected();
-}
-
 }  // namespace tactus
