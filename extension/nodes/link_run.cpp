@@ -290,9 +290,9 @@ std::vector<std::string> LinkRun::problems() const {
 // Which of the counters for what is not believed have grown.
 void LinkRun::note_refusals(Nanoseconds now) {
     const LinkStatistics& link = port_->statistics.front().link;
-    const bool unmet = figures_.sealed && !figures_.key_met;
+    const bool unmet = figures_.udp.sealed && !figures_.udp.met;
     const std::array<std::uint64_t, 4> counts = {
-        unmet ? figures_.secure.wrong_key : 0, unmet ? figures_.secure.not_sealed : 0,
+        unmet ? figures_.udp.secure.wrong_key : 0, unmet ? figures_.udp.secure.not_sealed : 0,
         link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version)};
     constexpr const char* words[] = {
         "the far side has another key: set the same 'key' on both sides",

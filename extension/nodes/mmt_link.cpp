@@ -486,10 +486,10 @@ Dictionary MMTLink::get_statistics() const {
     d["refused_not_finite"] = count(link.refused.of(Refusal::not_finite));
     d["refused_out_of_range"] = count(link.refused.of(Refusal::out_of_range));
     d["refused_epoch"] = count(link.strange_epoch);
-    d["refused_key"] = count(network.secure.wrong_key);
-    d["refused_not_sealed"] = count(network.secure.not_sealed);
-    d["refused_replayed"] = count(network.secure.replayed + network.secure.other_start);
-    d["sealed"] = network.sealed;
+    d["refused_key"] = count(network.udp.secure.wrong_key);
+    d["refused_not_sealed"] = count(network.udp.secure.not_sealed);
+    d["refused_replayed"] = count(network.udp.secure.replayed + network.udp.secure.other_start);
+    d["sealed"] = network.udp.sealed;
     d["peer_restarts"] = count(link.peer_restarts);
     d["peer_vanishings"] = count(link.vanishings);
     d["emulated_delivered"] = count(network.emulator.delivered);

@@ -14,6 +14,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
     : settings_(settings),
       room_(room),
       link_(link, endpoint),
+      samples_({std::max(1u, settings.repeats) - 1, most_proxies, session.period}),
       port_(std::move(port)),
       seconds_(to_seconds(session.period)),
       history_(room.most_tracked, room.samples),
@@ -78,6 +79,7 @@ void OperatorSide::take_settings(SessionLoop& loop) {
     }
     const TeleopSettings before = std::exchange(settings_, port_->settings.front());
     link_.set_skew(settings_.skew);
+    samples_.set_max_repeats(std::max(1u, settings_.repeats) - 1);
     link_.set_scenario(settings_.traditional ? 2 : 4);
     if (settings_.leaving && !before.leaving) {
         link_.leave();
@@ -141,9 +143,11 @@ void OperatorSide::receive(SessionLoop& loop) {
         restart_waits_ = restart_waits_ && !port_->discovery.put_restart();
         const Message& message = received->packet.message;
         if (const auto* const states = std::get_if<ObjectStates>(&message)) {
-            take(*states, loop);
-        } else if (const auto* const force = std::get_if<ForceSample>(&message)) {
-            take(*force);
+            take(*states, received->packet.header.sequence, loop);
+        } else if (const auto* const forces = std::get_if<ForceSamples>(&message)) {
+            for (std::size_t i = 0; i < forces->count; ++i) {
+                take(forces->samples[i]);
+            }
         } else if (const auto* const piece = std::get_if<DiscoveryFragment>(&message)) {
             if (!restart_waits_) {
                 port_->discovery.put(*piece);
@@ -195,6 +199,7 @@ void OperatorSide::forget_far_side() {
     truth_at_ = no_sample;
     replaying_ = false;
     restart_waits_ = true;
+    samples_.restart();
 }
 
 void OperatorSide::acknowledge() {
@@ -206,7 +211,7 @@ void OperatorSide::acknowledge() {
 }
 
 // Newest wins, for each object. A sample that has not been sent yet is none of ours.
-void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
+void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop) {
     const SampleSequence sample = states.newest_operator_sample;
     if (sample >= sample_) {
         return;
@@ -223,14 +228,14 @@ void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
             continue;
         }
         Truth& truth = truths_[body];
-        if (truth.true_at != 0 && states.true_at <= truth.true_at) {
-            ++statistics_.stale_states;
+        if (packet < truth.packet && truth.packet - packet < SequenceWindow::length) {
+            ++statistics_.stale_states;  // overtaken
             continue;
         }
+        truth.packet = packet;
         truth.sample_before = truth.sample;
         truth.before = truth.motion;
         truth.sample = sample;
-        truth.true_at = states.true_at;
         truth.motion = {state.pose, state.linear_velocity, state.angular_velocity};
         truth.fresh = true;
     }
@@ -356,6 +361,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
             send_sample(loop, i, now);
         }
     }
+    samples_.end_tick(link_, now);
     acknowledge();
     link_.end_tick();
     statistics_.sample = sample_;
@@ -389,9 +395,9 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.position = slot.hand;
     sample.velocity = slot.hand_velocity;
     sample.force = settings_.traditional ? Vec3(0.0) : slot.force;
-    if (settings_.deadband.enabled && pointer.sent_count > 0 &&
+    if (settings_.deadband.enabled && pointer.has_sent &&
         now - pointer.sent_at < settings_.deadband.longest_silence) {
-        const OperatorSample& last = pointer.sent[0];
+        const OperatorSample& last = pointer.sent;
         const Vec3 guessed = guessed_position(last.position, last.velocity,
                                               static_cast<double>(sample_ - last.sequence) * seconds_);
         if (!position_needs_sending(settings_.deadband, guessed, sample.position, sample.velocity) &&
@@ -404,15 +410,10 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     if (!settings_.traditional && settings_.control == ControlScheme::position_force_relative) {
         find_nearest(loop, slot, sample);
     }
-    std::shift_right(pointer.sent.begin(), pointer.sent.end(), 1);
-    pointer.sent[0] = sample;
-    pointer.sent_count = std::min(pointer.sent_count + 1, pointer.sent.size());
+    pointer.sent = sample;
+    pointer.has_sent = true;
     pointer.sent_at = now;
-    OperatorSamples message;
-    message.count = static_cast<std::uint16_t>(
-        std::min<std::size_t>(pointer.sent_count, std::max(1u, settings_.repeats)));
-    std::copy_n(pointer.sent.begin(), message.count, message.samples.begin());
-    link_.send(message);
+    samples_.add(sample);
 }
 
 void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot,

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "core/teleop/state_history.hpp"
+#include "network/sample_stream.hpp"
 #include "session/session_loop.hpp"
 #include "session/teleop_port.hpp"
 
@@ -44,7 +45,7 @@ private:
     struct Truth {
         bool fresh = false;
         SampleSequence sample = no_sample;
-        Nanoseconds true_at = 0;
+        std::uint64_t packet = 0;  // sequence of the one that said so
         BodyMotion motion;
         SampleSequence sample_before = no_sample;  // of the state before that one, for accelerations
         BodyMotion before;
@@ -72,8 +73,8 @@ private:
         ObjectId far_object = no_object;  // that is touched there
         SampleSequence far_sample = no_sample;
         // Sending.
-        std::array<OperatorSample, OperatorSamples::most> sent{};
-        std::size_t sent_count = 0;
+        OperatorSample sent;
+        bool has_sent = false;
         Nanoseconds sent_at = 0;
     };
     struct Target {
@@ -83,7 +84,7 @@ private:
     };
 
     void take_settings(SessionLoop& loop);
-    void take(const ObjectStates& states, SessionLoop& loop);
+    void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
     void receive(SessionLoop& loop);
     void bind(const ObjectBinding& binding);
@@ -130,6 +131,7 @@ private:
     TeleopSettings settings_;
     OperatorRoom room_;
     Endpoint link_;
+    SampleStream samples_;
     std::shared_ptr<TeleopPort> port_;
     double seconds_;  // of a tick
     SampleSequence sample_ = no_sample;
