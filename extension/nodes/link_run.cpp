@@ -232,7 +232,11 @@ void LinkRun::synchronise(Workers& workers, const LinkMoment& moment) {
         figures_ = way_->figures();
     }
     note_refusals(moment.now);
-    if (builder_ != nullptr && builder_->update(moment.now, port_->statistics.front().link)) {
+    if (builder_ != nullptr && !builds_elsewhere_ && !moment.waits) {
+        builds_elsewhere_ = true;
+        builder_->set_run([&workers](std::function<void()> job) { workers.add(std::move(job)); });
+    }
+    if (builder_ != nullptr && builder_->update(port_->statistics.front().link)) {
         for (ModelNews& news : view_->update(builder_->objects())) {
             object_news_.push_back(std::move(news));
         }

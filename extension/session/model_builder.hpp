@@ -2,9 +2,11 @@
 // session's bodies are the local model (G') of the environment.
 //
 // Belongs to the owner of the session. A body that is described anew is replaced where it is; another start
-// of the far side takes all of the earlier one's bodies away.
+// of the far side takes all of the earlier one's bodies away. What takes time, reading and preparing a body,
+// is done by `run` where one is set, whose jobs must have ended before the session does.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -34,9 +36,12 @@ public:
 
     void set_distortion(Distortion distortion) { distortion_ = std::move(distortion); }
 
-    // Call it now and then, as each of Godot's frames does. `now`: any steady clock; `link`: the port's
-    // newest statistics. True where objects() has changed.
-    bool update(Nanoseconds now, const LinkStatistics& link);
+    // Who reads and prepares bodies; the caller of update() where nobody is set.
+    void set_run(DiscoveryReceiver::Run run);
+
+    // Call it now and then, as each of Godot's frames does. `link`: the port's newest statistics. True where
+    // objects() has changed.
+    bool update(const LinkStatistics& link);
 
     // Takes everything out of the session again.
     void clear();
@@ -44,10 +49,24 @@ public:
     const std::vector<ModelObject>& objects() const { return objects_; }
 
 private:
-    // Building a tree takes milliseconds for a large mesh; a frame should not take much longer for it.
-    static constexpr int most_built_at_once = 32;
+    // Where the caller prepares bodies himself: a tree takes milliseconds for a large mesh, and a frame
+    // should not take much longer for it.
+    static constexpr std::size_t most_built_at_once = 32;
 
-    void build(ObjectDescription& description);
+    // A body that is being prepared. Shared with who does it.
+    struct Preparing {
+        ObjectId object = no_object;
+        std::string name;
+        BodyAddition addition;
+        ReadyBody ready;
+        std::atomic<bool> done{false};
+    };
+
+    void take(DiscoveryEvent& event);
+    void prepare(ObjectDescription& description);
+    bool add_prepared();
+    void add(Preparing& prepared);
+    void forget_prepared(ObjectId object);
     void remove(ObjectId object);
     void take_out(const ModelObject& object);
     void bind(ObjectId object, SessionHandle body);
@@ -57,6 +76,8 @@ private:
     Session& session_;
     std::shared_ptr<TeleopPort> port_;
     Distortion distortion_;
+    DiscoveryReceiver::Run run_;
+    std::deque<std::shared_ptr<Preparing>> preparing_;
     std::vector<ModelObject> objects_;
     std::deque<ObjectBinding> waiting_;  // found the ring full
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)

@@ -161,7 +161,7 @@ TEST(Endpoint, CopiesAreDroppedAndLossesCounted) {
     EndpointRig rig(conditions);
     rig.run(1000 * ms);
     double newtons = 0.0;
-    rig.run(5000 * ms, [&] { rig.far().send(force(newtons += 1.0)); });
+    rig.run(5000 * ms, [&] { rig.far().send(force(newtons += 0.125)); });
     rig.run(200 * ms);
     std::vector<double> seen;
     for (const Message& message : rig.near_heard()) {

@@ -414,8 +414,8 @@ TEST(SecureSession, SealsAsThePublishedVectorsSay) {
     for (const char letter : {'t', 'o', 'u', 'c', 'h'}) {
         size = near.seal(Bytes(3, static_cast<std::byte>(letter)), wire);
     }
-    EXPECT_EQ(samples::published_vectors().at("greeting"), greeting);
-    EXPECT_EQ(samples::published_vectors().at("sealed"), samples::hex(std::span(wire).first(size)));
+    EXPECT_EQ(samples::published_vectors()["greeting"], greeting);
+    EXPECT_EQ(samples::published_vectors()["sealed"], samples::hex(std::span(wire).first(size)));
     EXPECT_EQ(far.open(std::span(wire).first(size), plain, 0), 3u);
 }
 

@@ -328,6 +328,7 @@ TEST(UdpLink, TheHapticThreadWaitsForNobody) {
     settings.side = Side::teleoperator_side;
     settings.epoch = 2;
     Endpoint far(pair.second, settings);
+    const Message samples = DiscoveryAcknowledgement{1, {}, DiscoveryVerdict::known};
     int received = 0;
     std::atomic<bool> done{false};
     const testing::LockAudit locks;
@@ -336,7 +337,7 @@ TEST(UdpLink, TheHapticThreadWaitsForNobody) {
             far.begin_tick(monotonic_now());
             while (far.receive() != nullptr) {
             }
-            far.send(ForceSamples{1, {}});
+            far.send(samples);
             far.end_tick();
             nap();
         }
@@ -351,7 +352,7 @@ TEST(UdpLink, TheHapticThreadWaitsForNobody) {
         while (near.receive() != nullptr) {
             ++received;
         }
-        near.send(ForceSamples{1, {}});
+        near.send(samples);
         near.end_tick();
         audit.finish();
         const std::size_t found =

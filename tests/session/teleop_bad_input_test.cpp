@@ -314,7 +314,7 @@ TEST_F(TeleopBadInput, ARestartIsNoticedWithoutAnyData) {
     };
     ticks(300);
     bool restarted = false;
-    while (const std::optional<DiscoveryEvent> event = near->port->discovery.next(now)) {
+    while (const std::optional<DiscoveryEvent> event = near->port->discovery.next()) {
         restarted = restarted || event->kind == DiscoveryEvent::Kind::restarted;
     }
     EXPECT_TRUE(restarted);
