@@ -23,8 +23,8 @@
 namespace tactus {
 
 struct DiscoverySettings {
-    std::size_t pieces_waiting = 256;              // between haptic thread and owner; the rest is sent again
-    std::size_t most_objects = 4096;               // known or incomplete at once
+    std::size_t pieces_waiting = 256;  // between haptic thread and owner; the rest is sent again
+    std::size_t most_objects = 4096;   // known or incomplete at once
     // Of pieces of all descriptions that are not read yet. One that has got most of it may go on to its end.
     std::size_t most_incomplete_bytes = 6 << 20;
 };

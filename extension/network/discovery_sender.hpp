@@ -60,8 +60,8 @@ public:
 private:
     enum class Progress : std::uint8_t { waiting, known, refused, no_room, removing };
 
-    // Descriptions that are told at the same time: so few that the far side need not hold many incomplete ones
-    // (unit: bytes).
+    // Descriptions that are told at the same time: so few that the far side need not hold many incomplete
+    // ones (unit: bytes).
     static constexpr std::size_t max_under_way = 4 << 20;
 
     struct Entry {

@@ -58,7 +58,7 @@ const NumberRow number_rows[] = {
     {"stealth_window", StealthSettings{}.window, 1e-3, 10.0, "0.01,1,0.01,or_greater,suffix:s"},
     {"stealth_free_speed", StealthSettings{}.free_speed, 1e-3, 100.0, "0.01,2,0.01,or_greater,suffix:m/s"},
     {"stealth_longest_offset", StealthSettings{}.longest_offset, 0.0, 1.0, "0,0.2,0.001,or_greater,suffix:m"},
-    {"drag_learning", DragSettings{}.gain, 0.0, 1.0, "0,1,0.01"},
+    {"parameter_learning", EstimateSettings{}.gain, 0.0, 1.0, "0,1,0.01"},
     {"deadband_position", DeadbandSettings{}.position, 0.0, 1.0, "0,0.01,0.00001,or_greater,suffix:m"},
     {"deadband_position_weber", DeadbandSettings{}.position_weber, 0.0, 1.0, "0,0.5,0.001"},
     {"deadband_angle", DeadbandSettings{}.angle, 0.0, 3.2, "0,0.1,0.0001,or_greater,suffix:rad"},
@@ -219,7 +219,7 @@ void MMTLink::set_control_scheme(ControlScheme scheme) {
 }
 
 void MMTLink::set_correction_scheme(CorrectionScheme scheme) {
-    correction_ = std::clamp(scheme, CORRECTION_NONE, CORRECTION_STEALTHY_DIRECTION);
+    correction_ = std::clamp(scheme, CORRECTION_NONE, CORRECTION_STEALTHY_TURN);
     changed();
 }
 
@@ -293,7 +293,7 @@ TeleopSettings MMTLink::teleop_settings() const {
     s.stealth = {number(NUMBER_STEALTH_WEBER),      number(NUMBER_STEALTH_LEAST),
                  number(NUMBER_STEALTH_SHARE),      number(NUMBER_STEALTH_WINDOW),
                  number(NUMBER_STEALTH_FREE_SPEED), number(NUMBER_STEALTH_LONGEST_OFFSET)};
-    s.drag.gain = number(NUMBER_DRAG_LEARNING);
+    s.estimate.gain = number(NUMBER_DRAG_LEARNING);
     s.stand_in = {number(NUMBER_STAND_IN_SPEED), number(NUMBER_STAND_IN_NEAR), number(NUMBER_STAND_IN_LEASH)};
     s.deadband.enabled = deadband_;
     s.deadband.position = number(NUMBER_DEADBAND_POSITION);
@@ -662,7 +662,8 @@ void MMTLink::bind_properties() {
     ADD_GROUP("Correction", "");
     ADD_PROPERTY(
         PropertyInfo(Variant::INT, "correction_scheme", PROPERTY_HINT_ENUM,
-                     "None,Pose,Pose and velocities,Stealthy (keep magnitude),Stealthy (keep direction)"),
+                     "None,Pose,Pose and velocities,Stealthy (keep magnitude),Stealthy (keep direction),"
+                     "Stealthy (translate),Stealthy (turn)"),
         "set_correction_scheme", "get_correction_scheme");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "derivation", PROPERTY_HINT_ENUM,
                               "None,Velocity,Acceleration,Averaged,History,Re-simulation"),
@@ -756,6 +757,8 @@ void MMTLink::bind_constants() {
     BIND_ENUM_CONSTANT(CORRECTION_POSE_VELOCITY);
     BIND_ENUM_CONSTANT(CORRECTION_STEALTHY_MAGNITUDE);
     BIND_ENUM_CONSTANT(CORRECTION_STEALTHY_DIRECTION);
+    BIND_ENUM_CONSTANT(CORRECTION_STEALTHY_TRANSLATE);
+    BIND_ENUM_CONSTANT(CORRECTION_STEALTHY_TURN);
     BIND_ENUM_CONSTANT(DERIVATION_NONE);
     BIND_ENUM_CONSTANT(DERIVATION_VELOCITY);
     BIND_ENUM_CONSTANT(DERIVATION_ACCELERATION);

@@ -114,6 +114,12 @@ void Timeline::set_material(BodyId id, const SurfaceMaterial& material) {
         twin_->set_material(id, material);
 }
 
+void Timeline::set_factors(BodyId id, const BodyFactors& factors) {
+    present_.set_factors(id, factors);
+    if (has_past())
+        twin_->set_factors(id, factors);
+}
+
 void Timeline::set_damping(BodyId id, double linear, double angular) {
     present_.set_damping(id, linear, angular);
     if (has_past())

@@ -74,6 +74,7 @@ public:
 
     // Settings, in the past as well.
     void set_material(BodyId id, const SurfaceMaterial& material);
+    void set_factors(BodyId id, const BodyFactors& factors);
     void set_damping(BodyId id, double linear, double angular);
     void set_gravity_scale(BodyId id, double scale);
     void set_collision(BodyId id, const CollisionLayers& collision);

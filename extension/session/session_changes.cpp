@@ -7,7 +7,22 @@
 
 namespace tactus {
 
+namespace {
+
+// Whether what a pointer touches, or the pointer itself, may be another one afterwards.
+bool changes_touch(const Command& command) {
+    return std::holds_alternative<command::AddBody>(command) ||
+           std::holds_alternative<command::RemoveBody>(command) ||
+           std::holds_alternative<command::TeleportBody>(command) ||
+           std::holds_alternative<command::SetTouchMaterial>(command) ||
+           std::holds_alternative<command::SetBodyLayers>(command) ||
+           std::holds_alternative<command::SetProxy>(command);
+}
+
+}  // namespace
+
 bool SessionLoop::take(Command& command, Retired& retired) {
+    touch_changed_ = touch_changed_ || changes_touch(command);
     return std::visit([&](auto& c) { return carry_out(c, retired); }, command);
 }
 
@@ -236,6 +251,7 @@ bool SessionLoop::carry_out(command::RemoveJoint& c, Retired& retired) {
 }
 
 bool SessionLoop::carry_out(command::SetGravity& c, Retired&) {
+    gravity_ = c.gravity;
     timeline_.set_gravity(c.gravity);
     return false;
 }

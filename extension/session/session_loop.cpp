@@ -47,7 +47,8 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       handle_of_slot_(settings.most_bodies, no_handle),
       handle_of_id_(settings.most_bodies, no_handle),
       state_changes_(settings.most_bodies),
-      state_of_(settings.most_bodies, no_handle) {
+      state_of_(settings.most_bodies, no_handle),
+      gravity_(settings.physics.gravity) {
     travelling_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
     pushed_.reserve(settings.most_bodies);
@@ -224,6 +225,9 @@ void SessionLoop::read_devices(Nanoseconds now) {
 
 void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
+        for (ProxySlot& slot : proxies_) {
+            slot.parts = {};  // nothing is touched here, so nothing is pressed
+        }
         return;
     }
     for (ProxySlot& slot : proxies_) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/haptics/surface_effects.hpp"
@@ -107,8 +108,12 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
-    // In this tick, besides all other forces; a body at rest is left alone (unit: meters per second squared).
-    void accelerate(SessionHandle handle, const Vec3& acceleration);
+    void set_factors(SessionHandle handle, const BodyFactors& factors);
+    const Vec3& gravity() const { return gravity_; }
+    // Whether the owner has changed what is touched, or what touches, since this was asked last.
+    bool take_touch_change() { return std::exchange(touch_changed_, false); }
+    // The velocity that hands give a body in this tick (unit: meters per second).
+    Vec3 pushed(SessionHandle handle) const;
 
     // The body is elsewhere. With `rides`, or where a proxy rests on it, it has been elsewhere a tick ago,
     // too, and what rests on it comes along; else it runs into what is in its way. `previous`: where it was a
@@ -212,7 +217,9 @@ private:
     RecorderRing<SessionRecord>* recording_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
-    bool follows_all_ = false;  // a memento was restored: where bodies are is to be read anew
+    Vec3 gravity_;                // (unit: meters per second squared)
+    bool touch_changed_ = false;  // see take_touch_change()
+    bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew
     std::uint64_t tick_ = 0;
     Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;

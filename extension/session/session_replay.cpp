@@ -19,12 +19,23 @@ bool SessionLoop::asleep(SessionHandle handle) {
     return !physics_.awake(bodies_[handle].id);
 }
 
-void SessionLoop::accelerate(SessionHandle handle, const Vec3& acceleration) {
-    const Body& pushed = bodies_[handle];
-    if (pushed.motion == Motion::Dynamic && physics_.awake(pushed.id)) {
-        timeline_.apply_force(pushed.id, acceleration * physics_.mass(pushed.id),
-                              physics_.center_of_mass(pushed.id));
+void SessionLoop::set_factors(SessionHandle handle, const BodyFactors& factors) {
+    timeline_.set_factors(bodies_[handle].id, factors);
+}
+
+Vec3 SessionLoop::pushed(SessionHandle handle) const {
+    Vec3 force(0.0);
+    if (handle >= bodies_.size() || bodies_[handle].slot < 0 || bodies_[handle].motion != Motion::Dynamic) {
+        return force;
     }
+    for (const ProxySlot& slot : proxies_) {
+        for (int i = 0; slot.proxy && i < slot.parts.contact_count; ++i) {
+            if (slot.parts.contacts[i].body == bodies_[handle].slot) {
+                force -= slot.parts.contacts[i].on_hand;
+            }
+        }
+    }
+    return force * (seconds_ / physics_.mass(bodies_[handle].id));
 }
 
 bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
@@ -52,7 +63,7 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
     }
     scene_.set_pose(corrected->slot, to.pose);
     timeline_.set_pose(corrected->id, to.pose);
-    if (with_velocity && corrected->motion == Motion::Dynamic) {
+    if (with_velocity && corrected->motion != Motion::Static) {
         timeline_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
     }
     if (state_of_[handle] == no_handle) {
@@ -109,6 +120,7 @@ bool SessionLoop::restore(const LoopMemento& memento) {
         !timeline_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
         return false;
     }
+    timeline_.set_gravity(gravity_);  // as it is now, like all settings; the memento holds an older one
     for (std::size_t i = 0; i < memento.place_count; ++i) {
         if (const Body* const placed = body(memento.places[i].handle)) {
             scene_.set_pose(placed->slot, memento.places[i].pose, true);

@@ -79,6 +79,16 @@ struct BodyState {
     std::uint64_t changed_at = 0;  // tick
 };
 
+// Bits of ProxyState::status besides ProxyStatus, with a link: what is between the model's force and the
+// hand.
+enum FeltStatus : std::uint32_t {
+    felt_carried = 1u << 16,  // a second pointer is felt, carried along with an object that was corrected
+    felt_bridged = 1u << 17,  // a change of the model is hidden and fades unnoticed
+    felt_letting_go =
+        1u << 18,             // a change of the model was too large to hide: it fades so that it may be felt
+    felt_limited = 1u << 19,  // the force was to change or to give more than is allowed
+};
+
 struct ProxyState {
     SessionHandle handle = no_handle;
     Vec3 position{0.0};        // of the proxy, in the world (unit: meters)

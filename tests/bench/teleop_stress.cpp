@@ -1,6 +1,7 @@
 // Whether anything that comes over the wire stops a side, moves what is not its sender's, or kicks the hand:
-// both sides as they really are, under mutated, reordered and replayed packets of every kind, from a stranger,
-// from somebody who hears all but has no key, and from a peer; then a flood through real sockets, and silence.
+// both sides as they really are, under mutated, reordered and replayed packets of every kind, from a
+// stranger, from somebody who hears all but has no key, and from a peer; then a flood through real sockets,
+// and silence.
 //
 //     teleop_stress [--packets=10000000] [--kind=NAME] [--seed=1] [--only=attack|flood|blackout]
 //
@@ -62,7 +63,9 @@ End run_apart(const AttackSettings& settings, AttackFigures& figures) {
     }
     const bool told = read(ends[0], &figures, sizeof figures) == static_cast<ssize_t>(sizeof figures);
     close(ends[0]);
-    return hung ? End::hung : told && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? End::well : End::crashed;
+    return hung                                                    ? End::hung
+           : told && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? End::well
+                                                                   : End::crashed;
 }
 
 struct Totals {
@@ -118,7 +121,8 @@ void attack(Report& report, std::uint64_t packets, const std::string& only_kind,
 
 void black_out(Report& report) {
     double worst = 0.0;
-    for (const auto& [name, seconds] : {std::pair{"0_4_s", 0.4}, std::pair{"0_7_s", 0.7}, std::pair{"5_s", 5.0}}) {
+    for (const auto& [name, seconds] :
+         {std::pair{"0_4_s", 0.4}, std::pair{"0_7_s", 0.7}, std::pair{"5_s", 5.0}}) {
         const BlackoutFigures figures = run_blackout(seconds);
         worst = std::max(worst, figures.recovery_s);
         const std::string key = std::string("blackout.") + name + ".";

@@ -49,14 +49,19 @@ public:
     }
 
     std::function<void(Message&)> change;  // what is set to `spoilt` arrives as a NaN
-    static constexpr double spoilt = 12345.6789;
+    static constexpr double spoilt = 12.3456789;
 
 private:
     // A writer refuses to encode what is no number: it is put in afterwards.
     static void spoil(std::span<std::byte> datagram) {
-        constexpr double none = std::numeric_limits<double>::quiet_NaN();
+        spoil_as(datagram, spoilt);
+        spoil_as(datagram, static_cast<float>(spoilt));
+    }
+    template <typename Real>
+    static void spoil_as(std::span<std::byte> datagram, Real wanted) {
+        constexpr Real none = std::numeric_limits<Real>::quiet_NaN();
         for (std::size_t i = 0; i + sizeof none <= datagram.size(); ++i) {
-            if (std::memcmp(&datagram[i], &spoilt, sizeof none) == 0) {
+            if (std::memcmp(&datagram[i], &wanted, sizeof none) == 0) {
                 std::memcpy(&datagram[i], &none, sizeof none);
             }
         }
@@ -222,13 +227,12 @@ TEST_F(TeleopBadInput, NumbersThatAreNoneAreRefused) {
     to_operator.change = [=](Message& message) {
         auto* const states = std::get_if<ObjectStates>(&message);
         if (states != nullptr && now_and_then()) {
-            states->states[0].pose.position.x = Tampered::spoilt;
+            states->states[0].linear_velocity.x = Tampered::spoilt;
         }
     };
     to_far.change = [=](Message& message) {
-        auto* const samples = std::get_if<OperatorSamples>(&message);
-        if (samples != nullptr && now_and_then()) {
-            samples->samples[0].position.y = Tampered::spoilt;
+        if (auto* const hello = std::get_if<Hello>(&message)) {
+            hello->gravity.y = Tampered::spoilt;
         }
     };
     ticks(500);
@@ -236,7 +240,7 @@ TEST_F(TeleopBadInput, NumbersThatAreNoneAreRefused) {
         return one.statistics().link.refused.by_reason[static_cast<std::size_t>(Refusal::not_finite)];
     };
     EXPECT_GT(refused(*near), 50u);
-    EXPECT_GT(refused(*far), 50u);
+    EXPECT_GE(refused(*far), 4u);
     EXPECT_LT(glm::distance(far->box_position(), near->box_position()), 1e-4);
     expect_nothing_has_happened();
 }

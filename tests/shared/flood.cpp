@@ -127,7 +127,8 @@ std::uint64_t scrambled(std::uint64_t number) {
             // Greetings, sealed packets of any session, and noise.
             std::byte* const body = packet.bytes.data() + headers;
             const std::uint64_t random = scrambled(++thrown);
-            constexpr std::array<char, 4> fronts[] = {{'T', 'S', 2, 0}, {'T', 'S', 2, 1}, {'T', 'C', 2, 8}, {9, 9, 9, 9}};
+            constexpr std::array<char, 4> fronts[] = {
+                {'T', 'S', 2, 0}, {'T', 'S', 2, 1}, {'T', 'C', 2, 8}, {9, 9, 9, 9}};
             std::memcpy(body, fronts[random % 4].data(), 4);
             std::memcpy(body + 4, &random, sizeof random);
         }
@@ -156,7 +157,8 @@ public:
         kill(child_, SIGKILL);
         waitpid(child_, nullptr, 0);
         std::uint64_t thrown = 0;
-        for (std::uint64_t count = 0; read(report_, &count, sizeof count) == static_cast<ssize_t>(sizeof count);) {
+        for (std::uint64_t count = 0;
+             read(report_, &count, sizeof count) == static_cast<ssize_t>(sizeof count);) {
             thrown += count;
         }
         close(report_);
@@ -195,12 +197,12 @@ struct FloodRig {
         near_link.close();
         error += near_link.open(to(far_port, near_port));
         EndpointSettings endpoint;
-        near.session.attach(std::make_unique<OperatorSide>(near.session.settings(), OperatorRoom{}, TeleopSettings{},
-                                                           near_link, near.port, endpoint));
+        near.session.attach(std::make_unique<OperatorSide>(near.session.settings(), OperatorRoom{},
+                                                           TeleopSettings{}, near_link, near.port, endpoint));
         endpoint.side = Side::teleoperator_side;
         endpoint.epoch = 2;
-        far.session.attach(std::make_unique<TeleoperatorSide>(far.session.settings(), TeleopSettings{}, far_link,
-                                                              far.port, endpoint));
+        far.session.attach(std::make_unique<TeleoperatorSide>(far.session.settings(), TeleopSettings{},
+                                                              far_link, far.port, endpoint));
         return error;
     }
 
