@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "network/plausibility.hpp"
 
@@ -107,7 +108,8 @@ bool Endpoint::admit_epoch(const PacketHeader& header) {
     if (header.epoch == statistics_.peer_epoch) {
         return true;
     }
-    if (hello == nullptr || !proves_itself(*hello)) {
+    const bool proves_itself = hello != nullptr && hello->heard_epoch == settings_.epoch;
+    if (hello == nullptr || (hears_peer() && !proves_itself)) {
         ++statistics_.strange_epoch;
         if (hello != nullptr) {
             next_hello_ = now_;  // so that it hears this side
@@ -118,8 +120,11 @@ bool Endpoint::admit_epoch(const PacketHeader& header) {
     return true;
 }
 
-bool Endpoint::proves_itself(const Hello& hello) const {
-    return !hears_peer() || hello.heard_epoch == settings_.epoch;
+// An epoch is over for good when another one has proved itself: until then it may come back.
+void Endpoint::end_epoch_before() {
+    if (epoch_before_ != 0) {
+        past_[past_count_++ % most_past] = std::exchange(epoch_before_, 0);
+    }
 }
 
 // A sender gets ahead by what was lost, and by no more than it can have sent meanwhile.
@@ -140,7 +145,7 @@ bool Endpoint::was_before(std::uint64_t epoch) const {
 
 void Endpoint::meet(std::uint64_t epoch) {
     if (statistics_.peer_epoch != 0) {
-        past_[past_count_++ % most_past] = statistics_.peer_epoch;
+        epoch_before_ = statistics_.peer_epoch;
         ++statistics_.peer_restarts;
     }
     statistics_.peer_epoch = epoch;
@@ -203,6 +208,7 @@ void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
     statistics_.peer_hello = hello;
     statistics_.peer = hello.heard_epoch == settings_.epoch ? PeerState::connected : PeerState::one_way;
     if (statistics_.peer == PeerState::connected) {
+        end_epoch_before();
         note_report(hello);
     }
 }

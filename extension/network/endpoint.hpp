@@ -121,7 +121,7 @@ private:
     bool admit(const PacketHeader& header);
     bool admit_epoch(const PacketHeader& header);
     bool is_plausible(const PacketHeader& header) const;
-    bool proves_itself(const Hello& hello) const;
+    void end_epoch_before();
     void note_report(const Hello& hello);
     void take_hello(const PacketHeader& header, const Hello& hello);
     void answer(const ClockRequest& request, Nanoseconds arrived);
@@ -149,6 +149,7 @@ private:
     static constexpr std::size_t most_past = 32;
     std::array<std::uint64_t, most_past> past_{};
     std::size_t past_count_ = 0;
+    std::uint64_t epoch_before_ = 0;  // the one before the present one, which has not proved itself; 0: none
 
     Nanoseconds now_ = 0;        // of the tick
     Nanoseconds local_now_ = 0;  // on this side's clock

@@ -20,6 +20,9 @@ constexpr double queue = 30e6;
 constexpr double times_jitter = 4.0;
 constexpr Nanoseconds halve_every = 400'000'000;
 constexpr Nanoseconds double_after = 2 * nanoseconds_per_second;
+constexpr Nanoseconds max_double_after = 32 * nanoseconds_per_second;
+// Who congests the way so soon after more was sent has asked for too much.
+constexpr Nanoseconds shows_after = 1'500'000'000;
 
 std::uint32_t repeats_for(double lost) {
     if (lost <= 0.0) {
@@ -71,22 +74,29 @@ void SampleStream::restart() {
     }
     stride_ = 1;
     repeats_ = least_repeats;
+    patience_ = double_after;
 }
 
 void SampleStream::adapt(const LinkStatistics& link, Nanoseconds now) {
     const ClockFigures& clock = link.clock;
     const double queued = clock.mean_delay - static_cast<double>(clock.least_delay);
-    const bool congested =
-        link.lost_there > much_lost || (clock.known && queued > std::max(queue, times_jitter * clock.jitter));
+    const bool queues = clock.known && queued > std::max(queue, times_jitter * clock.jitter);
+    const bool congested = queues || link.lost_there > much_lost;
     congested_at_ = congested ? now : congested_at_;
+    if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
+        tried_more_ = false;
+        patience_ = congested ? std::min(2 * patience_, max_double_after) : double_after;
+    }
     if (congested && stride_ < max_stride && now - changed_at_ >= halve_every) {
         stride_ *= 2;
         changed_at_ = now;
-    } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= double_after) {
+    } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= patience_) {
         stride_ /= 2;
         changed_at_ = now;
+        tried_more_ = true;
     }
-    repeats_ = std::min(settings_.max_repeats, repeats_for(link.lost_there));
+    // Where a queue is the trouble, repeats make it longer.
+    repeats_ = queues ? 0 : std::min(settings_.max_repeats, repeats_for(link.lost_there));
 }
 
 void SampleStream::send(Endpoint& link) {

@@ -4,7 +4,8 @@
 // Of older samples so many are repeated that all packets with a sample are lost at most once in ten thousand
 // times, were losses independent: two where nothing is lost, since a loss is known only later. Packets are
 // halved in number where more than a tenth is lost for a while, or where what is on its way queues up, and
-// doubled again when neither has been so for two seconds. No tick's sample is left out by that.
+// doubled again when neither has been so for two seconds, or longer where that was too much the last time. No
+// tick's sample is left out by that.
 //
 // Belongs to whoever ticks; allocates nothing after its constructor.
 #pragma once
@@ -62,6 +63,8 @@ private:
     std::uint64_t tick_ = 0;
     Nanoseconds congested_at_ = 0;
     Nanoseconds changed_at_ = 0;
+    Nanoseconds patience_ = 2 * nanoseconds_per_second;  // without trouble before more is tried
+    bool tried_more_ = false;                            // and not known yet whether it was too much
 };
 
 }  // namespace tactus

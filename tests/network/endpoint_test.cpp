@@ -280,6 +280,20 @@ TEST(Endpoint, AHelloThatDoesNotProveItselfShutsNobodyOut) {
     EXPECT_EQ(stranger.rig.near().statistics().peer_restarts, 0u);
 }
 
+// While nobody is heard anybody may say hello first; the far side is met again all the same.
+TEST(Endpoint, WhoSaysHelloInASilenceKeepsNobodyOut) {
+    Stranger stranger;
+    LinkConditions nothing;
+    nothing.loss = 1.0;
+    stranger.rig.near_link().change(nothing);
+    stranger.rig.run(1500 * ms);
+    EXPECT_EQ(stranger.rig.near().statistics().peer, PeerState::vanished);
+    stranger.rig.near_link().change({});
+    stranger.say({77, 1, 0}, Hello{Side::teleoperator_side});
+    stranger.rig.run(300 * ms);
+    stranger.expect_undisturbed();
+}
+
 TEST(Endpoint, ASequenceFarAheadKeepsNothingOut) {
     Stranger stranger;
     for (const std::uint64_t sequence : {std::uint64_t{2000}, std::uint64_t{1} << 47, std::uint64_t{600}}) {
