@@ -15,6 +15,9 @@ constexpr Nanoseconds first_second = nanoseconds_per_second;
 constexpr Nanoseconds hurry = 5;  // times as many clock requests in it
 constexpr double smoothing = 1.0 / 16.0;
 
+// Nothing is held up for longer. Whoever still speaks of an epoch then was put aside by somebody else.
+constexpr Nanoseconds remembers_for = 5 * nanoseconds_per_second;
+
 }  // namespace
 
 Endpoint::Endpoint(Link& link, const EndpointSettings& settings) : link_(link), settings_(settings) {}
@@ -123,7 +126,7 @@ bool Endpoint::admit_epoch(const PacketHeader& header) {
 // An epoch is over for good when another one has proved itself: until then it may come back.
 void Endpoint::end_epoch_before() {
     if (epoch_before_ != 0) {
-        past_[past_count_++ % most_past] = std::exchange(epoch_before_, 0);
+        past_[past_count_++ % most_past] = {std::exchange(epoch_before_, 0), now_};
     }
 }
 
@@ -138,9 +141,9 @@ bool Endpoint::is_plausible(const PacketHeader& header) const {
 }
 
 bool Endpoint::was_before(std::uint64_t epoch) const {
-    const std::size_t known = std::min(past_count_, most_past);
-    return std::find(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(known), epoch) !=
-           past_.begin() + static_cast<std::ptrdiff_t>(known);
+    return std::ranges::any_of(past_, [this, epoch](const PastEpoch& past) {
+        return past.epoch == epoch && now_ - past.over_at < remembers_for;
+    });
 }
 
 void Endpoint::meet(std::uint64_t epoch) {

@@ -147,7 +147,11 @@ private:
 
     // Epochs that are over: a packet of theirs that was held up somewhere brings none of them back.
     static constexpr std::size_t most_past = 32;
-    std::array<std::uint64_t, most_past> past_{};
+    struct PastEpoch {
+        std::uint64_t epoch = 0;
+        Nanoseconds over_at = 0;
+    };
+    std::array<PastEpoch, most_past> past_{};
     std::size_t past_count_ = 0;
     std::uint64_t epoch_before_ = 0;  // the one before the present one, which has not proved itself; 0: none
 

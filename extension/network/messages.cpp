@@ -1,6 +1,7 @@
 #include "network/messages.hpp"
 
 #include <cstring>
+#include <glm/common.hpp>
 #include <numeric>
 #include <type_traits>
 
@@ -185,6 +186,14 @@ void read_message(WireReader& reader, std::uint8_t type, Message& message) {
 
 std::uint64_t RefusalCounts::total() const {
     return std::accumulate(by_reason.begin() + 1, by_reason.end(), std::uint64_t{0});
+}
+
+Vec3 position_as_sent(const Vec3& position) {
+    return glm::round(position / position_quantum) * position_quantum;
+}
+
+Vec3 velocity_as_sent(const Vec3& velocity) {
+    return glm::round(velocity / velocity_quantum) * velocity_quantum;
 }
 
 std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into) {

@@ -143,6 +143,16 @@ struct OperatorSample {
     Vec3 position_in_object{0.0};  // of the hand, in the frame of the nearest object (unit: meters)
 };
 
+// What is sent often is rounded to these.
+inline constexpr double position_quantum = 1e-9;  // (unit: meters)
+inline constexpr double velocity_quantum = 1e-6;  // (unit: meters per second)
+inline constexpr double force_quantum = 1e-4;     // (unit: newtons)
+
+// What the other side reads of a position, and of a velocity. Rounds once: of what it gives it gives the
+// same.
+Vec3 position_as_sent(const Vec3& position);
+Vec3 velocity_as_sent(const Vec3& velocity);
+
 // Of any pointers: the newest sample and, where the sender wants to survive losses, some older ones. What
 // follows a sample of the same pointer is told as what differs from it: newest first takes fewest bytes.
 struct OperatorSamples {

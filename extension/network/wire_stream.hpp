@@ -28,11 +28,6 @@ inline constexpr std::uint16_t sealed_magic = 0x5354;
 inline constexpr double quaternion_tolerance = 1e-3;  // of the norm from 1: a damaged one is far off
 inline constexpr double max_wire_length = 1e9;  // of what is neither a position nor a speed (unit: meters)
 
-// What is sent often is rounded to these.
-inline constexpr double position_quantum = 1e-9;  // (unit: meters)
-inline constexpr double velocity_quantum = 1e-6;  // (unit: meters per second)
-inline constexpr double force_quantum = 1e-4;     // (unit: newtons)
-
 // Small numbers of either sign become small ones without: 0, -1, 1, -2, … -> 0, 1, 2, 3, …
 constexpr std::uint64_t folded(std::int64_t value) {
     return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);

@@ -29,10 +29,9 @@ bool Channel::peer_has_started() {
     return true;
 }
 
-const Message* Channel::receive() {
+const Packet* Channel::receive() {
     const Endpoint::Received* const received = link_.receive();
-    packet_ = received ? received->packet.header.sequence : packet_;
-    return received ? &received->packet.message : nullptr;
+    return received ? &received->packet : nullptr;
 }
 
 void Channel::end_tick(TeleopStatistics& statistics) {

@@ -25,9 +25,7 @@ public:
     bool peer_has_restarted() const { return starts_ > 1; }
 
     // The next message, or null. Valid until the next call.
-    const Message* receive();
-    // Where it stands among all packets of the far side: tells what was overtaken.
-    std::uint64_t packet() const { return packet_; }
+    const Packet* receive();
 
     void send(const Message& message) { link_.send(message); }
     bool try_send(const Message& message) { return link_.send(message); }
@@ -44,7 +42,6 @@ private:
     Endpoint link_;
     std::shared_ptr<TeleopPort> port_;
     std::uint64_t peer_epoch_ = 0;
-    std::uint64_t packet_ = 0;
     std::uint64_t starts_ = 0;  // of the far side, seen so far
 };
 

@@ -2,13 +2,21 @@
 
 #include <algorithm>
 
+#include "core/teleop/body_motion.hpp"
+
 namespace tactus {
 
 namespace {
 
-BodyAddition addition_of(const ObjectDescription& description) {
+BodyAddition addition_of(const ObjectDescription& description, const Pose& frame) {
     BodyAddition addition;
     addition.description = description.body;
+    const BodyMotion motion =
+        to_parent(frame, BodyMotion{description.body.pose, description.body.linear_velocity,
+                                    description.body.angular_velocity});
+    addition.description.pose = motion.pose;
+    addition.description.linear_velocity = motion.linear_velocity;
+    addition.description.angular_velocity = motion.angular_velocity;
     addition.touch_shapes = description.touch_shapes;
     addition.touch_material = description.touch;
     addition.texture = description.texture;
@@ -22,11 +30,11 @@ void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
     run_ = std::move(run);
 }
 
-bool ModelBuilder::update(const LinkStatistics& link) {
+bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     if (link.peer_epoch != 0 && (!gravity_known_ || link.peer_hello.gravity != gravity_)) {
         gravity_known_ = true;
         gravity_ = link.peer_hello.gravity;
-        session_.set_gravity(gravity_);
+        session_.set_gravity(direction_to_parent(frame_, gravity_));
     }
     bool changed = add_prepared();
     for (std::size_t taken = 0; taken < most_built_at_once && preparing_.size() < most_built_at_once;
@@ -35,15 +43,19 @@ bool ModelBuilder::update(const LinkStatistics& link) {
         if (!event) {
             break;
         }
-        take(*event);
+        take(*event, now);
         changed = true;
         add_prepared();
+    }
+    if (any_outdated_ && (now - outdated_at_ >= patience || all_described(now, link))) {
+        remove_outdated();
+        changed = true;
     }
     send_on();
     return changed;
 }
 
-void ModelBuilder::take(DiscoveryEvent& event) {
+void ModelBuilder::take(DiscoveryEvent& event, Nanoseconds now) {
     switch (event.kind) {
         case DiscoveryEvent::Kind::described:
             prepare(event.description);
@@ -52,9 +64,36 @@ void ModelBuilder::take(DiscoveryEvent& event) {
             remove(event.object);
             break;
         case DiscoveryEvent::Kind::restarted:
-            clear();
+            outdate(now);
             break;
     }
+}
+
+void ModelBuilder::outdate(Nanoseconds now) {
+    preparing_.clear();
+    for (ModelObject& object : objects_) {
+        bind(object.object, no_handle);
+        object.outdated = true;
+    }
+    any_outdated_ = !objects_.empty();
+    outdated_at_ = now;
+}
+
+// As many as the far side says that it has, and no more have come lately.
+bool ModelBuilder::all_described(Nanoseconds now, const LinkStatistics& link) const {
+    const auto current = std::ranges::count(objects_, false, &ModelObject::outdated);
+    return now - outdated_at_ >= settling && link.peer_hello.object_count > 0 &&
+           static_cast<std::uint64_t>(current) >= link.peer_hello.object_count;
+}
+
+void ModelBuilder::remove_outdated() {
+    for (const ModelObject& object : objects_) {
+        if (object.outdated) {
+            take_out(object);
+        }
+    }
+    std::erase_if(objects_, [](const ModelObject& object) { return object.outdated; });
+    any_outdated_ = false;
 }
 
 void ModelBuilder::prepare(ObjectDescription& description) {
@@ -65,7 +104,7 @@ void ModelBuilder::prepare(ObjectDescription& description) {
     auto preparing = std::make_shared<Preparing>();
     preparing->object = description.object;
     preparing->name = description.name;
-    preparing->addition = addition_of(description);
+    preparing->addition = addition_of(description, frame_);
     preparing_.push_back(preparing);
     const auto job = [preparing, session = &session_] {
         preparing->ready = session->prepare_body(preparing->addition);
@@ -88,7 +127,7 @@ bool ModelBuilder::add_prepared() {
 
 void ModelBuilder::add(Preparing& prepared) {
     ModelObject made{prepared.object, prepared.name, no_handle, {}};
-    const auto before = find(prepared.object);
+    const auto before = find_before(prepared.object, prepared.name);
     AddResult added = session_.add_body(std::move(prepared.ready));
     made.body = added.handle;
     made.problem = std::move(added.error);
@@ -144,7 +183,18 @@ void ModelBuilder::send_on() {
 }
 
 std::vector<ModelObject>::iterator ModelBuilder::find(ObjectId object) {
-    return std::ranges::find(objects_, object, &ModelObject::object);
+    return std::ranges::find_if(
+        objects_, [object](const ModelObject& one) { return one.object == object && !one.outdated; });
+}
+
+// What the described object takes the place of: itself, or what had its name before the far side started
+// anew.
+std::vector<ModelObject>::iterator ModelBuilder::find_before(ObjectId object, const std::string& name) {
+    const auto itself = find(object);
+    return itself != objects_.end() ? itself
+                                    : std::ranges::find_if(objects_, [&name](const ModelObject& one) {
+                                          return one.outdated && one.name == name;
+                                      });
 }
 
 }  // namespace tactus

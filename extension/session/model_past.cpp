@@ -35,10 +35,4 @@ Vec3 ModelPast::pushed(std::uint32_t place, SampleSequence first, SampleSequence
     return sum;
 }
 
-void ModelPast::forget_all() {
-    for (std::size_t place = 0; place * samples() < pushes_.size(); ++place) {
-        history_.forget(place);
-    }
-}
-
 }  // namespace tactus

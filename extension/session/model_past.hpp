@@ -48,7 +48,6 @@ public:
         history_.carry(place, first, last, before, after);
     }
     void forget(std::uint32_t place) { history_.forget(place); }
-    void forget_all();
 
 private:
     StateHistory history_;

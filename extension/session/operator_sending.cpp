@@ -26,9 +26,10 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.pointer = static_cast<std::uint16_t>(index);
     sample.connected = device.connected;
     sample.buttons = device.buttons;
-    sample.position = slot.hand;
-    sample.velocity = slot.hand_velocity;
-    sample.force = settings().traditional ? Vec3(0.0) : slot.force;
+    const Pose& frame = settings().frame;
+    sample.position = to_local(frame, slot.hand);
+    sample.velocity = direction_to_local(frame, slot.hand_velocity);
+    sample.force = settings().traditional ? Vec3(0.0) : direction_to_local(frame, slot.force);
     if (deadband.enabled && pointer.has_sent && now - pointer.sent_at < deadband.longest_silence) {
         const OperatorSample& last = pointer.sent;
         const Vec3 guessed = guessed_position(last.position, last.velocity,

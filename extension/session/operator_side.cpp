@@ -17,6 +17,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
       past_(room.most_tracked, room.samples),
       resimulator_(session, room.samples, room.samples_a_memento, room.memento_bytes, room.replays),
       estimates_(room.most_tracked, ParameterEstimate(settings.estimate)),
+      filters_(room.most_tracked),
       body_of_object_(session.most_bodies, no_handle),
       object_of_body_(session.most_bodies, no_object) {
     targets_.reserve(session.most_bodies);
@@ -32,6 +33,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         take_settings(loop);
     }
     ++sample_;
+    round_hands(loop);
     past_.note_hands(loop, sample_, now);
     hands_.clear();
     for (std::size_t i = 0; i < most_proxies; ++i) {
@@ -53,6 +55,18 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
+// What the far side is told of a hand is rounded (as_sent): the model is touched by the same hand.
+void OperatorSide::round_hands(SessionLoop& loop) const {
+    const Pose& frame = settings().frame;
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        if (SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
+            slot.hand = to_parent(frame, position_as_sent(to_local(frame, slot.hand)));
+            slot.hand_velocity =
+                direction_to_parent(frame, velocity_as_sent(direction_to_local(frame, slot.hand_velocity)));
+        }
+    }
+}
+
 void OperatorSide::take_settings(SessionLoop& loop) {
     samples_.set_max_repeats(std::max(1u, settings().repeats) - 1);
     const bool was_traditional = channel_.before().traditional;
@@ -67,10 +81,9 @@ void OperatorSide::take_settings(SessionLoop& loop) {
 
 // What was modelled in the other scenario has nothing to do with this one.
 void OperatorSide::forget_past() {
-    past_.forget_all();
     resimulator_.forget();
-    for (ParameterEstimate& estimate : estimates_) {
-        estimate.forget(settings().estimate);
+    for (std::uint32_t place = 0; place < truths_.places(); ++place) {
+        forget_place(place);
     }
     for (Pointer& pointer : pointers_) {
         pointer.carried.forget();
@@ -99,11 +112,12 @@ void OperatorSide::receive(SessionLoop& loop) {
     while (channel_.port().bindings.try_pop(binding)) {
         bind(binding);
     }
-    while (const Message* const message = channel_.receive()) {
+    while (const Packet* const packet = channel_.receive()) {
+        const Message* const message = &packet->message;
         start_over_if_peer_has();
         DiscoveryReceiver& discovery = channel_.port().discovery;
         if (const auto* const states = std::get_if<ObjectStates>(message)) {
-            take(*states, loop);
+            take(*states, packet->header.sequence, loop);
         } else if (const auto* const forces = std::get_if<ForceSamples>(message)) {
             for (std::size_t i = 0; i < forces->count; ++i) {
                 take(forces->samples[i]);
@@ -158,10 +172,27 @@ void OperatorSide::bind(const ObjectBinding& binding) {
 
 void OperatorSide::forget_body(SessionHandle body) {
     if (const std::uint32_t place = truths_.place_of(body); place != TruthStore::no_place) {
-        past_.forget(place);
-        estimates_[place].forget(settings().estimate);
+        forget_place(place);
     }
     truths_.forget(body);
+}
+
+void OperatorSide::forget_place(std::uint32_t place) {
+    past_.forget(place);
+    estimates_[place].forget(settings().estimate);
+    filters_[place].forget();
+}
+
+// Of a place that is seen only roughly, what the model's past makes of it.
+BodyMotion OperatorSide::believed(SessionHandle body, SampleSequence sample, const BodyMotion& received) {
+    const std::uint32_t place = truths_.place_of(body);
+    const BodyMotion* const expected = past_.motion(place, sample);
+    if (!expected || settings().derivation != Derivation::resimulate) {
+        return received;
+    }
+    const SampleSequence before = truths_.of(body).sample;
+    const double seconds = sample > before ? static_cast<double>(sample - before) * seconds_ : 0.0;
+    return filters_[place].filter(settings().filter, received, *expected, seconds);
 }
 
 SessionHandle OperatorSide::body_of(ObjectId object) const {
@@ -169,7 +200,7 @@ SessionHandle OperatorSide::body_of(ObjectId object) const {
 }
 
 // A sample that has not been sent yet is none of ours.
-void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
+void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop) {
     const SampleSequence sample = states.newest_operator_sample;
     if (sample >= sample_) {
         return;
@@ -185,8 +216,10 @@ void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
             ++statistics_.unknown_objects;
             continue;
         }
-        if (!truths_.take(body, sample, channel_.packet(),
-                          {state.pose, state.linear_velocity, state.angular_velocity})) {
+        const BodyMotion motion = to_parent(
+            settings().frame, BodyMotion{state.pose, state.linear_velocity, state.angular_velocity});
+        if (!truths_.is_newer(body, packet) ||
+            !truths_.take(body, sample, packet, believed(body, sample, motion))) {
             ++statistics_.stale_states;
             continue;
         }
@@ -195,8 +228,7 @@ void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
             const bool had_none = truths_.place_of(body) == TruthStore::no_place;
             const std::uint32_t place = truths_.give_place(body, hands_, evicted);
             if (had_none && place != TruthStore::no_place) {
-                past_.forget(place);
-                estimates_[place].forget(settings().estimate);
+                forget_place(place);
             }
             statistics_.without_past += place == TruthStore::no_place ? 1 : 0;
         }
@@ -207,7 +239,11 @@ void OperatorSide::take(const ForceSample& force) {
     if (force.pointer >= most_proxies || force.newest_operator_sample > sample_) {
         return;
     }
-    if (!traditional_.take(force, body_of(force.object))) {
+
+    ForceSample here = force;
+    here.force = direction_to_parent(settings().frame, force.force);
+    here.proxy = to_parent(settings().frame, force.proxy);
+    if (!traditional_.take(here, body_of(force.object))) {
         ++statistics_.stale_states;
         return;
     }
@@ -217,7 +253,7 @@ void OperatorSide::take(const ForceSample& force) {
 // Traditional: bodies are shown where the far side last said.
 void OperatorSide::follow_far_side(SessionLoop& loop) {
     for (const SessionHandle body : truths_.fresh()) {
-        if (loop.body(body)) {
+        if (loop.body(body) && differs(truths_.of(body).motion, loop.motion(body), settings().threshold)) {
             loop.put_right(body, truths_.of(body).motion, true);
         }
     }

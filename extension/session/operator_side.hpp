@@ -11,6 +11,7 @@
 #pragma once
 
 #include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/pose_filter.hpp"
 #include "network/sample_stream.hpp"
 #include "session/carried_pointer.hpp"
 #include "session/channel.hpp"
@@ -37,6 +38,7 @@ public:
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds now) override;
     void report(SessionLoop& loop, Nanoseconds now) override;
+    const ForceLimits& limits() const override { return channel_.settings().limits; }
     bool simulates() const override { return !settings().traditional; }
     SessionLoop* twin() override { return resimulator_.twin(); }
 
@@ -48,10 +50,11 @@ private:
         CarriedPointer carried;
         Vec3 uncorrected{0.0};      // force in this tick if nothing were corrected (unit: newtons)
         Vec3 modelled{0.0};         // by the model, one tick ago (unit: newtons)
-        Vec3 modelled_before{0.0};  // two ticks ago
+        Vec3 modelled_before{0.0};  // two ticks ago, or the same where a change was in between
         Vec3 hand{0.0};             // one tick ago (unit: meters)
         Vec3 force{0.0};            // given to the hand, one tick ago (unit: newtons)
         bool known = false;         // there was such a tick
+        bool answered = false;      // traditional: what the far side said last still held then
         // Sending.
         OperatorSample sent;
         bool has_sent = false;
@@ -62,6 +65,7 @@ private:
 
     // --- operator_side.cpp
     void take_settings(SessionLoop& loop);
+    void round_hands(SessionLoop& loop) const;
     void begin_model(SessionLoop& loop);
     void forget_past();
     void forget_far_side();
@@ -69,8 +73,10 @@ private:
     void start_over_if_peer_has();
     void bind(const ObjectBinding& binding);
     void forget_body(SessionHandle body);
+    void forget_place(std::uint32_t place);
+    BodyMotion believed(SessionHandle body, SampleSequence sample, const BodyMotion& received);
     SessionHandle body_of(ObjectId object) const;
-    void take(const ObjectStates& states, SessionLoop& loop);
+    void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
@@ -87,7 +93,8 @@ private:
     Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
                            Nanoseconds now) const;
     Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
-    void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way);
+    void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
+                      bool changed);
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 
@@ -106,6 +113,7 @@ private:
     Resimulator resimulator_;
     TraditionalTouch traditional_;
     std::vector<ParameterEstimate> estimates_;  // by place
+    std::vector<PoseFilter> filters_;           // by place
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there

@@ -1,6 +1,7 @@
 // How the operator's side puts the model right, and what its hand is given.
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "session/operator_side.hpp"
 
@@ -154,20 +155,24 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
 void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now) {
     Pointer& pointer = pointers_[index];
     const Vec3 way = pointer.known ? slot.hand - pointer.hand : Vec3(0.0);
+    bool changed = changed_;
     FeltInput in;
     in.hand_velocity = way / seconds_;
     in.seconds = seconds_;
     if (settings().traditional) {
-        in.modelled = traditional_.force(index, sample_, seconds_, channel_.link().hears_peer());
+        const bool answers = traditional_.answers(index, sample_, seconds_, channel_.link().hears_peer());
+        changed |= std::exchange(pointer.answered, answers) != answers;
+        in.modelled = answers ? traditional_.far(index).force : Vec3(0.0);
         traditional_.describe(index, slot, in.modelled);
         in.stiffness = glm::length(in.modelled) > no_force ? usual_stiffness : 0.0;
     } else {
         in.modelled = modelled_force(loop, pointer, slot, now);
         in.stiffness = stiffness_under(loop, slot.state);
     }
-    hide_changes(pointer, in.modelled, in.stiffness, way);
+    hide_changes(pointer, in.modelled, in.stiffness, way, changed);
     slot.state.force = pointer.felt.feel(settings().stealth, in);
-    pointer.modelled_before = pointer.known ? pointer.modelled : in.modelled;
+    pointer.modelled_before =
+        pointer.known && !changed ? pointer.modelled : in.modelled;  // a change is no trend
     pointer.modelled = in.modelled;
     pointer.hand = slot.hand;
     pointer.force = slot.state.force;
@@ -177,19 +182,20 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
 
 // A correction's part is known to the bit. Any other change of what is touched, or of who answers, is what
 // the force has changed by beyond what the hand's own way can have made of it.
-void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way) {
+void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
+                                bool changed) {
     const StealthSettings& stealth = settings().stealth;
     if (corrected_) {
         CorrectionCost& cost = statistics_.cost;
+        const Vec3 before = pointer.uncorrected + pointer.felt.hidden();
         if (settings().correction == Correction::stealthy_direction) {
             pointer.felt.hide(stealth, pointer.uncorrected, modelled);
         } else if (settings().correction == Correction::stealthy_magnitude) {
             pointer.felt.hide_size(stealth, pointer.uncorrected, modelled);
         }
-        cost.force_step =
-            std::max(cost.force_step, glm::length(modelled + pointer.felt.hidden() - pointer.uncorrected));
+        cost.force_step = std::max(cost.force_step, glm::distance(modelled + pointer.felt.hidden(), before));
     }
-    if (changed_ && pointer.known) {
+    if (changed && pointer.known) {
         const Vec3 expected = pointer.modelled + (pointer.modelled - pointer.modelled_before);
         const double off = glm::distance(expected, modelled);
         const double natural = 2.0 * stiffness * glm::length(way) + no_force;

@@ -10,7 +10,7 @@
 
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
-#include "physics/timeline.hpp"
+#include "physics/physics_world.hpp"
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/change_order.hpp"
@@ -62,34 +62,12 @@ public:
     void follow(const SessionLoop& other, const Command& command);
 
     // After the first bodies have come in and before the first tick.
-    void settle() { timeline_.settle_broad_phase(); }
+    void settle() { physics_.settle_broad_phase(); }
 
     TickStatus tick(Nanoseconds now, TickTrace* trace);
 
     // See Session.
     void rest();
-
-    // --- time travel, for sessions that keep a history (HistorySettings). All of it between ticks or in one,
-    // before its step.
-    //
-    // restore t, put the truth in, replay: `truth` is what these bodies were in tick `tick`, as that tick's
-    // snapshot shows bodies. From then on what the hand did since is replayed beside the present, a few ticks
-    // in each tick, with the hand's forces as the corrected bodies take them (physics/timeline.hpp) or, with
-    // `inputs`, as `inputs` computes them anew: there tick T of the session is step T - 1. The tick in which
-    // the replay has caught up moves every body to where it should be, finds them in corrected() and goes on.
-    // A correction under way is replaced. False, and nothing happens, when the history does not reach back
-    // to `tick`: bodies, joints or kinds of motion that changed since end it.
-    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth, PastInputs* inputs = nullptr);
-    bool correcting() const { return timeline_.replaying(); }
-    std::uint64_t oldest_correctable_tick() const { return timeline_.oldest_tick() + 1; }
-
-    // Bodies that a replay moved in this tick.
-    std::span<const CorrectedBody> corrected() const { return corrected_; }
-
-    // The body in physics, for PastInputs; invalid where there is none.
-    BodyId physics_id(SessionHandle handle) const {
-        return handle < bodies_.size() ? bodies_[handle].id : BodyId{};
-    }
 
     // Another loop that has to get every command, too.
     SessionLoop* twin() { return side_ ? side_->twin() : nullptr; }
@@ -143,6 +121,7 @@ private:
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
+        ForceExit exit;
         bool was_held = false;
     };
 
@@ -174,7 +153,6 @@ private:
     void end_travel(SessionHandle handle);
     void travel();
     void follow_physics();
-    void follow_replay();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void show_state(SessionHandle handle);
     void note_change(std::uint32_t state);
@@ -196,16 +174,14 @@ private:
     double seconds_;  // of a tick
     TripleBuffer<SessionSnapshot>& snapshots_;
     TouchScene scene_;
-    Timeline timeline_;                          // whatever changes physics goes through it
-    const PhysicsWorld& physics_;                // its present
+    PhysicsWorld physics_;
     std::vector<Body> bodies_;                   // by handle
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
-    std::vector<SessionHandle> pushed_;   // bodies with a push of their own
-    std::vector<JointId> joints_;         // by handle
-    std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
-    std::vector<CorrectedBody> corrected_;
+    std::vector<SessionHandle> pushed_;    // bodies with a push of their own
+    std::vector<JointId> joints_;          // by handle
+    std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched
     std::vector<Vec3> hands_;              // where the proxies are (unit: meters)
     std::vector<BodyState> states_;        // of all bodies that are not static, dense
     ChangeOrder state_changes_;            // of states_

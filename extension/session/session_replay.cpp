@@ -20,7 +20,7 @@ bool SessionLoop::asleep(SessionHandle handle) {
 }
 
 void SessionLoop::set_factors(SessionHandle handle, const BodyFactors& factors) {
-    timeline_.set_factors(bodies_[handle].id, factors);
+    physics_.set_factors(bodies_[handle].id, factors);
 }
 
 Vec3 SessionLoop::pushed(SessionHandle handle) const {
@@ -62,9 +62,9 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
         scene_.displace(corrected->slot, motion);
     }
     scene_.set_pose(corrected->slot, to.pose);
-    timeline_.set_pose(corrected->id, to.pose);
+    physics_.set_pose(corrected->id, to.pose);
     if (with_velocity && corrected->motion != Motion::Static) {
-        timeline_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
+        physics_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
     }
     if (state_of_[handle] == no_handle) {
         show_state(handle);
@@ -117,10 +117,10 @@ bool SessionLoop::save(LoopMemento& memento) {
 
 bool SessionLoop::restore(const LoopMemento& memento) {
     if (memento.physics_bytes == 0 ||
-        !timeline_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
+        !physics_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
         return false;
     }
-    timeline_.set_gravity(gravity_);  // as it is now, like all settings; the memento holds an older one
+    physics_.set_gravity(gravity_);  // as it is now, like all settings; the memento holds an older one
     for (std::size_t i = 0; i < memento.place_count; ++i) {
         if (const Body* const placed = body(memento.places[i].handle)) {
             scene_.set_pose(placed->slot, memento.places[i].pose, true);

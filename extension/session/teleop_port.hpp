@@ -14,8 +14,10 @@
 #include "core/teleop/derivation.hpp"
 #include "core/teleop/errors.hpp"
 #include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/force_exit.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/parameter_estimate.hpp"
+#include "core/teleop/pose_filter.hpp"
 #include "core/teleop/stealth.hpp"
 #include "network/discovery_receiver.hpp"
 #include "network/discovery_sender.hpp"
@@ -35,6 +37,8 @@ struct TeleopSettings {
     MotionThreshold threshold;
     StealthSettings stealth;
     EstimateSettings estimate;  // with re-simulation
+    PoseFilterSettings filter;  // with re-simulation
+    ForceLimits limits;         // of what leaves for the devices
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
@@ -43,8 +47,9 @@ struct TeleopSettings {
     std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
     Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
     ClockSkew skew;                     // of this side's clock, as an experiment
-    bool leaving = false;               // says bye, once
-    std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
+    Pose frame;            // of this side's world in its scene: what is sent is relative to it, on both sides
+    bool leaving = false;  // says bye, once
+    std::uint32_t replay_steps = 32;  // ticks of the past that are replayed in one tick, >= 1
 };
 
 // What a pointer feels besides its model.

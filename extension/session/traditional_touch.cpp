@@ -20,11 +20,11 @@ bool TraditionalTouch::take(const ForceSample& force, SessionHandle touched) {
     return true;
 }
 
-Vec3 TraditionalTouch::force(std::size_t index, SampleSequence sample, double tick_seconds,
-                             bool hears_peer) const {
+bool TraditionalTouch::answers(std::size_t index, SampleSequence sample, double tick_seconds,
+                               bool hears_peer) const {
     const Far& far = far_[index];
     const double silence = static_cast<double>(sample - far.sample) * tick_seconds;
-    return far.sample != no_sample && hears_peer && silence <= longest_silence ? far.force : Vec3(0.0);
+    return far.sample != no_sample && hears_peer && silence <= longest_silence;
 }
 
 void TraditionalTouch::describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const {

@@ -24,9 +24,9 @@ public:
     // False, and nothing has changed, where it is older than what is known.
     bool take(const ForceSample& force, SessionHandle touched);
 
-    // The force on the hand of pointer `index` in the tick of `sample`: none where the far side is not heard,
-    // or has not heard of this hand for `longest_silence` (unit: seconds).
-    Vec3 force(std::size_t index, SampleSequence sample, double tick_seconds, bool hears_peer) const;
+    // Whether what came last for pointer `index` still holds in the tick of `sample`: the far side is heard,
+    // and has heard of this hand within `longest_silence`.
+    bool answers(std::size_t index, SampleSequence sample, double tick_seconds, bool hears_peer) const;
 
     // Of what is touched there, no more is known than which object, and where the force points.
     void describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const;
@@ -35,7 +35,7 @@ public:
     void forget() { far_ = {}; }
 
 private:
-    static constexpr double longest_silence = 1.0;
+    static constexpr double longest_silence = 1.0;  // (unit: seconds)
 
     std::array<Far, most_proxies> far_;
 };

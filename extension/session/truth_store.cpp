@@ -1,7 +1,5 @@
 #include "session/truth_store.hpp"
 
-#include "network/sequence_window.hpp"
-
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -17,7 +15,7 @@ TruthStore::TruthStore(std::size_t most_bodies, std::size_t places)
 bool TruthStore::take(SessionHandle body, SampleSequence sample, std::uint64_t packet,
                       const BodyMotion& motion) {
     Truth& truth = truths_[body];
-    if (packet <= truth.packet && truth.packet - packet < SequenceWindow::length) {
+    if (!is_newer(body, packet)) {
         return false;
     }
     truth.sample_before = truth.packet != 0 ? truth.sample : no_sample;

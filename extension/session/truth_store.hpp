@@ -18,7 +18,7 @@ namespace tactus {
 struct Truth {
     bool fresh = false;  // not dealt with yet
     SampleSequence sample = no_sample;
-    std::uint64_t packet = 0;  // sequence of the packet that said so; 0: none has
+    std::uint64_t packet = 0;  // that brought it; 0: none has
     BodyMotion motion;
     SampleSequence sample_before = no_sample;  // of the state before that one
     BodyMotion before;
@@ -30,10 +30,13 @@ public:
 
     TruthStore(std::size_t most_bodies, std::size_t places);
 
-    // Newest wins. False, and nothing has changed, where the packet was overtaken by the one that is known:
-    // it is of a lower sequence, by less than a link keeps apart (more is another count of packets).
+    // Newest wins, by the number of the packet that brought it: times are the far side's word. False, and
+    // nothing has changed, where it is older than what is known.
     bool take(SessionHandle body, SampleSequence sample, std::uint64_t packet, const BodyMotion& motion);
 
+    bool is_newer(SessionHandle body, std::uint64_t packet) const {
+        return truths_[body].packet == 0 || packet > truths_[body].packet;
+    }
     bool knows(SessionHandle body) const { return body < truths_.size(); }
     const Truth& of(SessionHandle body) const { return truths_[body]; }
     // Bodies whose truth is fresh, in the order in which it came.

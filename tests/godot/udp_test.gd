@@ -17,15 +17,31 @@ func _side(side: MMTLink.Side, key := "") -> MMTLink:
 	link.side = side
 	link.local_port = _port if side == MMTLink.SIDE_OPERATOR else _far_port
 	link.remote_port = _far_port if side == MMTLink.SIDE_OPERATOR else _port
-	link.key = key
+	link.key_file = _key_file(key)
 	world.add_child(link)
 	add_child(world)
 	return link
 
 
+## A file that holds the key and that nobody else may read; none for no key.
+func _key_file(key: String) -> String:
+	if key == "":
+		return ""
+	var path := ProjectSettings.globalize_path(
+		"user://key_%d_%d" % [OS.get_process_id(), key.hash()]
+	)
+	var file := FileAccess.open(path, FileAccess.WRITE)
+	file.store_string(key)
+	file.close()
+	FileAccess.set_unix_permissions(path, FileAccess.UNIX_READ_OWNER | FileAccess.UNIX_WRITE_OWNER)
+	return path
+
+
 func _reaches(link: MMTLink, state: MMTLink.State, words := "") -> void:
 	var does := await until(
-		func() -> bool: return link.get_state() == state and link.get_state_text().match("*%s*" % words), LONG
+		func() -> bool:
+			return link.get_state() == state and link.get_state_text().match("*%s*" % words),
+		LONG
 	)
 	check(does, "it is in state %d: %s" % [link.get_state(), link.get_state_text()])
 
@@ -74,10 +90,10 @@ func test_another_key_or_none_is_said() -> void:
 	var there := _side(MMTLink.SIDE_TELEOPERATOR, "another key entirely")
 	await _reaches(here, MMTLink.STATE_REFUSED, "has another key")
 	await _counts(here, "refused_key")
-	there.key = ""
+	there.key_file = ""
 	await _reaches(here, MMTLink.STATE_REFUSED, "has no key")
 	await _reaches(there, MMTLink.STATE_REFUSED, "this side has none")
-	there.key = "the key of this side"
+	there.key_file = _key_file("the key of this side")
 	await _reaches(here, MMTLink.STATE_CONNECTED)
 
 
@@ -103,13 +119,16 @@ func test_nonsense_is_counted_and_moves_nothing() -> void:
 	stranger.bind(_far_port)
 	stranger.set_dest_address("127.0.0.1", _port)
 	var here := _side(MMTLink.SIDE_OPERATOR)
-	check(await until(func() -> bool: return stranger.get_available_packet_count() > 0, LONG), "no hello")
+	check(
+		await until(func() -> bool: return stranger.get_available_packet_count() > 0, LONG),
+		"no hello"
+	)
 	var hello := stranger.get_packet()
 	stranger.put_packet(hello)
 	await _counts(here, "refused_epoch")
 	stranger.put_packet(hello.slice(0, hello.size() - 3))
 	await _counts(here, "refused_truncated")
-	stranger.put_packet(hello + PackedByteArray([1, 2, 3]))
+	stranger.put_packet(hello + PackedByteArray([0, 0, 0]))
 	await _counts(here, "refused_oversized")
 	stranger.put_packet("not a packet of ours at all, but long enough to be one".to_utf8_buffer())
 	await _counts(here, "refused_foreign")
@@ -131,8 +150,10 @@ func test_addresses_and_keys_may_change_while_it_runs() -> void:
 	await _reaches(here, MMTLink.STATE_CONNECTED)
 	var ticks: int = (here.get_parent() as HapticWorld).get_ticks()
 	for link: MMTLink in [here, there]:
-		link.key = "from now on with a key"
-	check(await until(func() -> bool: return here.get_statistics().sealed, LONG), "it is not sealed")
+		link.key_file = _key_file("from now on with a key")
+	check(
+		await until(func() -> bool: return here.get_statistics().sealed, LONG), "it is not sealed"
+	)
 	await _reaches(here, MMTLink.STATE_CONNECTED)
 	check((here.get_parent() as HapticWorld).get_ticks() > ticks, "the world was started anew")
 
@@ -145,7 +166,10 @@ func test_a_second_process_is_touched_vanishes_and_comes_back() -> void:
 	link.scenario = MMTLink.SCENARIO_MMT
 	add_child(scene)
 	var process := _start_far_process()
-	check(await until(func() -> bool: return link.get_statistics().objects == 2, LONG), "no bodies come")
+	check(
+		await until(func() -> bool: return link.get_statistics().objects == 2, LONG),
+		"no bodies come"
+	)
 	await _reaches(link, MMTLink.STATE_CONNECTED)
 	var proxy: ProxyPointer = scene.get_node("HapticWorld/ProxyPointer")
 	check(await until(proxy.is_touching, LONG), "nothing is touched")
@@ -156,7 +180,11 @@ func test_a_second_process_is_touched_vanishes_and_comes_back() -> void:
 	await _reaches(link, MMTLink.STATE_CONNECTED)
 	check_equal(link.get_statistics().peer_restarts, 1, "restarts")
 	check(
-		await until(func() -> bool: return link.get_statistics().objects == 2, LONG), "no bodies come again"
+		await until(func() -> bool: return link.get_statistics().objects == 2, LONG),
+		"no bodies come again"
 	)
 	scene.free()
-	check(await until(func() -> bool: return not OS.is_process_running(process), LONG), "the far one stays")
+	check(
+		await until(func() -> bool: return not OS.is_process_running(process), LONG),
+		"the far one stays"
+	)

@@ -91,7 +91,7 @@ struct Operator {
         session.collect();
         session.refresh();
         port->statistics.refresh();
-        builder.update(port->statistics.front().link);
+        builder.update(now, port->statistics.front().link);
     }
 
     const ModelObject* find(const std::string& name) const {

@@ -380,7 +380,7 @@ AttackFigures run_attack(const AttackSettings& settings) {
     memory = std::max(memory, resident_mb());
     figures.memory_growth_mb = memory - memory_before;
     figures.moved_objects = watch.moved();
-    for (int i = 0; i < 2500; ++i) {
+    for (int i = 0; i < 7000 && !(i > 2000 && rig.both_connected()); ++i) {
         rig.tick();
         watch.look(figures);
     }
@@ -412,6 +412,9 @@ BlackoutFigures run_blackout(double silence) {
         tick();
     }
     const auto hand = [&rig] { return rig.far->session.snapshot().proxies[0].hand; };
+    const auto is_there = [&rig] {
+        return (rig.far->session.snapshot().proxies[0].status & proxy_absent) == 0;
+    };
     // Where the network's own delay puts the hand, a tick or two more or less.
     const auto error = [&] {
         double least = 1.0;
@@ -428,13 +431,16 @@ BlackoutFigures run_blackout(double silence) {
     conditions.loss = 0.0;
     rig.change(conditions);
     Vec3 before = hand();
+    bool was_there = is_there();
     figures.recovery_s = 1e9;
     int settled = 0;
     constexpr int long_enough = 1500;
     for (int i = 1; i <= delay_ticks + long_enough; ++i) {
         tick();
-        figures.max_speed =
-            std::max(figures.max_speed, glm::distance(hand(), std::exchange(before, hand())) * 1e3);
+        const double speed = glm::distance(hand(), std::exchange(before, hand())) * 1e3;
+        if (std::exchange(was_there, is_there()) && is_there()) {
+            figures.max_speed = std::max(figures.max_speed, speed);
+        }
         if (i > delay_ticks && error() <= near_enough) {
             settled = settled == 0 ? i : settled;
         } else {

@@ -29,7 +29,7 @@ struct AttackFigures {
     std::uint64_t force_steps = 0;    // ticks in which the felt force changed by more than `max_force_step`
     double largest_force_step = 0.0;  // (unit: newtons)
     double memory_growth_mb = 0.0;    // of the process, from when both were at work
-    std::uint64_t not_recovered = 0;  // 1: the two do not talk two seconds after the attack
+    std::uint64_t not_recovered = 0;  // 1: the two do not talk seven seconds after the attack
 
     static constexpr double max_force_step = 0.5;  // (unit: newtons a tick)
 };

@@ -90,7 +90,7 @@ void AttackRig::tick() {
     near->tick(now);
     far->tick(now);
     if (now / period % 16 == 0) {
-        builder_->update(near->statistics().link);
+        builder_->update(now, near->statistics().link);
         teller_->update(far->session.snapshot(), far->statistics().link.peer_epoch);
     }
 }

@@ -31,12 +31,12 @@ public:
 
     // Of an added force, what the tank allows in this tick; the rest of its part along the velocity is left
     // away. With a level E it gives the power E / reserve at most, so that it runs low instead of dry.
-    Vec3 allow(const Vec3& added, const Vec3& hand_velocity, double seconds, double reserve,
+    Vec3 allow(const Vec3& added, const Vec3& hand_velocity, double seconds, double reserve, double most,
                double& refused) {
         const double power = glm::dot(added, hand_velocity);
         const double allowed = std::max(0.0, level_) / std::max(reserve, seconds);
         if (power <= allowed) {
-            level_ -= power * seconds;
+            level_ = std::min(level_ - power * seconds, most);
             return added;
         }
         level_ -= allowed * seconds;

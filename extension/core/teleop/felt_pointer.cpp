@@ -14,6 +14,9 @@ constexpr double nothing_hidden = 1e-5;
 // The tank gives what it has within this time at the fastest (unit: seconds).
 constexpr double tank_reserve = 0.02;
 
+// Fading never takes more of what is just noticed.
+constexpr double nearly_noticed = 0.95;
+
 }  // namespace
 
 void FeltPointer::hide(const StealthSettings& settings, const Vec3& before, const Vec3& after) {
@@ -49,7 +52,8 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         if (glm::length(hidden_) < nothing_hidden) {
             hidden_ = Vec3(0.0);
         }
-        hidden_ = tank_.allow(hidden_, in.hand_velocity, in.seconds, tank_reserve, energy_.damped_J);
+        hidden_ =
+            tank_.allow(hidden_, in.hand_velocity, in.seconds, tank_reserve, settings.tank, energy_.damped_J);
         faded_ = std::abs(before - glm::length(hidden_));
     }
     if (hidden_ == Vec3(0.0)) {
@@ -85,8 +89,10 @@ double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in,
     // Where a model drifts, fading as fast as corrections come changes nothing that can be felt; somewhat
     // faster, so that what has gathered gets less.
     constexpr double catching_up = 1.2;
+    // What the hand's own way changes of the force hides some more, all in all still less than is noticed.
     const double masked = settings.masked * std::abs(modelled_before_ - modelled);
-    return unnoticed + catching_up * drift_.rate() * in.seconds + masked;
+    const double most = nearly_noticed * just_noticeable(settings, felt) * in.seconds / settings.window;
+    return std::max(unnoticed, std::min(unnoticed + masked, most)) + catching_up * drift_.rate() * in.seconds;
 }
 
 void FeltPointer::forget() {

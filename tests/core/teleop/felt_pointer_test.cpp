@@ -39,7 +39,7 @@ TEST(FeltPointer, AChangeIsNotFeltInItsTickAndFadesUnnoticed) {
     FeltPointer pointer = rubbed(settings, before);
     pointer.hide(settings, before, after);
     Vec3 felt = pointer.feel(settings, pressing(after));
-    EXPECT_LT(glm::distance(felt, before), 0.01 * just_noticeable(settings, 2.0));
+    EXPECT_LT(glm::distance(felt, before), 0.02 * just_noticeable(settings, 2.0));
     EXPECT_EQ(pointer.state(), FeltState::bridged);
     int ticks = 1;
     for (Vec3 earlier = felt; pointer.state() != FeltState::together; ++ticks) {
