@@ -412,8 +412,10 @@ BlackoutFigures run_blackout(double silence) {
         tick();
     }
     const auto hand = [&rig] { return rig.far->session.snapshot().proxies[0].hand; };
+    // Who has heard nothing for a second has let the hand go: it begins anew where it is then.
     const auto is_there = [&rig] {
-        return (rig.far->session.snapshot().proxies[0].status & proxy_absent) == 0;
+        const PeerState peer = rig.far->statistics().link.peer;
+        return peer == PeerState::connected || peer == PeerState::one_way;
     };
     // Where the network's own delay puts the hand, a tick or two more or less.
     const auto error = [&] {
