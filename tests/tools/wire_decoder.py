@@ -220,7 +220,8 @@ def _state(r: Reader) -> Fields:
     number, flags = _object(r), r.u8()
     _require(flags < 16, "flags out of range")
     position = _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO)
-    state = {"object": number, "asleep": flags & 1 == 1, "pose": {"position": position, "rotation": r.rotation(flags >> 2)}}
+    pose = {"position": position, "rotation": r.rotation(flags >> 2)}
+    state = {"object": number, "asleep": flags & 1 == 1, "pose": pose}
     moving = flags & 2 == 2
     still = (0.0, 0.0, 0.0)
     return state | {
@@ -263,7 +264,8 @@ def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, whole: 
         _require(apart >= 1 and sequence >= 1, "sequence out of range")
         time, told = before["time"] - apart * period, whole
         back = apart * period
-        expected = tuple(p - _towards_zero(v * back, 10**6) for p, v in zip(told["position"], told["velocity"], strict=True))
+        ways = [_towards_zero(velocity * back, 10**6) for velocity in told["velocity"]]
+        expected = tuple(place - way for place, way in zip(told["position"], ways, strict=True))
     else:
         pointer, sequence = r.varint(0xFFFF), r.varint(MOST_SEQUENCE)
         _require(sequence >= 1, "no sample")

@@ -115,7 +115,8 @@ class Side:
             words["key_file"] = self.key_file
         self.process = subprocess.Popen(
             ["ip", "netns", "exec", NAMES[self.number], str(godot.command()), "--headless", "--path", str(FOLDER),
-             "--script", "res://experiments/networked_side.gd", "--", *(f"--{key}={value}" for key, value in words.items())],
+             "--script", "res://experiments/networked_side.gd", "--",
+             *(f"--{key}={value}" for key, value in words.items())],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
         )  # fmt: skip
         Thread(target=self._listen, args=(self.process,), daemon=True).start()
@@ -186,8 +187,12 @@ def disturbed(operator: Side, far: Side, settle: float, act: Callable[[], None])
     after = operator.since(begin)
     return {
         "connected": float(is_connected(operator.said[-1])), "seconds_to_touch": felt,
-        "force_largest_N": max(size(line["force"]) for line in after), "box_moved_mm": moved(before, far.said[-1]["box"]),
+        "force_largest_N": max(size(line["force"]) for line in after),
+        "box_moved_mm": moved(before, far.said[-1]["box"]),
     }  # fmt: skip
+
+
+Look = Callable[[Side, Side], dict[str, float]]
 
 
 def restart(side: Side) -> None:
@@ -212,14 +217,15 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         key = Path(folder) / "key"
         key.write_text("a key that both sides know\n")
         key.chmod(0o600)
-        cases: dict[str, tuple[Path | None, int, Callable[[Side, Side], dict[str, float]]]] = {
+        settle = settings.settle
+        cases: dict[str, tuple[Path | None, int, Look]] = {
             "without_key": (None, FAR, lambda operator, _: refused(operator)),
             "with_key": (key, FAR, lambda operator, _: met(operator, time.time())),
             "operator_first": (key, OPERATOR, lambda operator, _: met(operator, time.time())),
-            "killed_operator": (key, FAR, lambda operator, far: disturbed(operator, far, settings.settle, lambda: restart(operator))),
-            "killed_teleoperator": (key, FAR, lambda operator, far: disturbed(operator, far, settings.settle, lambda: restart(far))),
-            "down": (key, FAR, lambda operator, far: disturbed(operator, far, settings.settle, lambda: cut_for(machines, settings.down))),
-        }  # fmt: skip
+            "killed_operator": (key, FAR, lambda *both: disturbed(*both, settle, lambda: restart(both[OPERATOR]))),
+            "killed_teleoperator": (key, FAR, lambda *both: disturbed(*both, settle, lambda: restart(both[FAR]))),
+            "down": (key, FAR, lambda *both: disturbed(*both, settle, lambda: cut_for(machines, settings.down))),
+        }
         for name, (key_file, first, look) in cases.items():
             print(name, flush=True)
             sides = start_both(machines, key_file, first)
@@ -228,7 +234,8 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
             finally:
                 for side in sides:
                     side.kill()
-            (output / f"{name}.jsonl").write_text("".join(json.dumps(line) + "\n" for side in sides for line in side.said))
+            lines = [json.dumps(line) + "\n" for side in sides for line in side.said]
+            (output / f"{name}.jsonl").write_text("".join(lines))
             print("  " + ", ".join(f"{key} {value:g}" for key, value in figures.items()), flush=True)
             summary |= {f"{name}.{key}": value for key, value in figures.items()}
     return summary
