@@ -267,6 +267,23 @@ TEST_F(TeleopBadInput, NumbersThatAreNoneAreRefused) {
     expect_nothing_has_happened();
 }
 
+TEST_F(TeleopBadInput, AClockThatJumpsByAnHourIsNotFelt) {
+    press();
+    constexpr Nanoseconds hour = 3600 * nanoseconds_per_second;
+    for (const Nanoseconds offset : {hour, -hour, Nanoseconds{0}}) {
+        for (Place* const side : {far.get(), near.get()}) {
+            TeleopSettings settings;
+            settings.skew.offset = offset;
+            side->port->settings.publish(settings);
+            ticks(300);
+        }
+    }
+    EXPECT_EQ(near->statistics().link.peer, PeerState::connected);
+    EXPECT_EQ(far->statistics().link.peer, PeerState::connected);
+    EXPECT_GT(near->statistics().link.clock.jumps, 0u);
+    expect_nothing_has_happened();
+}
+
 TEST_F(TeleopBadInput, ADeviceThatSaysNoNumbersIsPutUpWith) {
     press();
     const double y = near->device.position.y;
