@@ -316,11 +316,13 @@ void OperatorSide::find_targets(SessionLoop& loop, Nanoseconds now) {
         return;
     }
     if (!resimulator_.running() && !truths_.fresh().empty()) {
-        learn(loop);
         if (!any_news(loop)) {
+            learn(loop);
             truths_.settle();
         } else if (resimulator_.begin(truths_, past_, sample_)) {
             ++statistics_.replays;
+            learn(loop);
+            lands(loop, now);  // what would be felt, for those that are put right at once
             derive_targets(loop, true);
         } else if (!lands(loop, now)) {
             derive_targets(loop, false);

@@ -105,7 +105,8 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
                        target.previous_known ? &target.previous : nullptr);
     }
     // The pointers that press go on from where the replay has led them.
-    for (std::size_t i = 0; i < most_proxies && targets_.front().previous_known; ++i) {
+    const bool replayed = std::ranges::any_of(targets_, &Target::previous_known);
+    for (std::size_t i = 0; i < most_proxies && replayed; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.proxy && resimulator_.twin()->proxy(i).proxy) {
             slot.proxy->recall(resimulator_.twin()->proxy(i).proxy->memory());
@@ -117,6 +118,7 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
 
 void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
     statistics_.offset = 0.0;
+    statistics_.energy = {};  // the sum over all pointers
     for (std::size_t i = 0; i < most_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         Pointer& pointer = pointers_[i];
@@ -213,7 +215,11 @@ void OperatorSide::tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std
     statistics_.pointers[index] = {state, glm::length(pointer.carried.offset()), glm::length(felt.hidden())};
     statistics_.let_go += felt.begins_to_let_go() ? 1 : 0;
     statistics_.offset = std::max(statistics_.offset, glm::length(pointer.carried.offset()));
-    statistics_.energy = felt.energy();
+    const EnergyFigures& energy = felt.energy();
+    statistics_.energy.hand_J += energy.hand_J;
+    statistics_.energy.tank_J += energy.tank_J;
+    statistics_.energy.hidden_J += energy.hidden_J;
+    statistics_.energy.damped_J += energy.damped_J;
     CorrectionCost& cost = statistics_.cost;
     cost.faded = std::max(cost.faded, felt.faded());
     statistics_.largest_force_step = std::max(statistics_.largest_force_step, cost.force_step);
