@@ -40,15 +40,10 @@ func _initialize() -> void:
 
 func _process(_delta: float) -> bool:
 	var now := Time.get_unix_time_from_system()
-	if (
-		not _presses
-		and _link.side == MMTLink.SIDE_OPERATOR
-		and _link.get_statistics().objects >= OBJECTS
-	):
+	if not _presses and _link.side == MMTLink.SIDE_OPERATOR and _link.get_statistics().objects >= OBJECTS:
 		_presses = true
 		_device.path = _way(
-			[Vector3(0.0, 0.3, 0.25), Vector3(0.0, 0.155, 0.25), Vector3(0.0, 0.155, 0.25)],
-			[0.0, 2.0, 1e5]
+			[Vector3(0.0, 0.3, 0.25), Vector3(0.0, 0.155, 0.25), Vector3(0.0, 0.155, 0.25)], [0.0, 2.0, 1e5]
 		)
 	if now - _said_at >= SAY_EVERY:
 		_said_at = now

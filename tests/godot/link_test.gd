@@ -74,25 +74,16 @@ func test_the_model_is_filled_from_the_far_side_and_touched_at_once() -> void:
 	add_floor(_far, STIFFNESS)
 	_add_hands()
 	var found := []
-	_here.object_discovered.connect(
-		func(name: String, node: Node3D) -> void: found.append([name, node])
-	)
+	_here.object_discovered.connect(func(name: String, node: Node3D) -> void: found.append([name, node]))
 	_advance(0.5)
 	check_equal(found.size(), 1, "discovered objects")
 	check_equal(found[0][0], "Floor", "name")
 	check_near(found[0][1].position, Vector3(0, -0.1, 0), 1e-6, "place of its picture")
 	_advance(0.1)
 	# The proxy's sphere rests on the floor, its centre a radius above: the hand is 2 cm from it.
-	check_near(
-		_felt(_operator),
-		Vector3(0, 10.0 * 0.8, 0),
-		1e-3,
-		"force, limited to 8 N, without any delay"
-	)
+	check_near(_felt(_operator), Vector3(0, 10.0 * 0.8, 0), 1e-3, "force, limited to 8 N, without any delay")
 	_advance(0.2)
-	check_near(
-		(_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "force at the far side"
-	)
+	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "force at the far side")
 
 
 func test_a_body_of_the_scene_shows_the_far_one_of_the_same_name() -> void:
@@ -110,9 +101,7 @@ func test_a_body_of_the_scene_shows_the_far_one_of_the_same_name() -> void:
 	(_far.get_node("Box") as RigidBody3D).linear_damp_mode = RigidBody3D.DAMP_MODE_REPLACE
 	_advance(0.5)
 	# The far world is one tick of 0.1 mm behind.
-	check_near(
-		mine.position, (_far.get_node("Box") as RigidBody3D).position, 2e-4, "place of the twin"
-	)
+	check_near(mine.position, (_far.get_node("Box") as RigidBody3D).position, 2e-4, "place of the twin")
 	check_equal(shown, [mine], "what shows it")
 
 
@@ -148,14 +137,10 @@ func test_the_same_scene_goes_from_one_scenario_to_the_next_while_it_runs() -> v
 			link.scenario = scenario
 		(_operator.get_node("Device") as HapticDevice).path = _down_after(0.5)
 		_advance(0.4)
-		check_near(
-			_felt(_operator), Vector3.ZERO, 1e-9, "force above the floor, scenario %d" % scenario
-		)
+		check_near(_felt(_operator), Vector3.ZERO, 1e-9, "force above the floor, scenario %d" % scenario)
 		_advance(0.4)
 		check_near(_felt(_operator).y, 8.0, 1e-3, "force of scenario %d" % scenario)
-		var wanted := (
-			MMTLink.STATE_OFF if scenario == MMTLink.SCENARIO_SINGLE else MMTLink.STATE_CONNECTED
-		)
+		var wanted := MMTLink.STATE_OFF if scenario == MMTLink.SCENARIO_SINGLE else MMTLink.STATE_CONNECTED
 		check_equal(_here.get_state(), wanted, "state: " + _here.get_state_text())
 
 
@@ -208,9 +193,7 @@ func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 		["side", 7],
 	]:
 		var before: Variant = link.get_indexed(wrong[0])
-		expect_error(
-			"%s = %s was refused" % [wrong[0].get_slice(":", wrong[0].count(":")), wrong[1]]
-		)
+		expect_error("%s = %s was refused" % [wrong[0].get_slice(":", wrong[0].count(":")), wrong[1]])
 		link.set_indexed(wrong[0], wrong[1])
 		check(link.get_indexed(wrong[0]) == before, "%s took %s" % wrong)
 	link.conditions.jitter_shape = NetworkConditions.JITTER_TRACE
@@ -236,9 +219,7 @@ func test_a_scene_from_before_conditions_and_tuning_still_loads() -> void:
 		link.set(old[0], old[1])
 	check_near(link.conditions.delay, 0.02, 0.0, "delay")
 	check_equal(link.conditions.seed, 7, "seed")
-	check_equal(
-		link.conditions.jitter_shape, NetworkConditions.JITTER_HEAVY_TAIL, "shape of the jitter"
-	)
+	check_equal(link.conditions.jitter_shape, NetworkConditions.JITTER_HEAVY_TAIL, "shape of the jitter")
 	check_equal(link.conditions.trace_file, "res://nothing.txt", "trace")
 	check_equal(link.tuning.state_interval, 3, "state interval")
 	check_near(link.tuning.stealth_max_offset, 0.25, 0.0, "longest offset")
@@ -272,10 +253,7 @@ func test_a_link_says_what_it_lacks() -> void:
 	var world := add_world()
 	var first := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
 	var second := _link(world, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
-	check(
-		second.get_warnings()[0].contains("another MMTLink"),
-		"two of them: %s" % second.get_warnings()
-	)
+	check(second.get_warnings()[0].contains("another MMTLink"), "two of them: %s" % second.get_warnings())
 	check_equal(second.get_state(), MMTLink.STATE_FAILED, "state of the second")
 	check(second.get_state_text().contains("remove one of the two"), second.get_state_text())
 	check_equal(first.get_warnings().size(), 0, "warnings of the first")
@@ -286,13 +264,9 @@ func test_a_link_says_what_it_lacks() -> void:
 	first.remote_port = 5000
 	check(first.get_warnings()[0].contains("different ports"), "ports: %s" % first.get_warnings())
 	first.partner = NodePath("../../Nothing")
-	check(
-		first.get_warnings()[0].contains("is not an MMTLink"), "partner: %s" % first.get_warnings()
-	)
+	check(first.get_warnings()[0].contains("is not an MMTLink"), "partner: %s" % first.get_warnings())
 	world.position.x = 1.0
-	check(
-		first.get_warnings()[-1].contains("at the origin"), "moved world: %s" % first.get_warnings()
-	)
+	check(first.get_warnings()[-1].contains("at the origin"), "moved world: %s" % first.get_warnings())
 
 
 func test_partners_of_the_same_side_stay_apart() -> void:

@@ -27,9 +27,7 @@ func _side(side: MMTLink.Side, key := "") -> MMTLink:
 func _key_file(key: String) -> String:
 	if key == "":
 		return ""
-	var path := ProjectSettings.globalize_path(
-		"user://key_%d_%d" % [OS.get_process_id(), key.hash()]
-	)
+	var path := ProjectSettings.globalize_path("user://key_%d_%d" % [OS.get_process_id(), key.hash()])
 	var file := FileAccess.open(path, FileAccess.WRITE)
 	file.store_string(key)
 	file.close()
@@ -39,9 +37,7 @@ func _key_file(key: String) -> String:
 
 func _reaches(link: MMTLink, state: MMTLink.State, words := "") -> void:
 	var does := await until(
-		func() -> bool:
-			return link.get_state() == state and link.get_state_text().match("*%s*" % words),
-		LONG
+		func() -> bool: return link.get_state() == state and link.get_state_text().match("*%s*" % words), LONG
 	)
 	check(does, "it is in state %d: %s" % [link.get_state(), link.get_state_text()])
 
@@ -119,10 +115,7 @@ func test_nonsense_is_counted_and_moves_nothing() -> void:
 	stranger.bind(_far_port)
 	stranger.set_dest_address("127.0.0.1", _port)
 	var here := _side(MMTLink.SIDE_OPERATOR)
-	check(
-		await until(func() -> bool: return stranger.get_available_packet_count() > 0, LONG),
-		"no hello"
-	)
+	check(await until(func() -> bool: return stranger.get_available_packet_count() > 0, LONG), "no hello")
 	var hello := stranger.get_packet()
 	stranger.put_packet(hello)
 	await _counts(here, "refused_epoch")
@@ -151,9 +144,7 @@ func test_addresses_and_keys_may_change_while_it_runs() -> void:
 	var ticks: int = (here.get_parent() as HapticWorld).get_ticks()
 	for link: MMTLink in [here, there]:
 		link.key_file = _key_file("from now on with a key")
-	check(
-		await until(func() -> bool: return here.get_statistics().sealed, LONG), "it is not sealed"
-	)
+	check(await until(func() -> bool: return here.get_statistics().sealed, LONG), "it is not sealed")
 	await _reaches(here, MMTLink.STATE_CONNECTED)
 	check((here.get_parent() as HapticWorld).get_ticks() > ticks, "the world was started anew")
 
@@ -166,10 +157,7 @@ func test_a_second_process_is_touched_vanishes_and_comes_back() -> void:
 	link.scenario = MMTLink.SCENARIO_MMT
 	add_child(scene)
 	var process := _start_far_process()
-	check(
-		await until(func() -> bool: return link.get_statistics().objects == 2, LONG),
-		"no bodies come"
-	)
+	check(await until(func() -> bool: return link.get_statistics().objects == 2, LONG), "no bodies come")
 	await _reaches(link, MMTLink.STATE_CONNECTED)
 	var proxy: ProxyPointer = scene.get_node("HapticWorld/ProxyPointer")
 	check(await until(proxy.is_touching, LONG), "nothing is touched")
@@ -180,11 +168,7 @@ func test_a_second_process_is_touched_vanishes_and_comes_back() -> void:
 	await _reaches(link, MMTLink.STATE_CONNECTED)
 	check_equal(link.get_statistics().peer_restarts, 1, "restarts")
 	check(
-		await until(func() -> bool: return link.get_statistics().objects == 2, LONG),
-		"no bodies come again"
+		await until(func() -> bool: return link.get_statistics().objects == 2, LONG), "no bodies come again"
 	)
 	scene.free()
-	check(
-		await until(func() -> bool: return not OS.is_process_running(process), LONG),
-		"the far one stays"
-	)
+	check(await until(func() -> bool: return not OS.is_process_running(process), LONG), "the far one stays")
