@@ -6,8 +6,8 @@ extends SceneTree
 ## --NAME=VALUE   a property of the scene's MMTLink
 ##
 ## As soon as the operator knows both bodies of the far side its hand comes down onto the box and stays there,
-## pressing. Each line is JSON: time (s since the epoch), state and text of the link, force on the hand (N), whether
-## it touches, objects that are known, and where the box is (m).
+## pressing. Each line is JSON: time (s since the epoch), state and text of the link, force on the hand (N),
+## whether it touches, objects that are known, and where the box is (m).
 
 const SCENE := "res://dynamic_testbed.tscn"
 const OBJECTS := 2
