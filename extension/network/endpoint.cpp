@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "network/plausibility.hpp"
@@ -34,6 +35,8 @@ void Endpoint::begin_tick(Nanoseconds now) {
     if (alive && now - heard_at_ > settings_.vanish_after) {
         statistics_.peer = PeerState::vanished;
         ++statistics_.vanishings;
+    }
+    if (window_.newest() != 0 && now - admitted_at_ > settings_.vanish_after) {
         // Should a sequence have been believed that was none, the true one is taken up again.
         window_.forget();
     }
@@ -88,6 +91,7 @@ bool Endpoint::admit(const PacketHeader& header) {
             break;
     }
     ++epoch_packets_;
+    admitted_at_ = now_;
     statistics_.missing = window_.missing();
     return true;
 }
@@ -306,7 +310,7 @@ void Endpoint::leave() {
 
 void Endpoint::set_world(std::uint32_t object_count, const Vec3& gravity) {
     own_hello_.object_count = object_count;
-    own_hello_.gravity = gravity;
+    own_hello_.gravity = glm::clamp(gravity, -plausible::max_gravity, plausible::max_gravity);
 }
 
 void Endpoint::measure_rates(Nanoseconds now) {

@@ -161,6 +161,7 @@ private:
     std::uint64_t sequence_ = 0;
     Nanoseconds heard_at_ = 0;
     Nanoseconds left_at_ = 0;
+    Nanoseconds admitted_at_ = 0;
     Nanoseconds newest_at_ = 0;  // when the highest sequence came
     Nanoseconds met_at_ = 0;     // when the present epoch was first heard
     Nanoseconds next_hello_ = 0;

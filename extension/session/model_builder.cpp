@@ -1,6 +1,7 @@
 #include "session/model_builder.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "core/teleop/body_motion.hpp"
 
@@ -31,10 +32,8 @@ void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
 }
 
 bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
-    if (link.peer_epoch != 0 && (!gravity_known_ || link.peer_hello.gravity != gravity_)) {
-        gravity_known_ = true;
-        gravity_ = link.peer_hello.gravity;
-        session_.set_gravity(direction_to_parent(frame_, gravity_));
+    if (link.peer_epoch != 0) {
+        follow_gravity(now, link.peer_hello.gravity);
     }
     bool changed = add_prepared();
     for (std::size_t taken = 0; taken < most_built_at_once && preparing_.size() < most_built_at_once;
@@ -53,6 +52,23 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     }
     send_on();
     return changed;
+}
+
+// At once before there is anything that falls; later no faster than a hand that holds something can follow.
+void ModelBuilder::follow_gravity(Nanoseconds now, const Vec3& wanted) {
+    constexpr double most_a_second = 50.0;  // (unit: meters per second cubed)
+    constexpr double longest_frame = 0.1;   // (unit: seconds)
+    const double seconds = std::min(to_seconds(now - gravity_at_), longest_frame);
+    const bool at_once = !gravity_known_ || objects_.empty();
+    const Vec3 way = wanted - gravity_;
+    const double distance = glm::length(way);
+    gravity_at_ = now;
+    if (!gravity_known_ || distance > 0.0) {
+        const bool arrives = at_once || distance <= most_a_second * seconds;
+        gravity_ = arrives ? wanted : gravity_ + way * (most_a_second * seconds / distance);
+        gravity_known_ = true;
+        session_.set_gravity(direction_to_parent(frame_, gravity_));
+    }
 }
 
 void ModelBuilder::take(DiscoveryEvent& event, Nanoseconds now) {

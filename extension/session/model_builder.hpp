@@ -74,6 +74,7 @@ private:
     void outdate(Nanoseconds now);
     bool all_described(Nanoseconds now, const LinkStatistics& link) const;
     void remove_outdated();
+    void follow_gravity(Nanoseconds now, const Vec3& wanted);
     void take(DiscoveryEvent& event, Nanoseconds now);
     void prepare(ObjectDescription& description);
     bool add_prepared();
@@ -96,6 +97,7 @@ private:
     bool any_outdated_ = false;
     std::deque<ObjectBinding> waiting_;  // found the ring full
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
+    Nanoseconds gravity_at_ = 0;
     bool gravity_known_ = false;
     Pose frame_;
 };
