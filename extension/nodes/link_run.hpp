@@ -108,6 +108,7 @@ private:
     LinkRoute route_;
     std::unique_ptr<ModelView> view_;            // operator
     std::unique_ptr<ModelBuilder> builder_;      // operator
+    bool builds_elsewhere_ = false;              // in real time it does not hold frames up
     std::unique_ptr<EnvironmentTeller> teller_;  // far side
     std::unordered_map<SessionHandle, Telling> tellings_;
 

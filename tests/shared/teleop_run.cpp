@@ -21,11 +21,17 @@ namespace {
 constexpr Nanoseconds period = 1'000'000;
 constexpr double tick_seconds = 1e-3;
 
-// Keeps what the hand was given.
+// Keeps what the hand was given. Its places are those of a device that counts nanometers, as the wire does:
+// what is sent of them is the same number, and a right model is right to the bit.
 class FeltDevice final : public Device {
 public:
     explicit FeltDevice(std::unique_ptr<Device> inner) : inner_(std::move(inner)) {}
-    DeviceSample read(Nanoseconds now) override { return sample = inner_->read(now); }
+    DeviceSample read(Nanoseconds now) override {
+        sample = inner_->read(now);
+        sample.position = position_as_sent(sample.position);
+        sample.velocity = velocity_as_sent(sample.velocity);
+        return sample;
+    }
     void write(Nanoseconds now, const Vec3& given) override {
         force = given;
         inner_->write(now, given);
