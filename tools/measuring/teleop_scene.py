@@ -76,17 +76,28 @@ class Scene:
         return _placement(next(node for node in self._nodes if node.attributes["name"] == body))[:3]
 
     def varied(self, variation: dict) -> str:
-        """What the runner reads, with copies of bodies elsewhere and hinges to the world:
-        {"copies": {"Box2": {"of": "Box", "at": [x, y, z]}}, "hinges": {"Box": {"at": [x, y, z], "axis": [x, y, z]}}}
+        """What the runner reads, with copies of bodies elsewhere, hinges to the world, and another path of the hand:
+        {"copies": {"Box2": {"of": "Box", "at": [x, y, z]}}, "hinges": {"Box": {"at": [x, y, z], "axis": [x, y, z]}},
+        "frictionless": ["Box"], "without": ["Sphere"], "path": [[seconds, x, y, z], …]}
         """
         lines = self.lines().splitlines()
+        if "path" in variation:
+            keys = [word for keyframe in variation["path"] for word in _texts(keyframe)]
+            lines = [" ".join(["path", "linear", *keys]) if line.startswith("path ") else line for line in lines]
+        for name in variation.get("without", []):
+            start = next(i for i, line in enumerate(lines) if line.startswith(f"body {name} "))
+            del lines[start : next(i for i in range(start + 1, len(lines) + 1) if not _is_shape(lines[i : i + 1]))]
+        for name in variation.get("frictionless", []):
+            start = next(i for i, line in enumerate(lines) if line.startswith(f"body {name} "))
+            words = lines[start].split()
+            lines[start] = " ".join([*words[:8], "0", "0", *words[10:]])
         for name, copy in variation.get("copies", {}).items():
             start = next(i for i, line in enumerate(lines) if line.startswith(f"body {copy['of']} "))
             _, _, *words = lines[start].split()
             words[8:11] = _texts(copy["at"])
             lines.append(" ".join(["body", name, *words]))
             for line in lines[start + 1 :]:
-                if line.split()[0] not in ("box", "sphere"):
+                if not _is_shape([line]):
                     break
                 lines.append(line)
         for name, hinge in variation.get("hinges", {}).items():
@@ -140,6 +151,10 @@ class Scene:
 
 def _is_body(node: _Section) -> bool:
     return node.attributes.get("type") in ("StaticBody3D", "RigidBody3D")
+
+
+def _is_shape(lines: list[str]) -> bool:
+    return bool(lines) and lines[0].split()[0] in ("box", "sphere")
 
 
 def _texts(numbers: list[float]) -> list[str]:
