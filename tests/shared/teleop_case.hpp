@@ -86,7 +86,7 @@ struct TeleopCase {
     Nanoseconds late = 0;             // the far side starts so much after the operator's, >= 0
     Vec3 path_shift{0.0};             // the hand's path lies so far off the scene's (unit: meters)
     double pose_noise = 0.0;          // standard deviation of what the far side says of places (unit: meters)
-    bool correct_from_touch = false;  // the model is left wrong until it is touched
+    bool correct_from_touch = false;  // the model is left wrong until either hand touches something
     // The model is what the far side has described over the link, made wrong: without it, it is there at
     // once.
     bool discovers = false;

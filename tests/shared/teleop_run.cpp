@@ -342,7 +342,7 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
         note_model(i);
         note_energy(i);
         note_answer();
-        if (waiting_for_touch && model_.pointer().contact_count > 0) {
+        if (waiting_for_touch && model_.pointer().contact_count + truth_.pointer().contact_count > 0) {
             waiting_for_touch = false;
             operator_port_->settings.publish(experiment_.settings);
         }

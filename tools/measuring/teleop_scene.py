@@ -138,15 +138,24 @@ class Scene:
             return " ".join(["box", *_texts(half), *_texts(place)])
         return " ".join(["sphere", shape.values.get("radius", "0.5"), *_texts(place[:3])])
 
+    def along(self, resource: str) -> str:
+        """What the runner reads, with another path resource for the hand."""
+        path = next(s.values for s in _sections(_file(resource)) if s.kind == "resource")
+        lines = self.lines().splitlines()
+        return "\n".join(_path_line(path) if line.startswith("path ") else line for line in lines) + "\n"
+
     def _path(self, device: _Section) -> str:
-        path = self._resource(device.values["path"])
-        if "points_positions" in path:
-            points, times = _numbers(path["points_positions"]), _numbers(path["points_times"])
-            how = "smooth" if path.get("points_interpolation", "0") == "1" else "linear"
-            keys = [_texts([time, *points[3 * i : 3 * i + 3]]) for i, time in enumerate(times)]
-            return " ".join(["path", how, *(word for key in keys for word in key)])
-        circle = [path.get(f"circle_{key}") for key in ("radius", "amplitude", "turn_time", "waves")]
-        return " ".join(["path", "circle", *_texts(_numbers(path["circle_center"])), *circle])
+        return _path_line(self._resource(device.values["path"]))
+
+
+def _path_line(path: dict[str, str]) -> str:
+    if "points_positions" in path:
+        points, times = _numbers(path["points_positions"]), _numbers(path["points_times"])
+        how = "smooth" if path.get("points_interpolation", "0") == "1" else "linear"
+        keys = [_texts([time, *points[3 * i : 3 * i + 3]]) for i, time in enumerate(times)]
+        return " ".join(["path", how, *(word for key in keys for word in key)])
+    circle = [path.get(f"circle_{key}") for key in ("radius", "amplitude", "turn_time", "waves")]
+    return " ".join(["path", "circle", *_texts(_numbers(path["circle_center"])), *circle])
 
 
 def _is_body(node: _Section) -> bool:
