@@ -75,17 +75,20 @@ LinkRun::LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std:
       ahead_(ahead),
       world_(world),
       gravity_(from_godot(world.get_gravity())),
+      frame_(pose_of(world.get_global_transform())),
       port_(std::make_shared<TeleopPort>()) {
     attach(session);
     if (operator_) {
         view_ = std::make_unique<ModelView>(world);
         builder_ = std::make_unique<ModelBuilder>(session, port_);
+        builder_->set_frame(frame_);
         builder_->set_distortion([this, errors = node.get_model_errors()](ObjectDescription& description) {
             distort(errors, description);
             view_->note(description);
         });
     } else {
         teller_ = std::make_unique<EnvironmentTeller>(port_);
+        teller_->set_frame(frame_);
     }
 }
 
@@ -103,6 +106,7 @@ void LinkRun::attach(Session& session) {
     endpoint.period = session.settings().period;
     settings_ = node_->teleop_settings();
     settings_.gravity = gravity_;
+    settings_.frame = frame_;
     std::unique_ptr<TeleopSide> side;
     if (operator_) {
         side = std::make_unique<OperatorSide>(session.settings(), OperatorRoom{}, settings_, route_, port_,
@@ -211,6 +215,7 @@ void LinkRun::pass_on_settings() {
     gravity_ = gravity;
     settings_ = node_->teleop_settings();
     settings_.gravity = gravity_;
+    settings_.frame = frame_;
     port_->settings.publish(settings_);
     if (way_ != nullptr) {
         keep_trace();

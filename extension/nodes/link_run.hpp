@@ -102,6 +102,7 @@ private:
     const std::atomic<Nanoseconds>* ahead_;
     HapticWorld& world_;
     Vec3 gravity_;  // as passed on
+    Pose frame_;    // of the world's node when the link began
     TeleopSettings settings_;
     std::shared_ptr<TeleopPort> port_;
     LinkRoute route_;

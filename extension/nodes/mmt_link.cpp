@@ -128,7 +128,7 @@ void MMTLink::set_control_scheme(int scheme) {
 }
 
 void MMTLink::set_correction_scheme(int scheme) {
-    if (scheme < 0 || scheme > static_cast<int>(Correction::stealthy_direction)) {
+    if (scheme < 0 || scheme > static_cast<int>(Correction::stealthy_turn)) {
         refuse(*this, "correction_scheme", scheme, "one of the constants CORRECTION_…");
         return;
     }

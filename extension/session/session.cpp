@@ -207,7 +207,7 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(addition.description);
     ready.error = ready.body.error();
-    if (ready.body.ready() && (impl_->settings.history.ticks > 0 || impl_->has_twin)) {
+    if (ready.body.ready() && impl_->has_twin) {
         ready.same_body = duplicate(ready.body);
     }
     ready.material = with_texture(addition.touch_material, addition.texture.get());
@@ -432,19 +432,6 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
         }
     }
     return status | impl_->loop.tick(now, trace);
-}
-
-bool Session::correct(std::uint64_t tick, std::span<const BodyCorrection> truth) {
-    return impl_->loop.correct(tick, truth);
-}
-bool Session::correcting() const {
-    return impl_->loop.correcting();
-}
-std::uint64_t Session::oldest_correctable_tick() const {
-    return impl_->loop.oldest_correctable_tick();
-}
-std::span<const CorrectedBody> Session::corrected() const {
-    return impl_->loop.corrected();
 }
 
 }  // namespace tactus

@@ -133,12 +133,6 @@ public:
     // that is elsewhere when they go on begins anew there, without a kick.
     void rest();
 
-    // Between two ticks: time travel, for a session that keeps a history (see SessionLoop::correct).
-    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth);
-    bool correcting() const;
-    std::uint64_t oldest_correctable_tick() const;
-    std::span<const CorrectedBody> corrected() const;
-
 private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

@@ -14,7 +14,7 @@ namespace tactus::command {
 
 struct AddBody {
     SessionHandle handle;
-    PreparedBody body, same_body;  // the second where the session keeps a history or a twin
+    PreparedBody body, same_body;  // the second for a twin
     std::shared_ptr<const TouchShape> shape;
     TouchMaterial material;
     std::shared_ptr<const HeightImage> texture;  // keeps material.texture alive
@@ -127,7 +127,7 @@ using Command = std::variant<command::AddBody, command::RemoveBody, command::Tel
 struct Retired {
     enum class Kind { body, device, proxy, texture, joint, side } kind = Kind::body;
     SessionHandle handle = no_handle;
-    PreparedBody body, same_body;
+    PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
     std::unique_ptr<Proxy> proxy;
     std::shared_ptr<const HeightImage> texture;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 #include "core/haptics/nearest_surface.hpp"
 #include "physics/limits.hpp"
@@ -12,16 +13,16 @@ namespace tactus {
 
 namespace {
 
-TimelineSettings with_room(const SessionSettings& settings) {
-    TimelineSettings timeline;
-    timeline.physics = settings.physics;
-    timeline.physics.max_bodies = settings.most_bodies;
-    timeline.physics.full_rate_bodies = settings.history.ticks > 0 ? 0 : settings.full_rate_bodies;
-    timeline.ticks = settings.history.ticks;
-    timeline.ticks_a_snapshot = settings.history.ticks_a_snapshot;
-    timeline.snapshot_bytes = settings.history.snapshot_bytes;
-    return timeline;
+PhysicsSettings with_room(const SessionSettings& settings) {
+    PhysicsSettings physics = settings.physics;
+    physics.max_bodies = settings.most_bodies;
+    physics.full_rate_bodies = settings.full_rate_bodies;
+    return physics;
 }
+
+// Without a far side nothing comes over a link: a device's longest force is limit enough.
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr ForceLimits local_touch{no_limit, no_limit, no_limit};
 
 // The pose that is one of `ticks` equal parts of the way on.
 Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
@@ -41,18 +42,17 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       seconds_(to_seconds(settings.period)),
       snapshots_(snapshots),
       scene_(settings.most_bodies, settings.most_parts),
-      timeline_(with_room(settings)),
-      physics_(timeline_.world()),
+      physics_(with_room(settings)),
       bodies_(settings.most_bodies),
       handle_of_slot_(settings.most_bodies, no_handle),
       handle_of_id_(settings.most_bodies, no_handle),
       state_changes_(settings.most_bodies),
-      state_of_(settings.most_bodies, no_handle) {
+      state_of_(settings.most_bodies, no_handle),
+      gravity_(settings.physics.gravity) {
     travelling_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
     pushed_.reserve(settings.most_bodies);
     joints_.resize(settings.physics.max_joints);
-    corrected_.reserve(settings.history.ticks > 0 ? settings.most_bodies : 0);
     states_.reserve(settings.most_bodies);
     hands_.reserve(most_proxies);
 }
@@ -62,7 +62,6 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     time_ = now;
     scene_.begin_tick();
     follow_physics();
-    follow_replay();
     travel();
     {
         const TraceScope scope(trace, TickStage::read_device);
@@ -130,34 +129,6 @@ void SessionLoop::follow_physics() {
     }
 }
 
-bool SessionLoop::correct(std::uint64_t tick, std::span<const BodyCorrection> truth, PastInputs* inputs) {
-    std::array<BodyTruth, Timeline::most_truths> told;
-    std::size_t count = 0;
-    for (const BodyCorrection& t : truth) {
-        if (body(t.body) && count < told.size()) {
-            told[count++] = {bodies_[t.body].id, t.pose, t.linear_velocity, t.angular_velocity};
-        }
-    }
-    return tick > 0 && timeline_.correct(tick - 1, std::span(told).first(count), inputs);
-}
-
-// A replay that has caught up may have moved anything that can move, awake or asleep.
-void SessionLoop::follow_replay() {
-    corrected_.clear();
-    if (!timeline_.replaying() || !timeline_.replay(settings_.history.replayed_a_tick)) {
-        return;
-    }
-    for (const BodyState& state : states_) {
-        const Body& moved = bodies_[state.handle];
-        const Pose before = scene_.body(moved.slot).pose;
-        const Pose now = physics_.pose(moved.id);
-        if (now.position != before.position || now.rotation != before.rotation) {
-            corrected_.push_back({state.handle, before});
-        }
-        place(state.handle, now, false);
-    }
-}
-
 // Ways that the owner asked for. A kinematic body gets the velocity that takes it one tick further, so that
 // it pushes; a static one is simply put there.
 void SessionLoop::travel() {
@@ -169,12 +140,12 @@ void SessionLoop::travel() {
                                                 : moving.target;
         if (moving.motion == Motion::Kinematic) {
             if (moving.ticks_left > 0) {
-                timeline_.move_to(moving.id, pose, seconds_);
+                physics_.move_to(moving.id, pose, seconds_);
             } else {
-                timeline_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
+                physics_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
             }
         } else if (moving.ticks_left > 0) {
-            timeline_.set_pose(moving.id, pose);
+            physics_.set_pose(moving.id, pose);
             place(handle, pose, false);
         }
         // A kinematic body needs one tick more: the last step's velocity has to be taken from it.
@@ -224,6 +195,9 @@ void SessionLoop::read_devices(Nanoseconds now) {
 
 void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
+        for (ProxySlot& slot : proxies_) {
+            slot.parts = {};  // nothing is touched here, so nothing is pressed
+        }
         return;
     }
     for (ProxySlot& slot : proxies_) {
@@ -289,8 +263,8 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
         if (press && magnet.motion == Motion::Dynamic) {
-            timeline_.apply_force(magnet.id, -on_hand,
-                                  slot.proxy->position() - nearest.normal * nearest.distance);
+            physics_.apply_force(magnet.id, -on_hand,
+                                 slot.proxy->position() - nearest.normal * nearest.distance);
         }
     }
     return pull;
@@ -311,8 +285,8 @@ void SessionLoop::push_bodies() {
     for (const SessionHandle handle : pushed_) {
         const Body& pushed = bodies_[handle];
         if (pushed.motion == Motion::Dynamic) {
-            timeline_.apply_force(pushed.id, pushed.push, physics_.center_of_mass(pushed.id));
-            timeline_.apply_torque(pushed.id, pushed.twist);
+            physics_.apply_force(pushed.id, pushed.push, physics_.center_of_mass(pushed.id));
+            physics_.apply_torque(pushed.id, pushed.twist);
         }
     }
 }
@@ -325,8 +299,8 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
             const bool sticks = !slot.sliding && material.static_friction > 0.0;
-            timeline_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
-                                                      material.damping, slot.hand_velocity, sticks});
+            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
+                                                     material.damping, slot.hand_velocity, sticks});
         }
     }
 }
@@ -356,14 +330,22 @@ void SessionLoop::write_devices(Nanoseconds now) {
             devices_[slot.description.device].force += slot.state.force;
         }
     }
-    for (DeviceSlot& slot : devices_) {
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        DeviceSlot& slot = devices_[i];
         if (!slot.device) {
             continue;
         }
-        const Vec3 limited = limited_force(slot.force, slot.workspace.force_limit);
-        status_ |= limited != slot.force ? static_cast<TickStatus>(session_force_limited) : 0u;
-        slot.force = limited;
-        slot.device->write(now, direction_to_local(slot.workspace.pose, limited));
+        bool limited = false;
+        slot.force =
+            slot.exit.leave(side_ ? side_->limits() : local_touch, slot.force, slot.workspace.force_limit,
+                            slot.hand_velocity / slot.workspace.scale, seconds_, limited);
+        status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
+        for (ProxySlot& proxy : proxies_) {
+            if (limited && side_ && proxy.proxy && proxy.description.device == i) {
+                proxy.state.status |= felt_limited;
+            }
+        }
+        slot.device->write(now, direction_to_local(slot.workspace.pose, slot.force));
     }
 }
 
@@ -371,6 +353,7 @@ void SessionLoop::rest() {
     for (DeviceSlot& slot : devices_) {
         if (slot.device) {
             slot.force = Vec3(0.0);
+            slot.exit.rest();
             slot.device->write(time_, slot.force);
         }
     }
@@ -390,8 +373,8 @@ void SessionLoop::step_physics() {
             hands_.push_back(slot.proxy->position());
         }
     }
-    timeline_.set_hands(hands_);
-    const std::uint32_t step = timeline_.step(seconds_);
+    physics_.set_hands(hands_);
+    const std::uint32_t step = physics_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
     status_ |= step & step_body_lost ? static_cast<TickStatus>(session_body_lost) : 0u;

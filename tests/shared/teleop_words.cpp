@@ -210,7 +210,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
     } else if (key == "seed") {
         c.seed = natural;
     } else if (key == "correction") {
-        return choose(value, {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction"},
+        return choose(value, {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
+                       "stealthy_translate", "stealthy_turn"},
                       s.correction);
     } else if (key == "derivation") {
         return choose(value, {"none", "velocity", "acceleration", "averaged", "history", "resimulate"},
@@ -229,10 +230,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.replay_steps = natural;
     } else if (key == "share") {
         s.stealth.share = number;
-    } else if (key == "drag_gain") {
-        s.drag.gain = number;
-    } else if (key == "drag_slow") {
-        s.drag.slow = number;
+    } else if (key == "estimate") {
+        s.estimate.gain = number;
     } else if (key == "fade_window") {
         s.stealth.window = number;
     } else if (key == "deadband") {
