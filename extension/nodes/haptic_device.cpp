@@ -6,7 +6,6 @@
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
 #include <godot_cpp/classes/viewport.hpp>
-#include <godot_cpp/core/class_db.hpp>
 
 #include "devices/path_device.hpp"
 #include "nodes/conversions.hpp"
@@ -29,6 +28,7 @@ constexpr double even_scale = 1e-3;
 }  // namespace
 
 void HapticDevice::changed() {
+    path_problem_ = path_.is_valid() ? path_->get_problem() : String();
     port_.reset();
     mouse_.reset();
     arm_.reset();
@@ -36,6 +36,9 @@ void HapticDevice::changed() {
 }
 
 void HapticDevice::set_driver(Driver driver) {
+    if (!is_one_of(*this, "driver", driver, DRIVER_ARM, "DRIVER")) {
+        return;
+    }
     driver_ = driver;
     notify_property_list_changed();
     changed();
@@ -117,8 +120,11 @@ String HapticDevice::problem() const {
         return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another "
                "driver";
     }
-    if (follows_path() && !path_->get_problem().is_empty()) {
-        return "its path cannot be followed: " + path_->get_problem();
+    if (follows_path() && !path_problem_.is_empty()) {
+        return "its path cannot be followed: " + path_problem_;
+    }
+    if (is_inside_tree() && !get_global_transform().is_finite()) {
+        return "its transform is not made of finite numbers: reset it in the inspector";
     }
     if (is_inside_tree() && get_global_transform().basis.determinant() == 0) {
         return "it is scaled to zero: give it and the nodes above it a scale that is not zero";
@@ -233,62 +239,6 @@ void HapticDevice::_validate_property(PropertyInfo& property) const {
         (of_arm && driver_ != DRIVER_ARM)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }
-}
-
-void HapticDevice::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticDevice::_get_configuration_warnings);
-    ClassDB::bind_method(D_METHOD("set_driver", "driver"), &HapticDevice::set_driver);
-    ClassDB::bind_method(D_METHOD("get_driver"), &HapticDevice::get_driver);
-    ClassDB::bind_method(D_METHOD("set_path", "path"), &HapticDevice::set_path);
-    ClassDB::bind_method(D_METHOD("get_path_resource"), &HapticDevice::get_path_resource);
-    ClassDB::bind_method(D_METHOD("set_wheel_step", "meters"), &HapticDevice::set_wheel_step);
-    ClassDB::bind_method(D_METHOD("get_wheel_step"), &HapticDevice::get_wheel_step);
-    ClassDB::bind_method(D_METHOD("set_arm_mass", "kilograms"), &HapticDevice::set_arm_mass);
-    ClassDB::bind_method(D_METHOD("get_arm_mass"), &HapticDevice::get_arm_mass);
-    ClassDB::bind_method(D_METHOD("set_arm_damping", "newton_seconds_per_meter"),
-                         &HapticDevice::set_arm_damping);
-    ClassDB::bind_method(D_METHOD("get_arm_damping"), &HapticDevice::get_arm_damping);
-    ClassDB::bind_method(D_METHOD("set_arm_stiffness", "newtons_per_meter"),
-                         &HapticDevice::set_arm_stiffness);
-    ClassDB::bind_method(D_METHOD("get_arm_stiffness"), &HapticDevice::get_arm_stiffness);
-    ClassDB::bind_method(D_METHOD("set_force_limit", "newtons"), &HapticDevice::set_force_limit);
-    ClassDB::bind_method(D_METHOD("get_force_limit"), &HapticDevice::get_force_limit);
-    ClassDB::bind_method(D_METHOD("set_clutch", "held"), &HapticDevice::set_clutch);
-    ClassDB::bind_method(D_METHOD("is_clutch_held"), &HapticDevice::is_clutch_held);
-    ClassDB::bind_method(D_METHOD("is_device_connected"), &HapticDevice::is_device_connected);
-    ClassDB::bind_method(D_METHOD("get_hand_position"), &HapticDevice::get_hand_position);
-    ClassDB::bind_method(D_METHOD("get_hand_velocity"), &HapticDevice::get_hand_velocity);
-    ClassDB::bind_method(D_METHOD("get_force"), &HapticDevice::get_force);
-    ClassDB::bind_method(D_METHOD("get_buttons"), &HapticDevice::get_buttons);
-    ClassDB::bind_method(D_METHOD("get_state_text"), &HapticDevice::get_state_text);
-    ClassDB::bind_method(D_METHOD("aim_mouse", "screen_position", "depth_change"), &HapticDevice::aim_mouse,
-                         DEFVAL(0.0));
-    ClassDB::bind_method(D_METHOD("_path_changed"), &HapticDevice::changed);
-
-    ADD_PROPERTY(
-        PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse,Simulated arm"),
-        "set_driver", "get_driver");
-    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "path", PROPERTY_HINT_RESOURCE_TYPE, "HapticPath"), "set_path",
-                 "get_path_resource");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "wheel_step", PROPERTY_HINT_RANGE, "0.001,0.1,0.001,suffix:m"),
-                 "set_wheel_step", "get_wheel_step");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "arm_mass", PROPERTY_HINT_RANGE, "0.05,5,0.01,or_greater,suffix:kg"),
-        "set_arm_mass", "get_arm_mass");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "arm_damping", PROPERTY_HINT_RANGE, "0,100,0.1,or_greater,suffix:N s/m"),
-        "set_arm_damping", "get_arm_damping");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "arm_stiffness", PROPERTY_HINT_RANGE, "0,1000,1,or_greater,suffix:N/m"),
-        "set_arm_stiffness", "get_arm_stiffness");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "force_limit", PROPERTY_HINT_RANGE, "0,20,0.1,or_greater,suffix:N"),
-        "set_force_limit", "get_force_limit");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "clutch"), "set_clutch", "is_clutch_held");
-
-    BIND_ENUM_CONSTANT(DRIVER_PATH);
-    BIND_ENUM_CONSTANT(DRIVER_MOUSE);
-    BIND_ENUM_CONSTANT(DRIVER_ARM);
 }
 
 }  // namespace tactus

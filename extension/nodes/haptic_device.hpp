@@ -73,6 +73,7 @@ private:
 
     Driver driver_ = DRIVER_PATH;
     godot::Ref<HapticPath> path_;
+    godot::String path_problem_;  // why it cannot be followed; empty where it can
     double wheel_step_ = 0.01;
     ArmSettings arm_settings_;
     double force_limit_ = 8.0;

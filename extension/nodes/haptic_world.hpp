@@ -7,7 +7,7 @@
 
 #include "core/haptics/touch_material.hpp"
 #include "nodes/haptic_material.hpp"
-#include "realtime/realtime_thread.hpp"
+#include "realtime/tick_loop.hpp"
 
 namespace tactus {
 
@@ -33,8 +33,8 @@ public:
     godot::Vector3 get_gravity() const { return gravity_; }
     void set_default_material(const godot::Ref<HapticMaterial>& material) { default_material_ = material; }
     godot::Ref<HapticMaterial> get_default_material() const { return default_material_; }
-    void set_most_bodies(int count);
-    int get_most_bodies() const { return most_bodies_; }
+    void set_max_bodies(int count);
+    int get_max_bodies() const { return max_bodies_; }
     void set_realtime_priority(int priority);
     int get_realtime_priority() const { return realtime_priority_; }
     void set_processor(int processor);
@@ -63,8 +63,8 @@ public:
     static HapticWorld* of(const godot::Node* node);
     // The nearest one above, whether it runs or not.
     static HapticWorld* above(const godot::Node* node);
-    // It becomes a side of a teleoperation, or none, or another one.
-    void link_changed() { restart(); }
+    // It becomes a side of a teleoperation, or none, or another one: it starts anew.
+    void link_changed() { change(Change::world); }
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder* recorder);
     TouchMaterial default_touch() const;
@@ -73,27 +73,39 @@ public:
 protected:
     static void _bind_methods();
     void _notification(int what);
+    // Properties of older scenes.
+    bool _set(const godot::StringName& name, const godot::Variant& value);
 
 private:
+    // What a change of a property asks for. It is done at the beginning of the next frame, or of advance():
+    // many changes at once are one start, and none happens while something of the world is in use.
+    enum class Change { none, loop, world };
+
     void start();
     void stop();
-    void restart();
+    void change(Change what);
+    template <class Value>
+    void exchange(Value& property, const Value& value, Change what);
+    void catch_up();
+    void start_loop();
+    TickLoopSettings loop_settings() const;
     void node_added(godot::Node* node);
     void node_removed(godot::Node* node);
-    void shape_changed();
     void report_status(double seconds);
 
     int tick_rate_ = 1000;
     Clock clock_ = CLOCK_REAL_TIME;
     godot::Vector3 gravity_;
     godot::Ref<HapticMaterial> default_material_;
-    int most_bodies_ = 1024;
+    int max_bodies_ = 1024;
     int realtime_priority_ = 70;
     int processor_ = last_processor;
     bool lock_memory_ = true;
     bool measure_baseline_ = false;
 
-    std::unique_ptr<WorldRun> run_;  // null while nothing runs: in the editor, always
+    // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
+    std::shared_ptr<WorldRun> run_;
+    Change change_ = Change::none;
     double owed_seconds_ = 0.0;      // of stepped time, less than a tick
     double since_report_ = 0.0;      // (unit: seconds)
 };

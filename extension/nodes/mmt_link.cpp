@@ -7,6 +7,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/signals.hpp"
 
 namespace tactus {
 
@@ -119,8 +120,8 @@ void MMTLink::set_key(const String& key) {
 }
 
 void MMTLink::set_control_scheme(int scheme) {
-    if (scheme < 0 || scheme > static_cast<int>(ControlScheme::position_force_relative)) {
-        refuse(*this, "control_scheme", scheme, "one of the constants CONTROL_…");
+    if (!is_one_of(*this, "control_scheme", scheme, static_cast<int>(ControlScheme::position_force_relative),
+                   "CONTROL")) {
         return;
     }
     control_ = static_cast<ControlScheme>(scheme);
@@ -128,8 +129,8 @@ void MMTLink::set_control_scheme(int scheme) {
 }
 
 void MMTLink::set_correction_scheme(int scheme) {
-    if (scheme < 0 || scheme > static_cast<int>(Correction::stealthy_direction)) {
-        refuse(*this, "correction_scheme", scheme, "one of the constants CORRECTION_…");
+    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int>(Correction::stealthy_direction),
+                   "CORRECTION")) {
         return;
     }
     correction_ = static_cast<Correction>(scheme);
@@ -278,19 +279,14 @@ String MMTLink::get_state_text() const {
     return fails_by_itself ? problem() : report_.text;
 }
 
-// Handlers may free this node: nothing of it is used after the last signal, and each is sent by what its id
-// still stands for.
 void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>& news) {
     const LinkReport before = std::exchange(report_, report);
     const bool was_connected = before.state == STATE_CONNECTED;
     const bool is_connected = report.state == STATE_CONNECTED;
     const bool restarted = report.teleop.link.peer_restarts > restarts_seen_;
     restarts_seen_ = report.teleop.link.peer_restarts;
-    const std::uint64_t id = get_instance_id();
-    const auto say = [id](const char* signal, const auto&... values) {
-        if (Object* self = ObjectDB::get_instance(id)) {
-            self->emit_signal(signal, values...);
-        }
+    const auto say = [this](const char* signal, const auto&... values) {
+        post_signal(*this, signal, {values...});
     };
     if (before.state != report.state || before.text != report.text) {
         say("state_changed", static_cast<int64_t>(report.state), report.text);
@@ -306,7 +302,7 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     for (const ModelNews& one : news) {
         switch (one.kind) {
             case ModelNews::Kind::discovered:
-                say("object_discovered", one.name, Variant(ObjectDB::get_instance(one.node)));
+                say("object_discovered", one.name, NodeId{one.node});
                 break;
             case ModelNews::Kind::removed:
                 say("object_removed", one.name);

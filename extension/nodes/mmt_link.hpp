@@ -112,7 +112,6 @@ public:
     MMTLink* partner_node() const;
     // The wire to the partner: both have the same one.
     std::shared_ptr<MemoryLinkPair> wire();
-    // May emit signals.
     void take_report(const LinkReport& report, const std::vector<ModelNews>& news);
     void clear_report();
 

@@ -12,6 +12,7 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/network_conditions.hpp"
 #include "nodes/proxy_pointer.hpp"
+#include "nodes/signals.hpp"
 #include "nodes/teleop_tuning.hpp"
 
 namespace tactus {
@@ -34,7 +35,11 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticWorld);
 }
 
-void nothing_to_undo(godot::ModuleInitializationLevel) {}
+void let_go(godot::ModuleInitializationLevel level) {
+    if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
+        forget_signals();
+    }
+}
 
 }  // namespace
 
@@ -43,7 +48,7 @@ GDExtensionBool initialize_library(GDExtensionInterfaceGetProcAddress get_proc_a
                                    GDExtensionInitialization* initialization) {
     const godot::GDExtensionBinding::InitObject init(get_proc_address, library, initialization);
     init.register_initializer(register_classes);
-    init.register_terminator(nothing_to_undo);
+    init.register_terminator(let_go);
     init.set_minimum_library_initialization_level(godot::MODULE_INITIALIZATION_LEVEL_SCENE);
     return init.init();
 }

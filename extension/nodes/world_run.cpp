@@ -46,6 +46,19 @@ public:
     void write(Nanoseconds, const Vec3&) override {}
 };
 
+// Marks a time in which the same is not to be begun again.
+class Busy {
+public:
+    explicit Busy(bool& flag) : flag_(flag), before_(std::exchange(flag, true)) {}
+    ~Busy() { flag_ = before_; }
+    Busy(const Busy&) = delete;
+    Busy& operator=(const Busy&) = delete;
+
+private:
+    bool& flag_;
+    bool before_;
+};
+
 bool same(const Workspace& a, const Workspace& b) {
     return a.pose.position == b.pose.position && a.pose.rotation == b.pose.rotation && a.scale == b.scale &&
            a.force_limit == b.force_limit && a.clutch == b.clutch;
@@ -71,12 +84,16 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
                                           settings_.real_time ? &clock_offset_ : nullptr);
         stand_in_ = std::make_shared<StandInDevice>();
     }
-    if (settings_.baseline) {
-        baseline_ = std::make_unique<BaselineLoop>();
-    }
 }
 
 WorldRun::~WorldRun() {
+    end();
+}
+
+void WorldRun::end() {
+    if (std::exchange(is_over_, true)) {
+        return;
+    }
     stop_loop();
     if (link_ != nullptr) {
         link_->leave();
@@ -100,11 +117,13 @@ WorldRun::~WorldRun() {
 // --- time
 // ------------------------------------------------------------------------------------------------------------
 
-std::string WorldRun::start_loop() {
+std::string WorldRun::start_loop(const TickLoopSettings& settings, bool baseline) {
     loop_is_new_ = true;
-    std::string error = loop_.start(settings_.loop, &WorldRun::tick_loop_function, this, trace_.get());
+    loop_settings_ = settings;
+    baseline_ = baseline ? std::make_unique<BaselineLoop>() : nullptr;
+    std::string error = loop_.start(settings, &WorldRun::tick_loop_function, this, trace_.get());
     if (error.empty() && baseline_ != nullptr) {
-        error = baseline_->start(settings_.loop);
+        error = baseline_->start(settings);
     }
     return error;
 }
@@ -169,6 +188,7 @@ TickStatus WorldRun::take_status() {
 // ---------------------------------------------------------------------------------------
 
 void WorldRun::synchronise(double seconds) {
+    const Busy busy(is_busy_);
     session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_link();
     synchronise_bodies(seconds);
@@ -254,7 +274,7 @@ void WorldRun::synchronise_bodies(double seconds) {
     defaults_.touch = world_.default_touch();
     defaults_.texture = world_.default_texture();
     context.defaults = defaults_;
-    context.on_shape_change = Callable(&world_, "_shape_changed");
+    context.on_shape_change = callable_mp(&world_, &HapticWorld::shape_changed);
     context.shapes_changed = std::exchange(shapes_changed_, false);
     // In real time a tick may be under way that has already taken its commands.
     context.takes_effect = ticks() + (settings_.real_time ? 2 : 1);
@@ -359,8 +379,8 @@ void WorldRun::synchronise_proxies() {
     }
     for (ProxyLink& link : proxies_) {
         const HapticDevice* device = link.node->device_node();
-        if (device == nullptr) {
-            complaints_.say(*link.node, link.node->get_state_text());
+        if (const String wrong = link.node->problem(); !wrong.is_empty()) {
+            complaints_.say(*link.node, wrong);
         }
         const ProxyDescription description = link.node->description(device_handle(device));
         if (link.handle == no_handle) {
@@ -401,7 +421,7 @@ void WorldRun::want_trace() {
     stop_loop();
     trace_ = std::make_unique<TickTrace>(trace_capacity);
     if (running) {
-        if (const std::string error = start_loop(); !error.empty()) {
+        if (const std::string error = start_loop(loop_settings_, baseline_ != nullptr); !error.empty()) {
             complaints_.say(world_, to_godot(error));
         }
     }
@@ -539,19 +559,20 @@ ProxyPointer::BodyIds WorldRun::body_ids(const ProxyState& state) {
 }
 
 void WorldRun::show() {
+    const Busy busy(is_busy_);
     drain();
     const LinkRun::News news = link_ != nullptr ? link_->take_news() : LinkRun::News{};
     if (session_.refresh()) {
         const SessionSnapshot& snapshot = session_.snapshot();
-        show_bodies(snapshot);
         show_devices(snapshot);
+        show_bodies(snapshot);
         show_proxies(snapshot);
     }
     news.deliver();
 }
 
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
-    for (std::size_t i = 0; i < snapshot.body_count; ++i) {
+    for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
         if (link_ != nullptr && link_->is_operator()) {
             link_->view()->apply(snapshot.bodies[i]);
         } else if (BodyMirror* mirror = mirror_of_handle(snapshot.bodies[i].handle)) {
@@ -570,7 +591,7 @@ void WorldRun::show_devices(const SessionSnapshot& snapshot) {
     }
 }
 
-// Signals go out at the end, from copies: what they call may change the world.
+// From copies: a node that is moved may call a script.
 void WorldRun::show_proxies(const SessionSnapshot& snapshot) {
     struct News {
         std::uint64_t proxy;

@@ -29,9 +29,7 @@ class MMTLink;
 
 struct RunSettings {
     SessionSettings session;
-    TickLoopSettings loop;
     bool real_time = true;
-    bool baseline = false;    // a bare loop runs beside
     MMTLink* link = nullptr;  // null: nobody at a far side
 };
 
@@ -42,8 +40,16 @@ public:
     WorldRun(const WorldRun&) = delete;
     WorldRun& operator=(const WorldRun&) = delete;
 
-    // Real time only. The text is empty, or why the loop could not start.
-    std::string start_loop();
+    // Gives everything back; nothing ticks after it. The run itself may be destroyed later: whoever is at
+    // work in it finds out by is_over().
+    void end();
+    bool is_over() const { return is_over_; }
+    // While scene and session are brought together. Godot may call scripts then, as bodies move.
+    bool is_busy() const { return is_busy_; }
+
+    // Real time only. The text is empty, or why the loop could not start. With `baseline` a bare loop runs
+    // beside.
+    std::string start_loop(const TickLoopSettings& settings, bool baseline);
     void stop_loop();
     // Ticks stop for a while: nothing pushes the hand meanwhile.
     void pause();
@@ -56,7 +62,6 @@ public:
     void advance(std::int64_t ticks);
 
     void bodies_changed() { bodies_changed_ = true; }
-    void shapes_changed() { shapes_changed_ = true; }
     void forget(HapticDevice* device);
     void forget(ProxyPointer* proxy);
     void forget(HapticRecorder* recorder);
@@ -68,6 +73,7 @@ public:
     TickLoop& loop() { return loop_; }
     const TickLoop& loop() const { return loop_; }
     BaselineLoop* baseline() { return baseline_.get(); }
+    Nanoseconds now() const { return static_cast<Nanoseconds>(ticks()) * settings_.session.period; }
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
     std::size_t body_count() const {
@@ -127,7 +133,10 @@ private:
     Workers workers_;  // below the session, which their jobs use
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;
+    TickLoopSettings loop_settings_;  // as it was started last
     std::unique_ptr<BaselineLoop> baseline_;
+    bool is_over_ = false;
+    bool is_busy_ = false;
 
     // The session's clock starts at zero and stands still while the loop does.
     std::atomic<std::uint64_t> ticks_{0};
@@ -141,7 +150,6 @@ private:
     std::vector<BodyMirror*> mirror_by_handle_;
     std::vector<std::unique_ptr<JointMirror>> joints_;
     bool bodies_changed_ = true;
-    bool shapes_changed_ = false;
     std::vector<DeviceLink> devices_;
     std::vector<ProxyLink> proxies_;
     HapticRecorder* recorder_ = nullptr;
