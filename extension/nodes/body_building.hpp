@@ -17,6 +17,7 @@ struct BodyPlan {
     godot::Vector3 linear_velocity;
     godot::Vector3 angular_velocity;
     bool may_move = false;
+    bool twice = false;  // see Session::needs_bodies_twice()
 };
 
 struct BuiltBody {
@@ -30,6 +31,6 @@ struct BuiltBody {
 std::size_t triangle_count(const BodyReading& reading);
 
 // Any thread but the haptic one. Bodies of the same mesh and scale share one tree.
-BuiltBody build_body(const Session& session, const BodyPlan& plan, const ParallelRunner& run);
+BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run);
 
 }  // namespace tactus

@@ -1,10 +1,12 @@
 #include "nodes/haptic_device.hpp"
 
 #include <cmath>
+#include <godot_cpp/classes/control.hpp>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 
 #include "devices/path_device.hpp"
@@ -12,6 +14,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
 
 namespace tactus {
 
@@ -25,6 +28,30 @@ constexpr double nearest_depth = 0.02;
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
+// The share of the view that a control covers which nobody means to click beside.
+constexpr double covers_view = 0.9;
+
+// Whether the control takes all that the mouse does over most of the view.
+bool takes_mouse(const Control& control) {
+    const Vector2 own = control.get_global_rect().size;
+    const Vector2 view = control.get_viewport_rect().size;
+    return control.get_mouse_filter() == Control::MOUSE_FILTER_STOP && control.is_visible_in_tree() &&
+           static_cast<double>(own.x * own.y) > covers_view * static_cast<double>(view.x * view.y);
+}
+
+const Control* control_over_view(const Node& node) {
+    const auto* control = Object::cast_to<Control>(&node);
+    if (control != nullptr && takes_mouse(*control)) {
+        return control;
+    }
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (const Control* below = control_over_view(*node.get_child(i))) {
+            return below;
+        }
+    }
+    return nullptr;
+}
+
 }  // namespace
 
 void HapticDevice::changed() {
@@ -35,8 +62,15 @@ void HapticDevice::changed() {
     update_configuration_warnings();
 }
 
+HapticDevice::Driver HapticDevice::driver() const {
+    if (driver_ != DRIVER_AUTOMATIC) {
+        return driver_;
+    }
+    return path_.is_valid() ? DRIVER_PATH : DRIVER_MOUSE;
+}
+
 void HapticDevice::set_driver(Driver driver) {
-    if (!is_one_of(*this, "driver", driver, DRIVER_ARM, "DRIVER")) {
+    if (!is_one_of(*this, "driver", driver, DRIVER_AUTOMATIC, "DRIVER")) {
         return;
     }
     driver_ = driver;
@@ -143,20 +177,53 @@ String HapticDevice::get_state_text() const {
     return state_.connected ? "connected" : "waiting for the first tick";
 }
 
+String HapticDevice::problem_of_mouse() const {
+    const bool is_edited = Engine::get_singleton()->is_editor_hint();
+    const Node* scene = is_edited ? get_tree()->get_edited_scene_root() : nullptr;
+    const bool has_camera = is_edited ? scene != nullptr && !scene->find_children("*", "Camera3D").is_empty()
+                                      : get_viewport()->get_camera_3d() != nullptr;
+    if (!has_camera) {
+        return "the mouse needs a camera to move the hand before: add a Camera3D that sees the hand, and "
+               "make "
+               "it current";
+    }
+    const Control* over = nullptr;
+    if (is_edited) {
+        over = control_over_view(*scene);
+    } else if (const Control* hovered = get_viewport()->gui_get_hovered_control();
+               hovered != nullptr && takes_mouse(*hovered)) {
+        over = hovered;
+    }
+    return over == nullptr ? String()
+                           : "the control '" + String(over->get_name()) +
+                                 "' lies over the view and takes the mouse: set its 'mouse_filter' to Ignore";
+}
+
+String HapticDevice::hindrance() const {
+    return is_inside_tree() && driver() == DRIVER_MOUSE ? problem_of_mouse() : String();
+}
+
 PackedStringArray HapticDevice::_get_configuration_warnings() const {
     PackedStringArray warnings;
     const String wrong = problem();
     if (!wrong.is_empty()) {
         warnings.push_back("This HapticDevice does nothing: " + wrong + ".");
     }
-    if (is_inside_tree()) {
-        const Vector3 scale = get_global_transform().basis.get_scale().abs();
-        if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
-            std::abs(scale.x - scale.z) > even_scale * scale.x) {
-            warnings.push_back(
-                "This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
-                "evenly.");
-        }
+    if (!is_inside_tree()) {
+        return warnings;
+    }
+    if (const String hindered = hindrance(); !hindered.is_empty()) {
+        warnings.push_back("The hand of this HapticDevice will not move: " + hindered + ".");
+    }
+    if (const String lost = problem_without_world(*this); !lost.is_empty()) {
+        warnings.push_back("This HapticDevice does nothing: " + lost + ".");
+    }
+    const Vector3 scale = get_global_transform().basis.get_scale().abs();
+    if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
+        std::abs(scale.x - scale.z) > even_scale * scale.x) {
+        warnings.push_back(
+            "This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
+            "evenly.");
     }
     return warnings;
 }
@@ -165,14 +232,14 @@ std::shared_ptr<Device> HapticDevice::port() {
     if (!problem().is_empty()) {
         return nullptr;
     }
-    if (port_ == nullptr && driver_ == DRIVER_PATH) {
+    if (port_ == nullptr && driver() == DRIVER_PATH) {
         port_ = std::make_shared<PathDevice>(path_->hand_path());
     }
-    if (port_ == nullptr && driver_ == DRIVER_ARM) {
+    if (port_ == nullptr && driver() == DRIVER_ARM) {
         arm_ = std::make_shared<SimulatedArm>(path_->hand_path(), arm_settings_);
         port_ = arm_;
     }
-    if (port_ == nullptr && driver_ == DRIVER_MOUSE) {
+    if (port_ == nullptr && driver() == DRIVER_MOUSE) {
         mouse_ = std::make_shared<MouseDevice>(MouseDevice::Settings{});
         port_ = mouse_;
         mouse_target_ = from_godot(get_global_position());
@@ -219,11 +286,9 @@ void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {
 }
 
 void HapticDevice::_notification(int what) {
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
     if (what == NOTIFICATION_ENTER_TREE) {
         Roll<HapticDevice>::enter(this);
+        watch_warnings(*this);
     } else if (what == NOTIFICATION_EXIT_TREE) {
         Roll<HapticDevice>::leave(this);
         changed();
@@ -235,8 +300,8 @@ void HapticDevice::_validate_property(PropertyInfo& property) const {
     const bool of_path = property.name == StringName("path");
     const bool of_mouse = property.name == StringName("wheel_step");
     const bool of_arm = String(property.name).begins_with("arm_");
-    if ((of_path && !follows_path()) || (of_mouse && driver_ != DRIVER_MOUSE) ||
-        (of_arm && driver_ != DRIVER_ARM)) {
+    if ((of_path && !follows_path() && driver_ != DRIVER_AUTOMATIC) ||
+        (of_mouse && driver() != DRIVER_MOUSE) || (of_arm && driver() != DRIVER_ARM)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }
 }

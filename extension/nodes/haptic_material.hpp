@@ -17,7 +17,7 @@ class HapticMaterial : public godot::PhysicsMaterial {
     GDCLASS(HapticMaterial, godot::PhysicsMaterial)
 
 public:
-    enum Preset {
+    enum Preset : int64_t {
         PRESET_CUSTOM,
         PRESET_RUBBER,
         PRESET_ICE,

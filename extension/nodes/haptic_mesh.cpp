@@ -9,6 +9,7 @@
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/workers.hpp"
 
 namespace tactus {
 
@@ -22,6 +23,11 @@ std::uint64_t change_count = 0;
 
 std::uint64_t HapticMesh::changes() {
     return change_count;
+}
+
+// Millions of triangles take longer to let go than a frame has.
+HapticMesh::~HapticMesh() {
+    Workers::discard([source = std::move(source_), former = std::move(former_)] {});
 }
 
 void HapticMesh::forget_triangles() {

@@ -1,6 +1,5 @@
 #include "nodes/haptic_path.hpp"
 
-
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
@@ -10,6 +9,8 @@ namespace tactus {
 using namespace godot;
 
 namespace {
+
+constexpr int64_t max_waves = 1'000'000;
 
 constexpr int line_steps = 600;  // points of a drawn path: 3 mm apart on the path of the thesis
 
@@ -63,12 +64,12 @@ void HapticPath::set_turn_time(double seconds) {
     change(circle_.turn_time, from_seconds(seconds));
 }
 
-void HapticPath::set_waves(int waves) {
-    if (waves < 0) {
-        refuse(*this, "circle_waves", waves, "0 or more");
+void HapticPath::set_waves(int64_t waves) {
+    if (waves < 0 || waves > max_waves) {
+        refuse(*this, "circle_waves", waves, "between 0 and 1,000,000");
         return;
     }
-    change(circle_.waves, waves);
+    change(circle_.waves, static_cast<int>(waves));
 }
 
 void HapticPath::set_points(const PackedVector3Array& points) {

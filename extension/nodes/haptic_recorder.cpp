@@ -11,6 +11,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "session/record_csv.hpp"
 
 namespace tactus {
@@ -189,6 +190,9 @@ void HapticRecorder::write_trace() {
 
 void HapticRecorder::_notification(int what) {
     if (Engine::get_singleton()->is_editor_hint()) {
+        if (what == NOTIFICATION_ENTER_TREE) {
+            watch_warnings(*this);
+        }
         return;
     }
     if (what == NOTIFICATION_ENTER_TREE) {

@@ -4,6 +4,7 @@
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
+#include <godot_cpp/core/error_macros.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
 
 #include "nodes/conversions.hpp"
@@ -13,7 +14,9 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/workers.hpp"
 #include "nodes/world_run.hpp"
 
 namespace tactus {
@@ -81,8 +84,13 @@ Dictionary distribution(const DurationHistogram& periods) {
     return result;
 }
 
-bool is_mirrored(const Node* node) {
-    return is_solid_body(node) || Object::cast_to<Joint3D>(node) != nullptr;
+bool has_body(const Node& node) {
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (is_solid_body(node.get_child(i)) || has_body(*node.get_child(i))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Bodies that the editor already knows cannot be touched, each with what to do.
@@ -101,6 +109,9 @@ void find_problems(const Node& node, PackedStringArray& problems) {
                 problems.push_back("'" + String(child->get_name()) +
                                    "' does not join as it should: " + to_godot(problem) + ".");
             }
+        }
+        if (const String problem = problem_of_kind(*child); !problem.is_empty()) {
+            problems.push_back("'" + String(child->get_name()) + "' cannot be touched: " + problem + ".");
         }
         find_problems(*child, problems);
     }
@@ -126,12 +137,12 @@ void HapticWorld::exchange(Value& property, const Value& value, Change what) {
     }
 }
 
-void HapticWorld::set_tick_rate(int hertz) {
+void HapticWorld::set_tick_rate(int64_t hertz) {
     if (hertz < 10 || hertz > 20000) {
         refuse(*this, "tick_rate", hertz, "between 10 and 20,000 Hz");
         return;
     }
-    exchange(tick_rate_, hertz, Change::world);
+    exchange(tick_rate_, static_cast<int>(hertz), Change::world);
 }
 
 void HapticWorld::set_clock(Clock clock) {
@@ -151,28 +162,28 @@ void HapticWorld::set_gravity(const Vector3& gravity) {
     }
 }
 
-void HapticWorld::set_max_bodies(int count) {
+void HapticWorld::set_max_bodies(int64_t count) {
     if (count < 1 || count > 65536) {
         refuse(*this, "max_bodies", count, "between 1 and 65,536");
         return;
     }
-    exchange(max_bodies_, count, Change::world);
+    exchange(max_bodies_, static_cast<int>(count), Change::world);
 }
 
-void HapticWorld::set_realtime_priority(int priority) {
+void HapticWorld::set_realtime_priority(int64_t priority) {
     if (priority < 0 || priority > 99) {
         refuse(*this, "realtime_priority", priority, "between 0 (ordinary scheduling) and 99");
         return;
     }
-    exchange(realtime_priority_, priority, Change::loop);
+    exchange(realtime_priority_, static_cast<int>(priority), Change::loop);
 }
 
-void HapticWorld::set_processor(int processor) {
+void HapticWorld::set_processor(int64_t processor) {
     if (processor < last_processor || processor > 4095) {
         refuse(*this, "processor", processor, "-2 (the last one), -1 (any), or a processor's number");
         return;
     }
-    exchange(processor_, processor, Change::loop);
+    exchange(processor_, static_cast<int>(processor), Change::loop);
 }
 
 void HapticWorld::set_lock_memory(bool lock) {
@@ -187,7 +198,7 @@ bool HapticWorld::_set(const StringName& name, const Variant& value) {
     if (name != StringName("most_bodies")) {
         return false;
     }
-    set_max_bodies(value);
+    set_max_bodies(static_cast<int64_t>(value));
     return true;
 }
 
@@ -263,8 +274,8 @@ void HapticWorld::start_loop() {
         return;
     }
     if (const std::string error = run_->start_loop(loop_settings(), measure_baseline_); !error.empty()) {
-        UtilityFunctions::push_error(name_of(*this),
-                                     ": the haptic loop could not start: ", to_godot(error), ".");
+        UtilityFunctions::push_error(name_of(*this), ": the haptic loop could not start: ", to_godot(error),
+                                     ".");
     }
 }
 
@@ -274,7 +285,7 @@ void HapticWorld::stop() {
     }
     Roll<HapticWorld>::leave(this);
     run_->end();
-    run_.reset();
+    Workers::discard([run = std::move(run_)]() mutable { run.reset(); });
     post_signal(*this, "stopped");
 }
 
@@ -299,6 +310,9 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_ENTER_TREE:
             get_tree()->connect("node_added", Callable(this, "_node_added"));
             get_tree()->connect("node_removed", Callable(this, "_node_removed"));
+            if (Engine::get_singleton()->is_editor_hint()) {
+                watch_warnings(*this);
+            }
             break;
         case NOTIFICATION_POST_ENTER_TREE:
             if (!Engine::get_singleton()->is_editor_hint()) {
@@ -325,20 +339,13 @@ void HapticWorld::_notification(int what) {
     }
 }
 
-// In the editor what comes and goes changes what there is to warn of.
 void HapticWorld::node_added(Node* node) {
-    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
-        update_configuration_warnings();
-    }
-    if (run_ != nullptr && is_mirrored(node)) {
-        run_->bodies_changed();
+    if (run_ != nullptr) {
+        run_->scene_changed(*node);
     }
 }
 
 void HapticWorld::node_removed(Node* node) {
-    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
-        update_configuration_warnings();
-    }
     if (run_ == nullptr) {
         return;
     }
@@ -353,8 +360,8 @@ void HapticWorld::node_removed(Node* node) {
         if (link->is_networked() && is_ancestor_of(link)) {
             link_changed();
         }
-    } else if (is_mirrored(node)) {
-        run_->bodies_changed();
+    } else {
+        run_->scene_changed(*node);
     }
 }
 
@@ -367,7 +374,8 @@ void HapticWorld::finish_recording(HapticRecorder* recorder) {
 // --- time
 // ------------------------------------------------------------------------------------------------------------
 
-// Scripts that are called on the way, when bodies move, may stop the world: the run stays until its work is done.
+// Scripts that are called on the way, when bodies move, may stop the world: the run stays until its work is
+// done.
 void HapticWorld::_process(double seconds) {
     catch_up();
     const std::shared_ptr<WorldRun> run = run_;
@@ -464,6 +472,9 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
         return warnings;
     }
     find_problems(*this, warnings);
+    if (!has_body(*this)) {
+        warnings.push_back("This HapticWorld is empty: " + problem_of_emptiness(*this) + ".");
+    }
     return warnings;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
@@ -20,12 +21,12 @@ class HapticWorld : public godot::Node3D {
     GDCLASS(HapticWorld, godot::Node3D)
 
 public:
-    enum Clock { CLOCK_REAL_TIME, CLOCK_STEPPED };
+    enum Clock : int64_t { CLOCK_REAL_TIME, CLOCK_STEPPED };
 
     HapticWorld();
     ~HapticWorld() override;
 
-    void set_tick_rate(int hertz);
+    void set_tick_rate(int64_t hertz);
     int get_tick_rate() const { return tick_rate_; }
     void set_clock(Clock clock);
     Clock get_clock() const { return clock_; }
@@ -33,11 +34,11 @@ public:
     godot::Vector3 get_gravity() const { return gravity_; }
     void set_default_material(const godot::Ref<HapticMaterial>& material) { default_material_ = material; }
     godot::Ref<HapticMaterial> get_default_material() const { return default_material_; }
-    void set_max_bodies(int count);
+    void set_max_bodies(int64_t count);
     int get_max_bodies() const { return max_bodies_; }
-    void set_realtime_priority(int priority);
+    void set_realtime_priority(int64_t priority);
     int get_realtime_priority() const { return realtime_priority_; }
-    void set_processor(int processor);
+    void set_processor(int64_t processor);
     int get_processor() const { return processor_; }
     void set_lock_memory(bool lock);
     bool is_locking_memory() const { return lock_memory_; }
@@ -53,6 +54,17 @@ public:
     godot::Dictionary get_period_distribution() const;
     godot::Dictionary get_baseline_period_distribution() const;
     godot::PackedStringArray get_problems() const;
+
+    // Bodies of this world, as RigidBody3D has it. Forces act for the time of one frame.
+    using Body = godot::CollisionObject3D;
+    void apply_central_impulse(Body* body, const godot::Vector3& impulse);
+    void apply_impulse(Body* body, const godot::Vector3& impulse, const godot::Vector3& position);
+    void apply_torque_impulse(Body* body, const godot::Vector3& impulse);
+    void apply_central_force(Body* body, const godot::Vector3& force);
+    void apply_force(Body* body, const godot::Vector3& force, const godot::Vector3& position);
+    void apply_torque(Body* body, const godot::Vector3& torque);
+    godot::Vector3 get_linear_velocity(Body* body) const;
+    godot::Vector3 get_angular_velocity(Body* body) const;
 
     void _process(double seconds) override;
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -81,6 +93,8 @@ private:
     // many changes at once are one start, and none happens while something of the world is in use.
     enum class Change { none, loop, world };
 
+    bool can_push(const char* method, const Body* body, const godot::Vector3& with,
+                  const godot::Vector3& at = {}) const;
     void start();
     void stop();
     void change(Change what);
@@ -106,8 +120,8 @@ private:
     // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
     std::shared_ptr<WorldRun> run_;
     Change change_ = Change::none;
-    double owed_seconds_ = 0.0;      // of stepped time, less than a tick
-    double since_report_ = 0.0;      // (unit: seconds)
+    double owed_seconds_ = 0.0;  // of stepped time, less than a tick
+    double since_report_ = 0.0;  // (unit: seconds)
 };
 
 }  // namespace tactus

@@ -58,6 +58,9 @@ public:
     // The far side is told in the next tick, which is this side's last.
     void leave();
 
+    // Nothing ticks any more: ports are free again, and the node is told.
+    void end();
+
     // What the node is to be told, to be passed to it when nothing of the run is used any more.
     struct News {
         std::uint64_t node = 0;

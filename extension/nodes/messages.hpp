@@ -34,7 +34,8 @@ inline godot::String name_of(const godot::Object& object) {
 inline void refuse(const godot::Object& who, const char* property, const godot::Variant& value,
                    const char* wanted) {
     godot::UtilityFunctions::push_error(name_of(who), ": ", property, " = ", value,
-                                        " was refused, the old value stays: it must be ", wanted, ".");
+                                        " was refused, the old value stays: it must be ",
+                                        godot::String::utf8(wanted), ".");
 }
 
 // Whether the value is one of an enum's, counted from 0 to `last`; says why not.

@@ -7,6 +7,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
 
 namespace tactus {
@@ -91,12 +92,12 @@ void MMTLink::set_local_address(const String& address) {
     way_changed();
 }
 
-void MMTLink::set_local_port(int port) {
+void MMTLink::set_local_port(int64_t port) {
     if (port < 0 || port > 65535) {
         refuse(*this, "local_port", port, "0 (the side's usual one) or a port, 1 to 65535");
         return;
     }
-    local_port_ = port;
+    local_port_ = static_cast<int>(port);
     way_changed();
 }
 
@@ -105,12 +106,12 @@ void MMTLink::set_remote_address(const String& address) {
     way_changed();
 }
 
-void MMTLink::set_remote_port(int port) {
+void MMTLink::set_remote_port(int64_t port) {
     if (port < 0 || port > 65535) {
         refuse(*this, "remote_port", port, "0 (the far side's usual one) or a port, 1 to 65535");
         return;
     }
-    remote_port_ = port;
+    remote_port_ = static_cast<int>(port);
     way_changed();
 }
 
@@ -119,17 +120,17 @@ void MMTLink::set_key(const String& key) {
     way_changed();
 }
 
-void MMTLink::set_control_scheme(int scheme) {
-    if (!is_one_of(*this, "control_scheme", scheme, static_cast<int>(ControlScheme::position_force_relative),
-                   "CONTROL")) {
+void MMTLink::set_control_scheme(int64_t scheme) {
+    if (!is_one_of(*this, "control_scheme", scheme,
+                   static_cast<int64_t>(ControlScheme::position_force_relative), "CONTROL")) {
         return;
     }
     control_ = static_cast<ControlScheme>(scheme);
     changed();
 }
 
-void MMTLink::set_correction_scheme(int scheme) {
-    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int>(Correction::stealthy_direction),
+void MMTLink::set_correction_scheme(int64_t scheme) {
+    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::stealthy_direction),
                    "CORRECTION")) {
         return;
     }
@@ -383,6 +384,9 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
 }
 
 void MMTLink::_notification(int what) {
+    if (what == NOTIFICATION_ENTER_TREE) {
+        watch_warnings(*this);
+    }
     if (Engine::get_singleton()->is_editor_hint()) {
         return;
     }
@@ -390,7 +394,7 @@ void MMTLink::_notification(int what) {
         Roll<MMTLink>::enter(this);
         if (is_networked()) {
             if (HapticWorld* world = HapticWorld::above(this)) {
-                world->call_deferred("_link_changed");
+                world->link_changed();
             }
         }
     } else if (what == NOTIFICATION_EXIT_TREE) {

@@ -7,12 +7,14 @@
 #include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
+#include "nodes/body_mirrors.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
 
 namespace tactus {
@@ -155,8 +157,7 @@ HapticDevice* ProxyPointer::device_node() const {
     if (!is_inside_tree()) {
         return nullptr;
     }
-    return device_.is_empty() ? nearest_device()
-                              : Object::cast_to<HapticDevice>(get_node_or_null(device_));
+    return device_.is_empty() ? nearest_device() : Object::cast_to<HapticDevice>(get_node_or_null(device_));
 }
 
 String ProxyPointer::problem() const {
@@ -177,6 +178,30 @@ String ProxyPointer::problem() const {
     }
     return mask_ == 0 ? String("its 'collision_mask' is empty, so it touches nothing: set a layer in it")
                       : String();
+}
+
+String ProxyPointer::hindrance(const SceneFacts& facts) const {
+    // Of the largest and the smallest body: beyond these no touch is meant.
+    constexpr double too_large = 1.0;
+    constexpr double too_small = 1e-4;
+    if (facts.bodies == 0 || mask_ == 0) {
+        return String();
+    }
+    if ((mask_ & facts.layers) == 0) {
+        return "its 'collision_mask' has no layer that a body of its world is in, so it touches nothing: set "
+               "one of theirs";
+    }
+    const bool has_sizes = facts.largest > 0.0;
+    if (has_sizes && (radius_ > too_large * facts.largest || radius_ < too_small * facts.smallest)) {
+        return "the fingertip's radius of " + String::num(radius_) +
+               " m does not fit bodies that reach from " + String::num(facts.smallest, 4) + " m to " +
+               String::num(facts.largest, 4) + " m: set 'radius' to about a tenth of what is touched";
+    }
+    if (state_.handle != no_handle && !is_present()) {
+        return "the hand began inside a body, and is not felt until it has been outside once: move the "
+               "device, or the body, so that the hand begins in free space";
+    }
+    return String();
 }
 
 String ProxyPointer::get_state_text() const {
@@ -203,6 +228,9 @@ PackedStringArray ProxyPointer::_get_configuration_warnings() const {
     if (is_inside_tree() && !problem().is_empty()) {
         warnings.push_back("This ProxyPointer cannot touch: " + problem() + ".");
     }
+    if (const String lost = is_inside_tree() ? problem_without_world(*this) : String(); !lost.is_empty()) {
+        warnings.push_back("This ProxyPointer cannot touch: " + lost + ".");
+    }
     if (radius_was_refused_) {
         warnings.push_back("'" + String(get_name()) +
                            "' was given a radius that is no length above 0 and kept " + String::num(radius_) +
@@ -216,8 +244,8 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.device = device;
     description.settings.radius = radius_;
     description.settings.mask = mask_;
-    description.force_law = force_law_ == FORCE_LAW_SMOOTHED ? tactus::ForceLaw::smoothed
-                                                                    : tactus::ForceLaw::spring;
+    description.force_law =
+        force_law_ == FORCE_LAW_SMOOTHED ? tactus::ForceLaw::smoothed : tactus::ForceLaw::spring;
     description.enabled = enabled_;
     return description;
 }
@@ -317,17 +345,13 @@ void ProxyPointer::_notification(int what) {
     switch (what) {
         case NOTIFICATION_ENTER_TREE:
             make_pictures();
-            if (Engine::get_singleton()->is_editor_hint()) {
-                set_notify_transform(true);
-            } else {
-                Roll<ProxyPointer>::enter(this);
-            }
+            set_notify_transform(Engine::get_singleton()->is_editor_hint());
+            Roll<ProxyPointer>::enter(this);
+            watch_warnings(*this);
             break;
         case NOTIFICATION_EXIT_TREE:
-            if (!Engine::get_singleton()->is_editor_hint()) {
-                Roll<ProxyPointer>::leave(this);
-                clear_state();
-            }
+            Roll<ProxyPointer>::leave(this);
+            clear_state();
             break;
         case NOTIFICATION_TRANSFORM_CHANGED:
         case NOTIFICATION_VISIBILITY_CHANGED:

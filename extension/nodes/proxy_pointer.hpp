@@ -13,13 +13,14 @@
 namespace tactus {
 
 class HapticDevice;
+struct SceneFacts;
 
 // The fingertip that never enters a surface. Its place follows the proxy.
 class ProxyPointer : public godot::Node3D {
     GDCLASS(ProxyPointer, godot::Node3D)
 
 public:
-    enum ForceLaw { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
+    enum ForceLaw : int64_t { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
 
     void set_device(const godot::NodePath& path);
     godot::NodePath get_device() const { return device_; }
@@ -54,6 +55,8 @@ public:
     HapticDevice* device_node() const;
     // Why it cannot touch anything, and what to do; empty where nothing is wrong with it.
     godot::String problem() const;
+    // Why it will not touch what there is; empty where it can.
+    godot::String hindrance(const SceneFacts& facts) const;
     ProxyDescription description(SessionHandle device) const;
     // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
     using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;

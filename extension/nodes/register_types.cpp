@@ -3,6 +3,7 @@
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
 
+#include "nodes/body_watch.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
@@ -14,6 +15,7 @@
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/teleop_tuning.hpp"
+#include "nodes/workers.hpp"
 
 namespace tactus {
 
@@ -23,6 +25,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     if (level != godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         return;
     }
+    GDREGISTER_INTERNAL_CLASS(BodyWatch);
     GDREGISTER_CLASS(HapticMaterial);
     GDREGISTER_CLASS(HapticPath);
     GDREGISTER_CLASS(HapticMesh);
@@ -37,6 +40,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
 
 void let_go(godot::ModuleInitializationLevel level) {
     if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
+        Workers::end_shared();
         forget_signals();
     }
 }

@@ -1,8 +1,8 @@
-// Every signal of these nodes leaves through here, at a moment when nothing of any of them is in use: a handler
-// may free, remove, restart or change whatever it likes. Main thread only.
+// Every signal of these nodes leaves through here, at a moment when nothing of any of them is in use: a
+// handler may free, remove, restart or change whatever it likes. Main thread only.
 //
-// What is posted is sent when Godot's frame has come to its end, or earlier by deliver_signals(), in the order
-// of posting. What is gone by then sends nothing, and nothing is sent about nodes that are gone.
+// What is posted is sent when Godot's frame has come to its end, or earlier by deliver_signals(), in the
+// order of posting. What is gone by then sends nothing, and nothing is sent about nodes that are gone.
 #pragma once
 
 #include <array>

@@ -185,7 +185,15 @@ const SessionSettings& Session::settings() const {
     return impl_->settings;
 }
 
+bool Session::needs_bodies_twice() const {
+    return impl_->settings.history.ticks > 0 || impl_->has_twin;
+}
+
 ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) const {
+    return prepare_body(addition, needs_bodies_twice(), run);
+}
+
+ReadyBody Session::prepare_body(const BodyAddition& addition, bool twice, const ParallelRunner& run) {
     ReadyBody ready;
     ready.error = check_material(addition.touch_material);
     if (ready.error.empty()) {
@@ -207,7 +215,7 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(addition.description);
     ready.error = ready.body.error();
-    if (ready.body.ready() && (impl_->settings.history.ticks > 0 || impl_->has_twin)) {
+    if (ready.body.ready() && twice) {
         ready.same_body = duplicate(ready.body);
     }
     ready.material = with_texture(addition.touch_material, addition.texture.get());
@@ -312,6 +320,9 @@ void Session::remove_joint(SessionHandle joint) {
     }
 }
 
+void Session::push_body(SessionHandle body, const BodyPush& push) {
+    impl_->send(command::PushBody{body, push});
+}
 void Session::set_gravity(const Vec3& gravity) {
     impl_->send(command::SetGravity{gravity});
 }

@@ -1,6 +1,6 @@
 extends "nodes_case.gd"
-## What scripts do to nodes in their own signals and with values that make no sense: nothing breaks, and what is
-## refused is said.
+## What scripts do to nodes in their own signals and with values that make no sense: nothing breaks, and what
+## is refused is said.
 
 
 ## A hand that presses the floor a twentieth of a second from now on.
@@ -68,6 +68,8 @@ func test_a_world_freed_at_once_in_a_contact() -> void:
 	var world := _real_time()
 	var proxy := _pressed(world)
 	var id := world.get_instance_id()
+	# The proxy goes with its world while it sends the signal: Godot survives that, and disapproves.
+	expect_error("while a signal is being emitted from it")
 	proxy.contact_started.connect(func(_body: Node3D) -> void: instance_from_id(id).free())
 	check(await until(func() -> bool: return not is_instance_id_valid(id), 5.0), "it was not freed")
 
@@ -148,7 +150,7 @@ func test_a_body_that_frees_things_while_it_is_moved() -> void:
 	mover.source_code = """extends RigidBody3D
 var victim: Node
 func _notification(what: int) -> void:
-	if what == NOTIFICATION_TRANSFORM_CHANGED and victim != null and victim.is_inside_tree():
+	if what == NOTIFICATION_LOCAL_TRANSFORM_CHANGED and victim != null and victim.is_inside_tree():
 		var gone := victim
 		victim = null
 		gone.get_parent().remove_child(gone)
@@ -164,7 +166,7 @@ func _notification(what: int) -> void:
 		world.add_child(other)
 		var body := with_shape(RigidBody3D.new(), sphere(0.1), Vector3(0.5, 1, 0))
 		body.set_script(mover)
-		body.set_notify_transform(true)
+		body.set_notify_local_transform(true)
 		world.add_child(body)
 		world.advance(0.05)
 		body.set("victim", world if what == "World" else world.get_node(what))
@@ -230,7 +232,7 @@ func test_a_body_whose_place_is_no_place() -> void:
 
 func test_a_body_too_far_or_too_large() -> void:
 	for one: Array in [
-		[Transform3D(Basis(), Vector3(0, 1e30, 0)), "farther from the origin"],
+		[Transform3D(Basis(), Vector3(0, 1e12, 0)), "farther from the origin"],
 		[Transform3D(Basis().scaled(Vector3.ONE * 1e20), Vector3.ZERO), "scaled"],
 	]:
 		for before: bool in [true, false]:
@@ -256,9 +258,10 @@ func test_a_device_whose_place_is_no_place() -> void:
 	expect_error("not made of finite numbers")
 	world.advance(0.01)
 	check(device.get_state_text().contains("not made of finite numbers"), device.get_state_text())
+	check(not proxy.is_touching(), "it touches with a hand that is nowhere")
 	device.position.x = 0.0
 	world.advance(0.2)
-	check(proxy.is_touching(), "it does not touch once the device is back")
+	check(device.is_device_connected(), "the device does not come back")
 
 
 func test_a_device_of_another_world() -> void:
@@ -309,4 +312,3 @@ func test_two_complaints_with_the_same_hash_are_both_said() -> void:
 		world.add_child(body)
 		expect_error("%s: it has no shape" % body.get_path())
 	world.advance(0.01)
-
