@@ -15,6 +15,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
 
 namespace tactus {
 
@@ -245,6 +246,20 @@ std::shared_ptr<Device> HapticDevice::port() {
         mouse_target_ = from_godot(get_global_position());
     }
     return port_;
+}
+
+void HapticDevice::take_state(const DeviceState& state) {
+    const DeviceState before = std::exchange(state_, state);
+    if (before.connected != state.connected) {
+        post_signal(*this, state.connected ? "connected" : "disconnected");
+    }
+    const std::uint32_t changed = before.buttons ^ state.buttons;
+    for (int64_t button = 0; changed >> button != 0; ++button) {
+        if ((changed >> button & 1u) != 0) {
+            const bool pressed = (state.buttons >> button & 1u) != 0;
+            post_signal(*this, pressed ? "button_pressed" : "button_released", {button});
+        }
+    }
 }
 
 Workspace HapticDevice::workspace() const {

@@ -59,8 +59,8 @@ public:
     // Null where the driver has nothing to work with; another one after a change of driver or path.
     std::shared_ptr<Device> port();
     Workspace workspace() const;
-    void take_state(const DeviceState& state) { state_ = state; }
-    void clear_state() { state_ = {}; }
+    void take_state(const DeviceState& state);
+    void clear_state() { take_state({}); }
 
 protected:
     static void _bind_methods();

@@ -20,6 +20,13 @@ class ProxyPointer : public godot::Node3D {
     GDCLASS(ProxyPointer, godot::Node3D)
 
 public:
+    enum Status : int64_t {
+        STATUS_ABSENT = proxy_absent,
+        STATUS_TOUCHING = proxy_touching,
+        STATUS_SLIDING = proxy_sliding,
+        STATUS_UNFINISHED = proxy_unfinished,
+        STATUS_SQUEEZED = proxy_squeezed
+    };
     enum ForceLaw : int64_t { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
 
     void set_device(const godot::NodePath& path);
@@ -42,7 +49,7 @@ public:
     godot::Vector3 get_proxy_position() const;
     bool is_touching() const;
     bool is_present() const;
-    int64_t get_status() const { return state_.status; }
+    godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     godot::TypedArray<godot::Dictionary> get_contacts() const;
     godot::String get_state_text() const;
@@ -99,3 +106,4 @@ private:
 }  // namespace tactus
 
 VARIANT_ENUM_CAST(tactus::ProxyPointer::ForceLaw);
+VARIANT_BITFIELD_CAST(tactus::ProxyPointer::Status);
