@@ -10,6 +10,7 @@
 
 #include "nodes/body_building.hpp"
 #include "nodes/body_watch.hpp"
+#include "nodes/conversions.hpp"
 #include "nodes/workers.hpp"
 #include "session/session.hpp"
 
@@ -39,6 +40,9 @@ public:
     bool follow(Session& session, const MirrorContext& context, double seconds);
     // Whether its speed is the physics'.
     bool is_thrown() const { return handle_ != no_handle && values_.motion == Motion::Dynamic; }
+    // What is touched, and where it stands; null where it is not in the session.
+    const TouchShape* touch() const { return handle_ != no_handle ? addition_.touch.get() : nullptr; }
+    Pose pose() const { return pose_of(place_); }
     // Its size about its own place, 0 where it is not in the session (unit: meters).
     double reach() const { return addition_.touch != nullptr ? addition_.touch->reach : 0.0; }
     std::uint32_t layers() const { return values_.layers.layer; }

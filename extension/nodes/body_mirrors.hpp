@@ -13,6 +13,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "core/geometry/surface_query.hpp"
 #include "nodes/body_mirror.hpp"
 #include "nodes/body_watch.hpp"
 #include "nodes/joint_mirror.hpp"
@@ -26,6 +27,11 @@ struct SceneFacts {
     std::uint32_t layers = 0;  // that any of them is in
     double smallest = 0.0;     // reach of a body (unit: meters); planes are left out
     double largest = 0.0;
+};
+
+struct BodyPoint {
+    godot::CollisionObject3D* body = nullptr;  // null: nothing is met
+    SurfacePoint at;
 };
 
 class BodyMirrors {
@@ -53,6 +59,12 @@ public:
     BodyMirror* of(std::uint64_t node) const;
     BodyMirror* of_handle(SessionHandle handle) const;
     SceneFacts facts() const;
+    // In the world (unit: meters), among bodies of these layers.
+    BodyPoint nearest(const Vec3& point, double max_distance, std::uint32_t mask) const;
+    // The first surface from one point to another; `at.distance` is that from the first.
+    BodyPoint first_on_way(const Vec3& from, const Vec3& to, std::uint32_t mask) const;
+    std::vector<godot::CollisionObject3D*> within(const Vec3& center, double radius,
+                                                  std::uint32_t mask) const;
     std::size_t building() const { return building_.size(); }
 
 private:
@@ -70,6 +82,10 @@ private:
     void look_at_motion(BodyMirror& mirror, Session& session, const MirrorContext& context, double seconds,
                         Complaints& complaints);
     void take_handle(BodyMirror& mirror, SessionHandle before);
+    template <class Use>
+    void for_each_touchable(std::uint32_t mask, Use&& use) const;
+    static BodyPoint nearest_of(const std::vector<const BodyMirror*>& bodies, const Vec3& point,
+                                double max_distance);
     static void say_kind(const godot::Node& node, Complaints& complaints);
     static void say_problems(const BodyMirror& mirror, Complaints& complaints);
 

@@ -4,6 +4,7 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 
 #include "core/haptics/touch_material.hpp"
@@ -63,6 +64,11 @@ public:
     void apply_central_force(Body* body, const godot::Vector3& force);
     void apply_force(Body* body, const godot::Vector3& force, const godot::Vector3& position);
     void apply_torque(Body* body, const godot::Vector3& torque);
+    // What is there to touch: of all bodies of this world whose layers are in the mask.
+    godot::Dictionary get_nearest_surface(const godot::Vector3& point, double max_distance,
+                                          int64_t mask) const;
+    godot::Dictionary intersect_ray(const godot::Vector3& from, const godot::Vector3& to, int64_t mask) const;
+    godot::TypedArray<Body> intersect_sphere(const godot::Vector3& center, double radius, int64_t mask) const;
     godot::Vector3 get_linear_velocity(Body* body) const;
     godot::Vector3 get_angular_velocity(Body* body) const;
 
@@ -95,6 +101,7 @@ private:
 
     bool can_push(const char* method, const Body* body, const godot::Vector3& with,
                   const godot::Vector3& at = {}) const;
+    bool can_ask(const char* method, const godot::Vector3& where, double size) const;
     void start();
     void stop();
     void change(Change what);

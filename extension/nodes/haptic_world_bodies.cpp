@@ -11,6 +11,21 @@ namespace tactus {
 
 using namespace godot;
 
+namespace {
+
+Dictionary dictionary_of(const BodyPoint& found) {
+    Dictionary result;
+    if (found.body != nullptr) {
+        result["body"] = found.body;
+        result["position"] = to_godot(found.at.point);
+        result["normal"] = to_godot(found.at.normal);
+        result["distance"] = found.at.distance;
+    }
+    return result;
+}
+
+}  // namespace
+
 // As the method of a RigidBody3D has it: `position` is seen from the body's place, in the world's axes.
 bool HapticWorld::can_push(const char* method, const Body* body, const Vector3& with,
                            const Vector3& at) const {
@@ -79,6 +94,42 @@ Vector3 HapticWorld::get_linear_velocity(Body* body) const {
 Vector3 HapticWorld::get_angular_velocity(Body* body) const {
     const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
     return state != nullptr ? to_godot(state->angular_velocity) : Vector3();
+}
+
+bool HapticWorld::can_ask(const char* method, const Vector3& where, double size) const {
+    if (!where.is_finite() || !is_at_least_zero(size)) {
+        UtilityFunctions::push_error(
+            name_of(*this), ": ", method,
+            "() was asked with numbers that are no place or size: give finite ones.");
+        return false;
+    }
+    return run_ != nullptr;
+}
+
+Dictionary HapticWorld::get_nearest_surface(const Vector3& point, double max_distance, int64_t mask) const {
+    return can_ask("get_nearest_surface", point, max_distance)
+               ? dictionary_of(run_->bodies().nearest(from_godot(point), max_distance,
+                                                      static_cast<std::uint32_t>(mask)))
+               : Dictionary();
+}
+
+Dictionary HapticWorld::intersect_ray(const Vector3& from, const Vector3& to, int64_t mask) const {
+    return can_ask("intersect_ray", from, static_cast<double>(to.length()))
+               ? dictionary_of(run_->bodies().first_on_way(from_godot(from), from_godot(to),
+                                                           static_cast<std::uint32_t>(mask)))
+               : Dictionary();
+}
+
+TypedArray<CollisionObject3D> HapticWorld::intersect_sphere(const Vector3& center, double radius,
+                                                            int64_t mask) const {
+    TypedArray<CollisionObject3D> bodies;
+    if (can_ask("intersect_sphere", center, radius)) {
+        for (CollisionObject3D* body :
+             run_->bodies().within(from_godot(center), radius, static_cast<std::uint32_t>(mask))) {
+            bodies.push_back(body);
+        }
+    }
+    return bodies;
 }
 
 }  // namespace tactus

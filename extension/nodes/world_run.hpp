@@ -78,6 +78,7 @@ public:
     // Of one that can move, as shown last; null where there is none.
     const BodyState* state_of(const godot::Node* node);
 
+    const BodyMirrors& bodies() const { return bodies_; }
     Session& session() { return session_; }
     TickLoop& loop() { return loop_; }
     const TickLoop& loop() const { return loop_; }

@@ -5,6 +5,7 @@ Files of RELEASED run once more, as godot.released.FILE.TEST, in a program that 
 A file passes only with its END marker, and a test only without lines of error or leak that it has not announced.
 """
 
+import os
 import re
 import shutil
 import subprocess
@@ -25,6 +26,8 @@ MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 [node name="Runner" type="Node"]
 script = ExtResource("runner")
 """
+# What is freed is filled with this, so that a use after it shows.
+POISONED = os.environ | {"MALLOC_PERTURB_": "165"}
 TIME_LIMIT = 300  # (unit: seconds) a file
 TROUBLE = re.compile(r"^\s*(ERROR|SCRIPT ERROR|USER ERROR|USER SCRIPT ERROR):|leaked at exit|still in use at exit|^Leaked ")
 
@@ -52,7 +55,12 @@ def _run_file(path: Path, chosen: list[str]) -> list[Result]:
 def _run(prefix: str, command: list, names: list[str]) -> list[Result]:
     try:
         done = subprocess.run(
-            [*command, *names], timeout=TIME_LIMIT, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+            [*command, *names],
+            env=POISONED,
+            timeout=TIME_LIMIT,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
         )
     except subprocess.TimeoutExpired:
         return [Result(prefix + "file", f"not done after {TIME_LIMIT} s")]
