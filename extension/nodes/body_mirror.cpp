@@ -7,7 +7,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/shape_reading.hpp"
-#include "nodes/touch_values.hpp"
+#include "core/haptics/touch_values.hpp"
 
 namespace tactus {
 

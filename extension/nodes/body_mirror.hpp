@@ -11,7 +11,7 @@
 #include "nodes/body_building.hpp"
 #include "nodes/body_watch.hpp"
 #include "nodes/conversions.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 #include "session/session.hpp"
 
 namespace tactus {

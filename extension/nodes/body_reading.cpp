@@ -249,11 +249,10 @@ BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaul
 
 BodyMakings read_makings(const CollisionObject3D& body) {
     BodyMakings makings;
-    const auto* physics_body = Object::cast_to<PhysicsBody3D>(&body);
-    for (std::uint32_t i = 0; physics_body != nullptr && i < 6; ++i) {
-        makings.locks |= physics_body->get_axis_lock(axes[i]) ? 1u << i : 0u;
-    }
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            makings.locks |= rigid->get_axis_lock(axes[i]) ? 1u << i : 0u;
+        }
         makings.mass = rigid->get_mass();
         const HapticMesh* mesh = haptic_mesh_of(body);
         if (mesh != nullptr && mesh->is_giving_mass()) {

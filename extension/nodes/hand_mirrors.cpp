@@ -102,6 +102,11 @@ void HandMirrors::synchronise_proxies(Session& session, Complaints& complaints) 
         if (const String wrong = link.node->problem(); !wrong.is_empty()) {
             complaints.say(*link.node, wrong);
         }
+        if (link.node->is_kept_out()) {
+            complaints.say(*link.node,
+                           "the hand began inside a body, and is not felt until it has been outside once: "
+                           "move the device, or the body, so that it begins in free space");
+        }
         const ProxyDescription description = link.node->description(device_handle(device));
         if (link.handle == no_handle) {
             const AddResult added = session.add_proxy(description);

@@ -5,7 +5,7 @@
 #include <godot_cpp/classes/image.hpp>
 
 #include "nodes/messages.hpp"
-#include "nodes/touch_values.hpp"
+#include "core/haptics/touch_values.hpp"
 
 namespace tactus {
 

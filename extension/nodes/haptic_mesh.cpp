@@ -9,7 +9,7 @@
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/messages.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 

@@ -16,7 +16,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 #include "nodes/world_run.hpp"
 
 namespace tactus {

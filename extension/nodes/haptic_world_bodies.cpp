@@ -56,8 +56,8 @@ void HapticWorld::apply_central_impulse(Body* body, const Vector3& impulse) {
 
 void HapticWorld::apply_impulse(Body* body, const Vector3& impulse, const Vector3& position) {
     if (can_push("apply_impulse", body, impulse, position)) {
-        const Vec3 point = from_godot(body->get_global_position() + position);
-        run_->push(run_->body_of(body), {.impulse = from_godot(impulse), .point = point}, false);
+        run_->push(run_->body_of(body), {.impulse = from_godot(impulse), .point = from_godot(position)},
+                   false);
     }
 }
 
@@ -75,8 +75,7 @@ void HapticWorld::apply_central_force(Body* body, const Vector3& force) {
 
 void HapticWorld::apply_force(Body* body, const Vector3& force, const Vector3& position) {
     if (can_push("apply_force", body, force, position)) {
-        const Vec3 point = from_godot(body->get_global_position() + position);
-        run_->push(run_->body_of(body), {.impulse = from_godot(force), .point = point}, true);
+        run_->push(run_->body_of(body), {.impulse = from_godot(force), .point = from_godot(position)}, true);
     }
 }
 

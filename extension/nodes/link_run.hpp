@@ -16,7 +16,7 @@
 #include "nodes/link_route.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/model_view.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 #include "session/environment_teller.hpp"
 #include "session/model_builder.hpp"
 #include "session/session.hpp"

@@ -8,7 +8,7 @@
 
 #include "core/geometry/mesh_check.hpp"
 #include "nodes/mesh_reading.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 

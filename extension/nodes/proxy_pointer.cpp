@@ -197,10 +197,6 @@ String ProxyPointer::hindrance(const SceneFacts& facts) const {
                " m does not fit bodies that reach from " + String::num(facts.smallest, 4) + " m to " +
                String::num(facts.largest, 4) + " m: set 'radius' to about a tenth of what is touched";
     }
-    if (state_.handle != no_handle && !is_present()) {
-        return "the hand began inside a body, and is not felt until it has been outside once: move the "
-               "device, or the body, so that the hand begins in free space";
-    }
     return String();
 }
 

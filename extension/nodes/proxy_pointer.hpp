@@ -69,6 +69,8 @@ public:
     using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;
     void take_state(const ProxyState& state, const BodyIds& bodies);
     void clear_state();
+    // Its hand began inside a body.
+    bool is_kept_out() const { return state_.handle != no_handle && !is_present(); }
     void clear_force() { state_.force = Vec3(0.0); }
 
 protected:

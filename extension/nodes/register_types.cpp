@@ -15,7 +15,7 @@
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/teleop_tuning.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 

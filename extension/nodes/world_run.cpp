@@ -10,7 +10,7 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "nodes/touch_values.hpp"
+#include "core/haptics/touch_values.hpp"
 #include "realtime/clock.hpp"
 
 namespace tactus {

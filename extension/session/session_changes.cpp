@@ -199,7 +199,8 @@ bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
 
 bool SessionLoop::carry_out(command::PushBody& c, Retired&) {
     if (const Body* const pushed = body(c.handle)) {
-        const Vec3 point = c.push.central ? physics_.center_of_mass(pushed->id) : c.push.point;
+        const Vec3 point = c.push.central ? physics_.center_of_mass(pushed->id)
+                                          : physics_.pose(pushed->id).position + c.push.point;
         timeline_.apply_force(pushed->id, c.push.impulse / seconds_, point);
         timeline_.apply_torque(pushed->id, c.push.turn / seconds_);
     }

@@ -74,7 +74,7 @@ enum SessionStatus : std::uint32_t {
 // What a dynamic body is given at once, in the next tick.
 struct BodyPush {
     Vec3 impulse{0.0};     // in the world (unit: newton seconds)
-    Vec3 point{0.0};       // where, in the world (unit: meters)
+    Vec3 point{0.0};       // where, from the body's own place, in the world's axes (unit: meters)
     bool central = false;  // at its centre of mass instead
     Vec3 turn{0.0};        // angular impulse, in the world (unit: newton meter seconds)
 };

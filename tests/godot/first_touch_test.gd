@@ -7,7 +7,8 @@ func _say(scene: Node, text: String, seconds := 0.2) -> void:
 	add_child(scene)
 	for world in scene.find_children("*", "HapticWorld", true, false) + [scene]:
 		if world is HapticWorld and world.is_running() and world.clock == HapticWorld.CLOCK_STEPPED:
-			world.advance(seconds)
+			world.advance(seconds / 2.0)
+			world.advance(seconds / 2.0)
 	await until(func() -> bool: return false, 0.8)
 	scene.queue_free()
 

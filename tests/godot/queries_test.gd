@@ -27,7 +27,7 @@ func _worlds() -> Array[HapticWorld]:
 
 func test_the_nearest_surface() -> void:
 	for world in _worlds():
-		var found := world.get_nearest_surface(Vector3(1, 3, 3))
+		var found: Dictionary = world.get_nearest_surface(Vector3(1, 3, 3))
 		check_equal(found.get("body"), world.get_child(0), "body")
 		check_near(found.distance, 0.5, 1e-5, "distance")
 		check_near(found.position, Vector3(1, 2.5, 3), 1e-5, "position")
@@ -42,7 +42,7 @@ func test_the_nearest_surface() -> void:
 
 func test_a_ray() -> void:
 	for world in _worlds():
-		var found := world.intersect_ray(Vector3(1.1, 10, 3), Vector3(1.1, -10, 3))
+		var found: Dictionary = world.intersect_ray(Vector3(1.1, 10, 3), Vector3(1.1, -10, 3))
 		check_equal(found.get("body"), world.get_child(0), "body")
 		check_near(found.position, Vector3(1.1, 2.5, 3), 1e-5, "position")
 		check_near(found.normal, Vector3.UP, 1e-4, "normal")

@@ -1,5 +1,6 @@
 extends Node
-## Runs the test_* methods of the file that the first user argument names, or of those the methods that follow.
+## Runs the test_* methods of the file that the first user argument names, or of those the methods that
+## follow.
 ##
 ## Each method runs on a fresh instance with a fresh branch of the tree; it may await. Prints RUN, PASS,
 ## FAIL and, when everything has run, END: only then does tools/testing/godot_suite.py believe the rest.

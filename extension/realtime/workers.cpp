@@ -1,4 +1,4 @@
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 
 #include <sys/resource.h>
 
