@@ -4,10 +4,10 @@
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/core/object.hpp>
 
+#include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/shape_reading.hpp"
-#include "core/haptics/touch_values.hpp"
 
 namespace tactus {
 

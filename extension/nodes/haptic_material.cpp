@@ -4,8 +4,8 @@
 #include <cstring>
 #include <godot_cpp/classes/image.hpp>
 
-#include "nodes/messages.hpp"
 #include "core/haptics/touch_values.hpp"
+#include "nodes/messages.hpp"
 
 namespace tactus {
 

@@ -16,8 +16,8 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
-#include "realtime/workers.hpp"
 #include "nodes/world_run.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 

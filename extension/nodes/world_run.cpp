@@ -4,13 +4,13 @@
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/core/object.hpp>
 
+#include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "core/haptics/touch_values.hpp"
 #include "realtime/clock.hpp"
 
 namespace tactus {
