@@ -85,6 +85,7 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
     place_problem_.clear();
+    was_nowhere_ = !problem_of_place(node.get_global_transform()).empty();
     key_ = shape_key(node);
     mesh_changes_ = HapticMesh::changes();
     makings_ = read_makings(node);
@@ -159,7 +160,8 @@ void BodyMirror::catch_up(Session& session, const BodyPlan& plan) {
 }
 
 bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) {
-    if (!tried_ || !(read_makings(node) == makings_) || !(shape_key(node) == key_)) {
+    const bool is_back = was_nowhere_ && problem_of_place(node.get_global_transform()).empty();
+    if (!tried_ || is_back || !(read_makings(node) == makings_) || !(shape_key(node) == key_)) {
         return true;
     }
     if (!shapes_changed && mesh_changes_ == HapticMesh::changes()) {
@@ -280,7 +282,7 @@ bool BodyMirror::follow(Session& session, const MirrorContext& context, double s
 
 // Moving the node may call a script, which may let it go.
 void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
-    if (state.changed_at == shown_change_ || values_.motion != Motion::Dynamic || tick < shown_from_) {
+    if (!place_problem_.empty() || state.changed_at == shown_change_ || values_.motion != Motion::Dynamic || tick < shown_from_) {
         return;
     }
     auto* rigid = Object::cast_to<RigidBody3D>(body());

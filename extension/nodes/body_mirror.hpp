@@ -103,6 +103,7 @@ private:
     std::uint64_t shown_change_ = 0;  // BodyState::changed_at that Godot's side shows
     std::uint64_t shown_from_ = 0;    // earlier ticks do not know yet what was sent last
     bool tried_ = false;
+    bool was_nowhere_ = false;  // when the newest twin was planned: there could be none
     std::vector<std::string> problems_;
     std::string place_problem_;  // of where it is now; the twin stays where it was
 };

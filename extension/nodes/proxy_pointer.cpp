@@ -263,7 +263,9 @@ void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
 void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
     state_ = state;
     contact_bodies_ = bodies;
-    if (is_present()) {
+    // Below a node that is scaled to zero there are no places.
+    const Node3D* parent = get_parent_node_3d();
+    if (is_present() && (parent == nullptr || parent->get_global_transform().basis.determinant() != 0)) {
         set_global_position(to_godot(state.position));
     }
     place_pictures();

@@ -38,10 +38,9 @@ func _run(output: String) -> void:
 
 ## So long the kernel has had the main thread on a processor, in milliseconds.
 func _main_thread_ms() -> float:
-	var text := FileAccess.get_file_as_string(
-		"/proc/%d/task/%d/schedstat" % [OS.get_process_id(), OS.get_process_id()]
-	)
-	return float(text.get_slice(" ", 0)) * 1e-6
+	var id := OS.get_process_id()
+	var file := FileAccess.open("/proc/%d/task/%d/schedstat" % [id, id], FileAccess.READ)
+	return float(file.get_line().get_slice(" ", 0)) * 1e-6
 
 
 func _frames(count: int) -> void:
