@@ -91,7 +91,7 @@ std::size_t triangle_count(const BodyReading& reading) {
     return count;
 }
 
-BuiltBody build_body(const Session& session, const BodyPlan& plan, const ParallelRunner& run) {
+BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
     BuiltBody result;
     result.problems = plan.reading.problems;
     const std::vector<BuiltDraft> colliding = build_drafts(plan.reading.meshes, run, result.problems);
@@ -134,7 +134,7 @@ BuiltBody build_body(const Session& session, const BodyPlan& plan, const Paralle
     description.may_move = plan.may_move;
     description.linear_velocity = from_godot(plan.linear_velocity);
     description.angular_velocity = from_godot(plan.angular_velocity);
-    result.body = session.prepare_body(addition, run);
+    result.body = Session::prepare_body(addition, run);
     result.addition = std::move(addition);
     return result;
 }

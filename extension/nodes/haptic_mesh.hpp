@@ -16,6 +16,8 @@ class HapticMesh : public godot::Node3D {
     GDCLASS(HapticMesh, godot::Node3D)
 
 public:
+    ~HapticMesh() override;
+
     void set_mesh(const godot::Ref<godot::Mesh>& mesh);
     godot::Ref<godot::Mesh> get_mesh() const { return mesh_; }
     void set_library_mesh(const godot::String& name);

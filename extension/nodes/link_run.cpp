@@ -93,10 +93,18 @@ LinkRun::LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std:
     }
 }
 
-LinkRun::~LinkRun() {
+LinkRun::~LinkRun() = default;
+
+void LinkRun::end() {
     if (node_ != nullptr) {
         node_->clear_report();
     }
+    node_ = nullptr;
+    route_.put(nullptr);
+    route_.take();
+    opening_.reset();
+    past_way_.reset();
+    way_.reset();
 }
 
 void LinkRun::attach(Session& session) {

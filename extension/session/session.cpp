@@ -185,7 +185,7 @@ const SessionSettings& Session::settings() const {
     return impl_->settings;
 }
 
-ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) const {
+ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) {
     ReadyBody ready;
     ready.error = check_material(addition.touch_material);
     if (ready.error.empty()) {
@@ -313,6 +313,9 @@ void Session::remove_joint(SessionHandle joint) {
     }
 }
 
+void Session::push_body(SessionHandle body, const BodyPush& push) {
+    impl_->send(command::PushBody{body, push});
+}
 void Session::set_gravity(const Vec3& gravity) {
     impl_->send(command::SetGravity{gravity});
 }

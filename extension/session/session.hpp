@@ -65,7 +65,7 @@ public:
     // -------------------------------------------------------------------------------------------------
 
     // Any thread, any time: builds the triangle tree and the rigid body, the tree with the help of `run`.
-    ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially) const;
+    static ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially);
     // Hands it to the loop. Nothing is added on an error.
     AddResult add_body(ReadyBody&& body);
     AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
@@ -85,6 +85,8 @@ public:
     // Pushes a dynamic body in every tick from now on: a force at its centre of mass and a torque, in the
     // world (units: newtons, newton meters).
     void set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque);
+    // Once, in the next tick.
+    void push_body(SessionHandle body, const BodyPush& push);
     void set_gravity(const Vec3& gravity);
 
     // Joins two bodies, or one and the world (no_handle). The joint's frame is given in that of the first of

@@ -209,6 +209,16 @@ bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
     return false;
 }
 
+bool SessionLoop::carry_out(command::PushBody& c, Retired&) {
+    if (const Body* const pushed = body(c.handle)) {
+        const Vec3 point = c.push.central ? physics_.center_of_mass(pushed->id)
+                                          : physics_.pose(pushed->id).position + c.push.point;
+        timeline_.apply_force(pushed->id, c.push.impulse / seconds_, point);
+        timeline_.apply_torque(pushed->id, c.push.turn / seconds_);
+    }
+    return false;
+}
+
 bool SessionLoop::carry_out(command::SetBodyPush& c, Retired&) {
     Body* const changed = body(c.handle);
     if (!changed) {

@@ -67,6 +67,10 @@ struct SetBodyPush {
     SessionHandle handle;
     Vec3 force, torque;
 };
+struct PushBody {
+    SessionHandle handle;
+    BodyPush push;
+};
 struct AddJoint {
     SessionHandle handle;
     JointDescription joint;  // its frame in that of the first of its bodies
@@ -118,8 +122,8 @@ namespace tactus {
 using Command = std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
                              command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
                              command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
-                             command::SetBodyDamping, command::SetBodyPush, command::AddJoint,
-                             command::RemoveJoint, command::SetGravity, command::AddDevice,
+                             command::SetBodyDamping, command::SetBodyPush, command::PushBody,
+                             command::AddJoint, command::RemoveJoint, command::SetGravity, command::AddDevice,
                              command::SetWorkspace, command::RemoveDevice, command::AddProxy,
                              command::SetProxy, command::RemoveProxy, command::Record, command::Attach>;
 

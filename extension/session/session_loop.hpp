@@ -137,6 +137,7 @@ private:
     bool carry_out(command::SetBodyGravityScale& c, Retired&);
     bool carry_out(command::SetBodyDamping& c, Retired&);
     bool carry_out(command::SetBodyPush& c, Retired&);
+    bool carry_out(command::PushBody& c, Retired&);
     bool carry_out(command::AddJoint& c, Retired&);
     bool carry_out(command::RemoveJoint& c, Retired& retired);
     bool carry_out(command::SetGravity& c, Retired&);

@@ -1,4 +1,4 @@
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 
 #include <sys/resource.h>
 
@@ -35,6 +35,33 @@ Workers::~Workers() {
     }
 }
 
+std::unique_ptr<Workers>& Workers::instance() {
+    static std::unique_ptr<Workers> workers;
+    return workers;
+}
+
+Workers& Workers::shared() {
+    if (instance() == nullptr) {
+        instance() = std::make_unique<Workers>();
+    }
+    return *instance();
+}
+
+void Workers::end_shared() {
+    if (const std::unique_ptr<Workers> last = std::move(instance())) {
+        last->wait();
+    }
+}
+
+void Workers::discard(std::function<void()> destroy) {
+    Workers* const workers = instance().get();
+    if (workers != nullptr && !workers->threads_.empty()) {
+        workers->add(std::move(destroy));
+    } else {
+        destroy();
+    }
+}
+
 void Workers::start() {
     const unsigned processors = std::thread::hardware_concurrency();
     for (unsigned i = 0; i < std::max(processors, 1u); ++i) {
@@ -66,11 +93,12 @@ void Workers::work() {
             lock.lock();
             std::erase(batches_, batch);
         } else if (!jobs_.empty()) {
-            const std::function<void()> job = std::move(jobs_.front());
+            std::function<void()> job = std::move(jobs_.front());
             jobs_.pop_front();
             ++working_;
             lock.unlock();
             job();
+            job = nullptr;  // what it owns goes while nobody waits
             lock.lock();
             if (--working_ == 0 && jobs_.empty()) {
                 all_done_.notify_all();

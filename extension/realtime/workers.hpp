@@ -1,5 +1,5 @@
 // Threads for what takes longer than a frame: they take jobs in the order given and help each other inside
-// one.
+// one. All worlds share them: a job owns what it works on, so that nobody has to wait for it.
 //
 // Threads: add() belongs to the main thread; runner()'s result may be called by anybody, also from inside a
 // job. None of them may be the haptic thread. They start with the first job.
@@ -28,6 +28,19 @@ public:
 
     void add(std::function<void()> job);
 
+    // Those of the program; they end with end_shared().
+    static Workers& shared();
+    static void end_shared();
+
+    // Has it destroyed here, where that may take as long as it likes.
+    template <class Value>
+    static std::shared_ptr<Value> freed_aside(Value value) {
+        return std::shared_ptr<Value>(new Value(std::move(value)),
+                                      [](Value* gone) { discard([gone] { delete gone; }); });
+    }
+    // Called by one of the threads, or at once where there are none.
+    static void discard(std::function<void()> destroy);
+
     // Calls tasks on the caller's thread and on those that have nothing to do.
     ParallelRunner runner();
 
@@ -41,6 +54,8 @@ private:
     void work();
     void run(std::size_t count, const std::function<void(std::size_t)>& task);
     static void take_part(Batch& batch);
+
+    static std::unique_ptr<Workers>& instance();
 
     std::vector<std::thread> threads_;
     std::mutex mutex_;  // of all below
