@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/geometry/box_node.hpp"
+#include "core/geometry/inside_test.hpp"
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
 
@@ -72,6 +73,10 @@ public:
     double sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit,
                  Work& work) const;
 
+    // How often the surface winds around the point: of use for closed meshes only (see is_closed). Costs
+    // what a ray costs; nothing is allocated. Where `work` is used up, nothing is known.
+    Winding winding(const Vec3& point, Work& work) const;
+
     const TrianglePack& pack(std::uint32_t index) const { return packs_[index]; }
     void fetch_pack(std::uint32_t index) const { fetch_early(&packs_[index], sizeof(TrianglePack)); }
     // Which triangles of the mesh stand in the lanes of a pack.
@@ -88,6 +93,7 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
+    bool crossings(const Vec3& point, int axis, double sign, Work& work, int& number) const;
     NearestTriangle search(const Vec3& point, double far, double share, double& least) const;
     void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
