@@ -2,11 +2,12 @@
 // each time that the surface winds around the point.
 //
 // What would go wrong is a half-line that meets an edge or a corner and is counted for both neighbours or for
-// none. So the sides that the half-line passes are decided edge by edge, from the edge's two ends alone and in
-// one order, whichever triangle asks: neighbours get the same answer to the last bit. What rounding does to it
-// is what bending the edge by as much would do, and a bent surface is closed as well. What is left is whether
-// a triangle that the half-line's line passes through lies before or behind the point; where that cannot be
-// told the point is on the triangle, or the triangle is seen from its edge: another axis decides then.
+// none. So the sides that the half-line passes are decided edge by edge, from the edge's two ends alone and
+// in one order, whichever triangle asks: neighbours get the same answer to the last bit. What rounding does
+// to it is what bending the edge by as much would do, and a bent surface is closed as well. What is left is
+// whether a triangle that the half-line's line passes through lies before or behind the point; where that
+// cannot be told the point is on the triangle, or the triangle is seen from its edge: another axis decides
+// then.
 #include "core/geometry/inside_test.hpp"
 
 #include <algorithm>
