@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/haptics/fading_force.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "physics/timeline.hpp"
@@ -41,6 +42,8 @@ public:
         Vec3 force{0.0};          // of the scene as it is here; what the hand is given is state.force
                                   // (unit: newtons)
         Vec3 force_before{0.0};   // one tick ago
+        FadingForce fading;       // from `force` to state.force
+        bool jumped = false;      // see ProxyTick
         HandForce parts;
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
@@ -175,6 +178,7 @@ private:
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
     void touch_all(Nanoseconds now);
+    void fade_jumps();
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
     void break_surfaces(ProxySlot& slot, const HandForce& force);

@@ -21,7 +21,9 @@ struct TouchPart {
     Vec3 center{0.0};     // of a ball that holds the part, in the part's frame (unit: meters)
     double radius = 0.0;  // of that ball; infinite for a half-space (unit: meters)
     std::shared_ptr<const std::vector<CornerNormals>>
-        smooth_normals;  // by triangle of the mesh; null: facets
+        smooth_normals;      // by triangle of the mesh; null: facets
+    bool closed = false;     // a mesh that bounds a solid (see is_closed)
+    bool one_sided = false;  // of closed meshes: touched from outside only; what is inside is let out
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);

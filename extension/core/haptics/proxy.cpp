@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
@@ -15,9 +16,33 @@ Proxy::Proxy(std::size_t most_parts, const ProxySettings& settings)
 // enough: the first step lifts the sphere off by the thousandth of its radius that may be missing.
 bool Proxy::appear() {
     const double room = settings_.radius * (1.0 - 1e-3);
-    present_ = surroundings_.has_room(position_, room);
+    present_ = surroundings_.has_room(position_, room) &&
+               !is_inside_one_sided(*scene_, position_, settings_.mask, surroundings_.work_left());
     contacts_hold_ = false;
     return present_;
+}
+
+// Whether the force may change although neither hand nor bodies have moved.
+bool Proxy::take_in_jumps() {
+    const bool other_sphere = settings_.radius != settled_.radius || settings_.mask != settled_.mask;
+    const std::uint64_t since = std::exchange(revision_, scene_->revision());
+    const bool other_material =
+        std::exchange(material_changes_, scene_->material_changes()) != scene_->material_changes();
+    settled_ = settings_;
+    if (!other_sphere && since == revision_) {
+        return other_material;
+    }
+    if (present_) {
+        let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(),
+                       surroundings_.work_left()));
+    }
+    return true;
+}
+
+// Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.
+void Proxy::let_go(bool every) {
+    present_ = present_ && every;
+    contacts_hold_ = false;
 }
 
 // Straight on until something is in the way.
@@ -63,6 +88,9 @@ void Proxy::ride_along(ProxyTick& tick) {
     }
     if (squeezed) {
         tick.status |= proxy_squeezed;
+        const std::size_t before = surroundings_.passed().count();
+        let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work_left()));
+        tick.jumped = tick.jumped || surroundings_.passed().count() != before;
     }
 }
 
@@ -205,13 +233,21 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     }
     const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask);
     contacts_hold_ = contacts_hold_ && !changed;
+    const bool was_present = present_;
+    tick.jumped = take_in_jumps();
+    if (present_) {
+        ride_along(tick);
+    }
+    if (was_present && !present_) {
+        displace(hand - position_);
+        tick.jumped = true;
+    }
     if (!present_ && !appear()) {
         touching_.clear();
         tick.position = hand;
-        tick.status = proxy_absent;
+        tick.status |= proxy_absent;
         return tick;
     }
-    ride_along(tick);
     touching_.clear();
     if (!fly(hand)) {
         descend(hand, tick);
@@ -219,6 +255,12 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     tick.position = position_;
     tick.status |= touching_.count > 0 ? static_cast<std::uint32_t>(proxy_touching) : 0u;
     tick.status |= sliding_ ? static_cast<std::uint32_t>(proxy_sliding) : 0u;
+    const PassedBodies& passed = surroundings_.passed();
+    if (passed.any(PassedBecause::squeezes)) {
+        tick.status |= static_cast<std::uint32_t>(proxy_squeezed) | proxy_letting_out;
+    } else if (passed.any(PassedBecause::overlaps)) {
+        tick.status |= proxy_letting_out;
+    }
     return tick;
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/haptics/constrained_step.hpp"
+#include "core/haptics/letting_out.hpp"
 #include "core/haptics/surroundings.hpp"
 
 namespace tactus {
@@ -27,6 +28,9 @@ enum ProxyStatus : std::uint32_t {
     proxy_sliding = 1u << 2,     // dynamic friction applies
     proxy_unfinished = 1u << 3,  // the steps of this tick did not suffice: residual is not small
     proxy_squeezed = 1u << 4,    // moving bodies leave it no room
+    // A body has come to stand where the proxy is, or has squeezed it: it is not touched until the proxy is
+    // out of it.
+    proxy_letting_out = 1u << 5,
 };
 
 struct ProxyTick {
@@ -35,6 +39,9 @@ struct ProxyTick {
     double residual = 0.0;  // length of the step that would come next (unit: meters)
     std::uint32_t status = 0;
     int steps = 0;
+    // Something else than the motion of the hand and of bodies has changed what is touched since the last
+    // tick: the force may jump (see FadingForce).
+    bool jumped = false;
 };
 
 // Everything of a proxy that its next move depends on, besides the scene.
@@ -78,9 +85,10 @@ public:
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
+    // False where it goes through too many bodies already.
     bool pass_through(int body) {
         contacts_hold_ = false;
-        return surroundings_.pass_through(body);
+        return surroundings_.passed().pass(body, PassedBecause::broken);
     }
 
     // As if just started: present again as soon as the hand is in a free place.
@@ -92,6 +100,9 @@ public:
 
 private:
     bool appear();
+    TouchingSphere sphere() const { return {position_, settings_.radius, settings_.mask, touching()}; }
+    bool take_in_jumps();
+    void let_go(bool every);
     void ride_along(ProxyTick& tick);
     void advance(const Vec3& motion, bool& free, int except = -1);
     int carrier() const;
@@ -112,6 +123,10 @@ private:
     Vec3 hand_{0.0};  // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
+    // What the last move has seen.
+    std::uint64_t revision_ = 0;
+    std::uint64_t material_changes_ = 0;
+    ProxySettings settled_{0.0, 0, 0};
     ContactList touching_;
 };
 

@@ -47,9 +47,10 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     last_way_ = center - center_at_tick_;
     center_at_tick_ = center;
     follow_moved_bodies();
-    return_passed(center);
+    const bool passes = !passed_.empty();
+    passed_.update(scene, center, radius_ + tolerances_.skin, work_left_);
     retire_distant_parts();
-    return changed || passed_count_ > 0 || !scene.moved_bodies().empty();
+    return changed || passes || !scene.moved_bodies().empty();
 }
 
 bool Surroundings::take_in_changes(const TouchScene& scene, const Vec3& center, double radius,
@@ -98,40 +99,6 @@ void Surroundings::follow_moved_bodies() {
             if (record.place == Place::far && record.slack > record.slack_until) {
                 make_near(part);
             }
-        }
-    }
-}
-
-bool Surroundings::pass_through(int body) {
-    if (passed_count_ == most_passed) {
-        return false;
-    }
-    passed_[passed_count_++] = {body, false};
-    return true;
-}
-
-bool Surroundings::is_passed(std::uint32_t body) const {
-    for (std::size_t i = 0; i < passed_count_; ++i) {
-        if (passed_[i].body == static_cast<int>(body)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it.
-void Surroundings::return_passed(const Vec3& center) {
-    const double room = radius_ + tolerances_.skin;
-    for (std::size_t i = 0; i < passed_count_;) {
-        Passed& passed = passed_[i];
-        const bool gone = !scene_->body(passed.body).shape;
-        const double distance =
-            gone ? 0.0 : nearest_surface(*scene_, passed.body, center, 2.0 * room).distance;
-        passed.entered = passed.entered || distance < room - tolerances_.skin;
-        if (gone || distance >= (passed.entered ? room : 1.5 * room)) {
-            passed = passed_[--passed_count_];
-        } else {
-            ++i;
         }
     }
 }

@@ -16,6 +16,7 @@
 #include "core/haptics/contact.hpp"
 #include "core/haptics/near_triangles.hpp"
 #include "core/haptics/neighbourhood.hpp"
+#include "core/haptics/passed_bodies.hpp"
 #include "core/haptics/tolerances.hpp"
 #include "core/haptics/touch_scene.hpp"
 
@@ -57,9 +58,12 @@ public:
     };
     bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
 
-    // The body is no longer in the way, until the sphere has gone through its surface and is clear of it
-    // again. At most four at a time; false where there are four already.
-    bool pass_through(int body);
+    // Bodies that are not in the way for now.
+    PassedBodies& passed() { return passed_; }
+    const PassedBodies& passed() const { return passed_; }
+
+    // What this tick may still look at.
+    Work& work_left() { return work_left_; }
 
     // False where this tick has looked at so much that it must end: what is still missing is for the next.
     bool may_go_on() const { return work_left_ > 0; }
@@ -87,17 +91,11 @@ private:
         std::uint32_t stamp;
     };
 
-    struct Passed {
-        int body;
-        bool entered;  // the sphere has been within its surface since
-    };
-
     bool take_in_changes(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
     void forget_all(const Vec3& center);
     void forget(std::uint32_t part, const Vec3& center);
     void follow_moved_bodies();
-    bool is_passed(std::uint32_t body) const;
-    void return_passed(const Vec3& center);
+    bool is_passed(std::uint32_t body) const { return passed_.contains(static_cast<int>(body)); }
     void bring_near(double length, const Vec3& center);
     void make_near(std::uint32_t part);
     void leave_near(std::uint32_t part);
@@ -119,7 +117,6 @@ private:
                        double limit);
     double look_everywhere(const TriangleTree& tree, const Vec3& local, double limit);
 
-    static constexpr std::size_t most_passed = 4;
     // What one tick may look at, in packs of four triangles: some 30 ns each, below half a millisecond.
     static constexpr Work most_work = 16'384;
 
@@ -138,8 +135,7 @@ private:
     std::vector<Record> records_;
     std::vector<Far> far_;  // a heap, soonest due on top
     std::vector<std::uint32_t> near_;
-    std::array<Passed, most_passed> passed_{};
-    std::size_t passed_count_ = 0;
+    PassedBodies passed_;
     Work work_left_ = 0;
     std::unique_ptr<Neighbourhood[]> hoods_;
     std::vector<std::int16_t> free_hoods_;

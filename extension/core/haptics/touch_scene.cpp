@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
@@ -58,7 +59,7 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
     if (slot->first_part <= parts_full_below_) {
         parts_full_below_ = slot->first_part + shape.parts.size();
     }
-    note_change(*slot);
+    note_change(index, Change::Kind::came, pose, 0);
     return index;
 }
 
@@ -68,15 +69,17 @@ void TouchScene::remove(int body) {
         parts_[removed.first_part + i] = {};
     }
     std::erase(moved_, body);
-    note_change(removed);
+    note_change(body, Change::Kind::went, removed.pose, removed.layer);
     bodies_full_below_ = std::min(bodies_full_below_, static_cast<std::size_t>(body));
     parts_full_below_ = std::min(parts_full_below_, static_cast<std::size_t>(removed.first_part));
     removed = {};
 }
 
-void TouchScene::note_change(const TouchBody& body) {
-    changes_[++revision_ % remembered_changes] = {body.first_part,
-                                                  static_cast<std::uint32_t>(body.shape->parts.size())};
+void TouchScene::note_change(int index, Change::Kind kind, const Pose& from, std::uint32_t layer_from) {
+    const TouchBody& changed = body(index);
+    changes_[++revision_ % remembered_changes] = {
+        kind, changed.first_part, static_cast<std::uint32_t>(changed.shape->parts.size()), index,
+        from, layer_from};
 }
 
 void TouchScene::begin_tick() {
@@ -99,10 +102,10 @@ void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {
     if (same_pose(pose, body.pose)) {
         return;
     }
-    body.pose = pose;
+    const Pose from = std::exchange(body.pose, pose);
     if (teleport) {
         body.previous = pose;
-        note_change(body);
+        note_change(index, Change::Kind::elsewhere, from, body.layer);
     } else if (!body.moved) {
         body.moved = true;
         moved_.push_back(index);
@@ -124,8 +127,8 @@ void TouchScene::displace(int index, const Pose& motion) {
 }
 
 void TouchScene::set_layer(int body, std::uint32_t layer) {
-    body_at(body).layer = layer;
-    note_change(body_at(body));
+    const std::uint32_t before = std::exchange(body_at(body).layer, layer);
+    note_change(body, Change::Kind::layer, this->body(body).pose, before);
 }
 
 }  // namespace tactus
