@@ -9,12 +9,26 @@ BINDING = Path("extension/binding")
 
 
 def installed(prefix, target):
-    libraries = sorted(Path(prefix, "lib").glob(f"libgodot-cpp.linux.{target}.*.a")) or sorted(
-        Path(prefix, "lib").glob("libgodot-cpp*.a")
-    )
-    if not libraries:
-        raise RuntimeError(f"{prefix}/lib has no libgodot-cpp*.a")
-    return Path(prefix, "include"), libraries[0]
+    """Include folders and library of a godot-cpp: one that was installed (include/, lib/), or a checkout in which it
+    was built (include/, gen/include/, gdextension/, bin/)."""
+    root = Path(prefix)
+    includes = [root / name for name in ("include", "gen/include", "gdextension") if (root / name).is_dir()]
+    if not any((folder / "godot_cpp/godot.hpp").is_file() for folder in includes):
+        raise RuntimeError(f"{prefix} has no include/godot_cpp/godot.hpp: it is no godot-cpp")
+    if not any((folder / "godot_cpp/classes/node3d.hpp").is_file() for folder in includes):
+        raise RuntimeError(f"{prefix} has no generated classes yet: build godot-cpp first, with scons target={target}")
+    return includes, _installed_library(root, target)
+
+
+def _installed_library(root, target):
+    found = sorted(path for folder in ("lib", "bin") for path in (root / folder).glob("libgodot-cpp*.a"))
+    suits = [path for path in found if f".linux.{target}." in path.name and ".double." not in path.name]
+    # Without a target in its name it is the only one there is.
+    suits += [path for path in found if path.name == "libgodot-cpp.a"]
+    if not suits:
+        names = ", ".join(path.name for path in found) or "none"
+        raise RuntimeError(f"{root} has no libgodot-cpp for {target} (found: {names}): scons target={target} builds it")
+    return suits[0]
 
 
 def defines(target):

@@ -18,7 +18,7 @@ def needed(command: str) -> list[Step]:
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
     if command == "bench":
         return plan
-    if command in ("setup", "export", "test"):
+    if command in ("setup", "export", "addon", "test"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]
 
@@ -56,7 +56,11 @@ def export(_: list[str]) -> int:
     return project.export()
 
 
-COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, edit, app, export)}
+def addon(arguments: list[str]) -> int:
+    return cache.run_tool("addon.py", *arguments)
+
+
+COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, edit, app, export, addon)}
 
 if __name__ == "__main__":
     try:

@@ -214,7 +214,7 @@ void HapticMaterial::bind_value(const char* name, const char* hint) {
     const std::string getter = std::string("get_") + name;
     ClassDB::bind_method(D_METHOD(setter.c_str(), "value"), &HapticMaterial::set_value<member>);
     ClassDB::bind_method(D_METHOD(getter.c_str()), &HapticMaterial::get_value<member>);
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, name, PROPERTY_HINT_RANGE, hint), setter.c_str(),
+    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, name, PROPERTY_HINT_RANGE, String::utf8(hint)), setter.c_str(),
                  getter.c_str());
 }
 

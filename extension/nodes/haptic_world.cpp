@@ -517,8 +517,8 @@ void HapticWorld::_bind_methods() {
                  "set_tick_rate", "get_tick_rate");
     ADD_PROPERTY(PropertyInfo(Variant::INT, "clock", PROPERTY_HINT_ENUM, "Real time,Stepped"), "set_clock",
                  "get_clock");
-    ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "gravity", PROPERTY_HINT_NONE, "suffix:m/s²"), "set_gravity",
-                 "get_gravity");
+    ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "gravity", PROPERTY_HINT_NONE, String::utf8("suffix:m/s²")),
+                 "set_gravity", "get_gravity");
     ADD_PROPERTY(
         PropertyInfo(Variant::OBJECT, "default_material", PROPERTY_HINT_RESOURCE_TYPE, "HapticMaterial"),
         "set_default_material", "get_default_material");

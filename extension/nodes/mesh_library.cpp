@@ -57,7 +57,7 @@ godot::PackedStringArray mesh_library_names() {
 }
 
 LibraryMesh load_library_mesh(const String& name) {
-    const String path = mesh_library_folder().path_join(name + ".obj");
+    const String path = mesh_library_folder().path_join(name + String(".obj"));
     if (!is_plain_name(name) || !FileAccess::file_exists(path)) {
         return {nullptr, from_godot("the mesh library has no mesh '" + name + "': choose one of " +
                                     all_names() + ", or put " + name + ".obj into " + mesh_library_folder())};

@@ -382,7 +382,7 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     const DeviceSample device = loop.device_sample(slot.description.device);
     OperatorSample sample;
     sample.sequence = sample_;
-    sample.time = now;
+    sample.time = link_.local_time(now);
     sample.pointer = static_cast<std::uint16_t>(index);
     sample.connected = device.connected;
     sample.buttons = device.buttons;

@@ -24,17 +24,20 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
       seconds_(to_seconds(session.period)),
       moved_at_(session.most_bodies),
       told_(session.most_bodies) {
-    for (Pointer& pointer : pointers_) {
-        pointer.buffer.set_settings(buffer_settings());
-    }
+    set_buffers();
 }
 
-JitterBufferSettings TeleoperatorSide::buffer_settings() const {
+void TeleoperatorSide::set_buffers() {
     JitterBufferSettings buffer;
     buffer.depth = settings_.buffer_depth;
     buffer.sparse = settings_.deadband.enabled;
     buffer.seconds = seconds_;
-    return buffer;
+    peer_period_ = link_.statistics().peer_hello.period;
+    buffer.sample_seconds = peer_period_ > 0 ? to_seconds(peer_period_) : seconds_;
+    buffer.guess_seconds = 2.0 * to_seconds(settings_.deadband.longest_silence);
+    for (Pointer& pointer : pointers_) {
+        pointer.buffer.set_settings(buffer);
+    }
 }
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
@@ -42,6 +45,9 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     take_orders();
     ++tick_;
     receive();
+    if (link_.statistics().peer_hello.period != peer_period_) {
+        set_buffers();
+    }
     if (!link_.hears_peer()) {
         release_hands();
     }
@@ -60,9 +66,7 @@ void TeleoperatorSide::take_orders() {
         if (settings_.leaving && !left) {
             link_.leave();
         }
-        for (Pointer& pointer : pointers_) {
-            pointer.buffer.set_settings(buffer_settings());
-        }
+        set_buffers();
     }
     while (PreparedDiscovery* const announced = port_->announced.front()) {
         discovery_.announce(*announced);
@@ -219,7 +223,7 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
         return;
     }
     ObjectStates message;
-    message.true_at = now;
+    message.true_at = link_.local_time(now);
     message.newest_operator_sample = newest_applied_;
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
@@ -250,7 +254,7 @@ void TeleoperatorSide::send_force(SessionLoop& loop, std::size_t index, Nanoseco
     }
     ForceSample message;
     message.pointer = static_cast<std::uint16_t>(index);
-    message.true_at = now;
+    message.true_at = link_.local_time(now);
     message.newest_operator_sample = pointer.played.sequence;
     message.force = state.force;
     message.proxy = state.position;

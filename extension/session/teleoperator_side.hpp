@@ -42,7 +42,7 @@ private:
     void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
-    JitterBufferSettings buffer_settings() const;
+    void set_buffers();
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
     void send_force(SessionLoop& loop, std::size_t index, Nanoseconds now);
@@ -52,7 +52,8 @@ private:
     std::shared_ptr<TeleopPort> port_;
     DiscoverySender discovery_;
     std::uint64_t peer_epoch_ = 0;
-    double seconds_;
+    double seconds_;                       // of a tick
+    Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
     std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
     std::vector<Told> told_;               // by body
     std::array<Pointer, most_proxies> pointers_;

@@ -44,6 +44,7 @@
 #include "core/geometry/obj_text.hpp"
 #include "core/haptics/force_law.hpp"
 #include "physics/jolt_runtime.hpp"
+#include "proxy/rough.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/hand_paths.hpp"
 #include "shared/meshes.hpp"
@@ -387,6 +388,15 @@ double still_movement_max() {
     return worst;
 }
 
+int run_rough(const bench::RoughSettings& settings) {
+    if (!shared::stay_on_one_processor()) {
+        std::fprintf(stderr, "the system does not let this program stay on one processor: times will vary\n");
+    }
+    Report report;
+    bench::measure_rough(SpanClock(), settings, report);
+    return report.write_json(shared::result_path("proxy")) ? 0 : 1;
+}
+
 int run_all(const Settings& settings) {
     if (!shared::stay_on_one_processor()) {
         std::fprintf(stderr, "the system does not let this program stay on one processor: times will vary\n");
@@ -545,6 +555,14 @@ int main(int argc, char** argv) {
             return 2;
         }
         return trace(mesh, hip, radius, static_friction, dynamic_friction, out);
+    }
+    if (const std::string only = options.text("only"); only.starts_with("rough")) {
+        bench::RoughSettings rough;
+        rough.only = only;
+        rough.ticks = static_cast<int>(options.number("ticks", rough.ticks));
+        rough.checks = static_cast<int>(options.number("checks", rough.checks));
+        rough.replays = static_cast<int>(options.number("replays", rough.replays));
+        return options.understood() ? run_rough(rough) : 2;
     }
     Settings settings;
     settings.ticks = static_cast<int>(options.number("ticks", settings.ticks));

@@ -1,271 +1,43 @@
 // Cases of teleoperation in virtual time: ./run bench teleop --scene=FILE --cases=FILE
 //
-// Both files are lines of words (tools/measuring/teleop_runs.py writes them); "#" begins a comment.
-//     radius METERS | limit NEWTONS
-//     path circle CX CY CZ RADIUS AMPLITUDE TURN_SECONDS WAVES
-//     path linear|smooth SECONDS X Y Z  SECONDS X Y Z …
-//     body NAME static|dynamic MASS FRICTION RESTITUTION  STIFFNESS DAMPING STATIC DYNAMIC
-//          X Y Z  QW QX QY QZ  LINEAR_DAMPING ANGULAR_DAMPING
-//     box HX HY HZ  X Y Z  QW QX QY QZ      (of the last body; half extents, then where in the body)
-//     sphere R X Y Z
-//     case NAME key=value …
-// The result is one line of JSON a case: its name and its figures.
-#include <algorithm>
-#include <cmath>
+// Both files are lines of words (tests/shared/teleop_words.hpp). The result is one line of JSON a case: its
+// name, its figures and, with --bins=1, how the ticks spread.
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <sstream>
 #include <string>
 
 #include "shared/bench_kit.hpp"
 #include "shared/teleop_run.hpp"
+#include "shared/teleop_words.hpp"
 
 namespace {
 
-using namespace tactus;
 using namespace tactus::shared;
 
-double degrees(double value) {
-    return value * 3.14159265358979323846 / 180.0;
-}
-
-Vec3 read_vector(std::istream& in) {
-    Vec3 v(0.0);
-    in >> v.x >> v.y >> v.z;
-    return v;
-}
-
-Pose read_pose(std::istream& in) {
-    Pose pose;
-    pose.position = read_vector(in);
-    in >> pose.rotation.w >> pose.rotation.x >> pose.rotation.y >> pose.rotation.z;
-    pose.rotation = glm::normalize(pose.rotation);
-    return pose;
-}
-
-HandPath read_path(std::istream& in) {
-    std::string kind;
-    in >> kind;
-    if (kind == "circle") {
-        CircleWave circle;
-        double turn = 10.0;
-        circle.centre = read_vector(in);
-        in >> circle.radius >> circle.amplitude >> turn >> circle.waves;
-        circle.turn_time = from_seconds(turn);
-        return circle;
+void print(const TeleopCase& experiment, const TeleopFigures& figures, const TeleopBins* bins) {
+    std::printf("{\"case\": \"%s\"", experiment.name.c_str());
+    for (const auto& [name, value] : figures) {
+        std::printf(", \"%s\": %.9g", name.c_str(), value);
     }
-    KeyframePath path;
-    path.interpolation = kind == "smooth" ? PathInterpolation::catmull_rom : PathInterpolation::linear;
-    for (double time = 0.0; in >> time;) {
-        path.keyframes.push_back({from_seconds(time), read_vector(in)});
-    }
-    return path;
-}
-
-TeleopBody read_body(std::istream& in) {
-    TeleopBody body;
-    std::string motion;
-    BodyDescription& d = body.addition.description;
-    TouchMaterial& touch = body.addition.touch_material;
-    in >> body.name >> motion >> d.mass >> d.material.friction >> d.material.restitution >> touch.stiffness >>
-        touch.damping >> touch.static_friction >> touch.dynamic_friction;
-    d.motion = motion == "dynamic" ? Motion::Dynamic : Motion::Static;
-    d.pose = read_pose(in);
-    in >> d.linear_damping >> d.angular_damping;
-    return body;
-}
-
-bool read_scene(const std::string& path, TeleopScene& scene) {
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream in(line);
-        std::string word;
-        if (!(in >> word) || word[0] == '#') {
-            continue;
+    if (bins) {
+        std::printf(", \"bins\": {");
+        const char* comma = "";
+        for (const auto& [name, counts] : *bins) {
+            std::printf("%s\"%s\": {", comma, name.c_str());
+            comma = "";
+            for (const auto& [bin, count] : counts) {
+                std::printf("%s\"%d\": %llu", comma, bin, static_cast<unsigned long long>(count));
+                comma = ", ";
+            }
+            std::printf("}");
+            comma = ", ";
         }
-        if (word == "radius") {
-            in >> scene.radius;
-        } else if (word == "limit") {
-            in >> scene.force_limit;
-        } else if (word == "path") {
-            scene.path = read_path(in);
-        } else if (word == "body") {
-            scene.bodies.push_back(read_body(in));
-        } else if (word == "box" && !scene.bodies.empty()) {
-            const Vec3 half = read_vector(in);
-            scene.bodies.back().addition.description.shapes.push_back({BoxShape{half}, read_pose(in)});
-        } else if (word == "sphere" && !scene.bodies.empty()) {
-            double radius = 0.0;
-            in >> radius;
-            scene.bodies.back().addition.description.shapes.push_back(
-                {SphereShape{radius}, {read_vector(in), {1.0, 0.0, 0.0, 0.0}}});
-        } else {
-            std::cerr << path << ": \"" << line << "\" is not understood\n";
-            return false;
-        }
+        std::printf("}");
     }
-    return !scene.bodies.empty() && problem_with(scene.path).empty();
-}
-
-template <typename Enum>
-bool choose(const std::string& value, std::initializer_list<const char*> names, Enum& out) {
-    int index = 0;
-    for (const char* name : names) {
-        if (value == name) {
-            out = static_cast<Enum>(index);
-            return true;
-        }
-        ++index;
-    }
-    return false;
-}
-
-// X,Y,Z
-bool read_vector(std::string text, Vec3& out) {
-    std::ranges::replace(text, ',', ' ');
-    std::istringstream in(text);
-    out = read_vector(in);
-    return !in.fail();
-}
-
-// wrong.NAME.what
-bool set_wrong(const std::string& key, const std::string& value, TeleopCase& c) {
-    const std::size_t dot = key.rfind('.');
-    if (key.rfind("wrong.", 0) != 0 || dot <= 6) {
-        return false;
-    }
-    WrongBody& wrong = c.wrong[key.substr(6, dot - 6)];
-    const std::string what = key.substr(dot + 1);
-    std::string text = value;
-    for (char& letter : text) {
-        letter = letter == ',' ? ' ' : letter;
-    }
-    std::istringstream in(text);
-    if (what == "move") {
-        wrong.move = read_vector(in);
-    } else if (what == "turn") {  // axis, degrees
-        const Vec3 axis = read_vector(in);
-        double angle = 0.0;
-        in >> angle;
-        wrong.turn = glm::angleAxis(degrees(angle), glm::normalize(axis));
-    } else if (what == "mass") {
-        in >> wrong.mass;
-    } else if (what == "friction") {
-        in >> wrong.friction;
-    } else if (what == "touch_friction") {
-        in >> wrong.touch_friction;
-    } else if (what == "stiffness") {
-        in >> wrong.stiffness;
-    } else {
-        return false;
-    }
-    return !in.fail();
-}
-
-bool set(const std::string& key, const std::string& value, TeleopCase& c) {
-    const double number = std::strtod(value.c_str(), nullptr);
-    const auto natural = static_cast<std::uint32_t>(number);
-    TeleopSettings& s = c.settings;
-    if (key == "traditional") {
-        s.traditional = number != 0.0;
-    } else if (key == "delay_ms") {  // there and back
-        c.forth.delay = c.back.delay = from_seconds(0.5e-3 * number);
-    } else if (key == "jitter_ms") {
-        c.forth.jitter = c.back.jitter = from_seconds(1e-3 * number);
-    } else if (key == "loss") {
-        c.forth.loss = c.back.loss = number;
-    } else if (key == "burst") {
-        c.forth.burst = c.back.burst = bursts(number, 5.0);
-    } else if (key == "seed") {
-        c.seed = natural;
-    } else if (key == "correction") {
-        return choose(value, {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction"},
-                      s.correction);
-    } else if (key == "derivation") {
-        return choose(value, {"none", "velocity", "acceleration", "averaged", "history", "resimulate"},
-                      s.derivation);
-    } else if (key == "control") {
-        return choose(value, {"spring", "position", "position_force", "position_force_relative"}, s.control);
-    } else if (key == "states_every") {
-        s.states_every = natural;
-    } else if (key == "refresh_every") {
-        s.refresh_every = natural;
-    } else if (key == "repeats") {
-        s.repeats = natural;
-    } else if (key == "buffer") {
-        s.buffer_depth = natural;
-    } else if (key == "replay_steps") {
-        s.replay_steps = natural;
-    } else if (key == "share") {
-        s.stealth.share = number;
-    } else if (key == "drag_gain") {
-        s.drag.gain = number;
-    } else if (key == "drag_slow") {
-        s.drag.slow = number;
-    } else if (key == "fade_window") {
-        s.stealth.window = number;
-    } else if (key == "deadband") {
-        s.deadband.enabled = number != 0.0;
-    } else if (key == "deadband_position") {
-        s.deadband.position = number;
-    } else if (key == "deadband_silence_ms") {
-        s.deadband.longest_silence = from_seconds(1e-3 * number);
-    } else if (key == "deadband_speed") {
-        s.deadband.position_weber = number;
-    } else if (key == "deadband_force") {
-        s.deadband.force = number;
-    } else if (key == "deadband_weber") {
-        s.deadband.force_weber = number;
-    } else if (key == "seconds") {
-        c.seconds = number;
-    } else if (key == "phase_us") {
-        c.phase = from_seconds(1e-6 * number);
-    } else if (key == "late_ms") {
-        c.late = from_seconds(1e-3 * number);
-    } else if (key == "path_shift") {
-        return read_vector(value, c.path_shift);
-    } else if (key == "near") {
-        s.stand_in.near = number;
-    } else if (key == "leash") {
-        s.stand_in.leash = number;
-    } else if (key == "pose_noise") {
-        c.pose_noise = number;
-    } else if (key == "correct_from_touch") {
-        c.correct_from_touch = number != 0.0;
-    } else if (key == "object") {
-        c.object = value;
-    } else if (key == "rows") {
-        c.rows = value;
-    } else if (key == "arm") {
-        c.uses_arm = number != 0.0;
-    } else if (key == "settled_from") {
-        c.settled_from = number;
-    } else if (key == "settled_to") {
-        c.settled_to = number;
-    } else if (key == "arm_mass") {
-        c.arm.mass = number;
-    } else if (key == "arm_damping") {
-        c.arm.damping = number;
-    } else if (key == "arm_stiffness") {
-        c.arm.stiffness = number;
-    } else {
-        return set_wrong(key, value, c);
-    }
-    return true;
-}
-
-bool read_case(std::istream& in, TeleopCase& c) {
-    in >> c.name;
-    for (std::string word; in >> word;) {
-        const std::size_t equals = word.find('=');
-        if (equals == std::string::npos || !set(word.substr(0, equals), word.substr(equals + 1), c)) {
-            std::cerr << c.name << ": " << word << " is not understood\n";
-            return false;
-        }
-    }
-    return true;
+    std::printf("}\n");
+    std::fflush(stdout);
 }
 
 }  // namespace
@@ -274,6 +46,7 @@ int main(int argc, char** argv) {
     Options options(argc, argv);
     const std::string scene_file = options.text("scene");
     const std::string cases_file = options.text("cases");
+    const bool with_bins = options.text("bins") == "1";
     if (!options.understood()) {
         return 2;
     }
@@ -293,17 +66,13 @@ int main(int argc, char** argv) {
         if (!(in >> word) || word != "case") {
             continue;
         }
-        TeleopCase c;
-        if (!read_case(in, c)) {
+        TeleopCase experiment;
+        if (!read_case(in, experiment)) {
             return 1;
         }
-        const TeleopFigures figures = run_teleop(scene, c);
-        std::printf("{\"case\": \"%s\"", c.name.c_str());
-        for (const auto& [name, value] : figures) {
-            std::printf(", \"%s\": %.9g", name.c_str(), value);
-        }
-        std::printf("}\n");
-        std::fflush(stdout);
+        TeleopBins bins;
+        const TeleopFigures figures = run_teleop(scene, experiment, with_bins ? &bins : nullptr);
+        print(experiment, figures, with_bins ? &bins : nullptr);
     }
     return 0;
 }

@@ -67,6 +67,19 @@ bool Options::understood() const {
     return all;
 }
 
+bool is_chosen(std::string_view name, std::string_view pattern, bool whole) {
+    if (pattern.empty()) {
+        return true;
+    }
+    if (name.empty()) {
+        return !whole || pattern.find_first_not_of('*') == pattern.npos;
+    }
+    if (pattern.front() == '*') {
+        return is_chosen(name, pattern.substr(1), whole) || is_chosen(name.substr(1), pattern, whole);
+    }
+    return name.front() == pattern.front() && is_chosen(name.substr(1), pattern.substr(1), whole);
+}
+
 void Report::set(const std::string& key, double value) {
     const auto found = std::ranges::find(values_, key, &std::pair<std::string, double>::first);
     if (found != values_.end()) {

@@ -34,6 +34,10 @@ private:
     std::vector<Argument> arguments_;
 };
 
+// Whether `name` is among what --only=PATTERN chooses: names that begin with the pattern, in which * stands
+// for anything. With `whole` false the name may go on: whether something that begins with it can be chosen.
+bool is_chosen(std::string_view name, std::string_view pattern, bool whole = true);
+
 // One flat JSON object; CASE.metric keys in the order they were set.
 class Report {
 public:

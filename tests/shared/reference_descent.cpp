@@ -9,10 +9,11 @@ namespace {
 
 using Real = long double;
 
-constexpr Real longest_step = 0.02L;   // in radii
-constexpr Real gathered_reach = 0.1L;  // in radii: triangles within this of contact are kept at hand
-constexpr std::size_t few = 4'000;     // triangles that need no grid
-constexpr int most_steps = 20'000;
+// Steps begin short, where few triangles have to be looked at, and grow while the end is not in sight (in
+// radii).
+constexpr Real first_step = 5e-4L;
+constexpr Real longest_step = 0.02L;
+constexpr int max_steps = 20'000;
 
 // Gaussian elimination with row pivoting; false where a pivot is nothing but rounding.
 template <int Most>
@@ -47,90 +48,26 @@ bool solve(Real (&m)[Most][Most + 1], int size, Real* x) {
 
 }  // namespace
 
-ReferenceDescent::ReferenceDescent(const TriangleMesh& mesh, double radius) : mesh_(mesh), radius_(radius) {
-    if (mesh.triangles.size() <= few) {
-        return;
-    }
-    low_ = Vec3(1e300);
-    Vec3 high(-1e300);
-    double extents = 0.0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Corners t = corners_of(mesh, i);
-        const Vec3 size = glm::max(t[0], glm::max(t[1], t[2])) - glm::min(t[0], glm::min(t[1], t[2]));
-        extents += std::max({size.x, size.y, size.z});
-        low_ = glm::min(low_, glm::min(t[0], glm::min(t[1], t[2])));
-        high = glm::max(high, glm::max(t[0], glm::max(t[1], t[2])));
-    }
-    cell_ = std::max(2.0 * extents / static_cast<double>(mesh.triangles.size()), 0.25 * radius);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Corners t = corners_of(mesh, i);
-        const Vec3 first = (glm::min(t[0], glm::min(t[1], t[2])) - low_) / cell_;
-        const Vec3 last = (glm::max(t[0], glm::max(t[1], t[2])) - low_) / cell_;
-        for (auto x = static_cast<std::int64_t>(first.x); x <= static_cast<std::int64_t>(last.x); ++x) {
-            for (auto y = static_cast<std::int64_t>(first.y); y <= static_cast<std::int64_t>(last.y); ++y) {
-                for (auto z = static_cast<std::int64_t>(first.z); z <= static_cast<std::int64_t>(last.z);
-                     ++z) {
-                    cells_.push_back({cell_key(x, y, z), static_cast<std::uint32_t>(i)});
-                }
-            }
-        }
-    }
-    std::ranges::sort(cells_, {}, &Cell::key);
-}
+ReferenceDescent::ReferenceDescent(const TriangleMesh& mesh, double radius)
+    : own_(std::make_unique<const JudgeTree>(mesh)), tree_(*own_), radius_(radius) {}
 
-std::uint64_t ReferenceDescent::cell_key(std::int64_t x, std::int64_t y, std::int64_t z) const {
-    return (static_cast<std::uint64_t>(x) << 42) | (static_cast<std::uint64_t>(y) << 21) |
-           static_cast<std::uint64_t>(z);
-}
+ReferenceDescent::ReferenceDescent(const JudgeTree& tree, double radius) : tree_(tree), radius_(radius) {}
 
-// Every triangle that the centre could touch within gathered_reach / 2 of travel.
-void ReferenceDescent::gather(const SlowVec3& center) {
+void ReferenceDescent::gather(const SlowVec3& center, Real reach) {
     gathered_at_ = center;
+    gathered_reach_ = reach;
     near_.clear();
-    const Vec3 c(center);
-    const auto reach = static_cast<double>(radius_ * (1.0L + gathered_reach));
-    std::vector<std::uint32_t> candidates;
-    if (cell_ == 0.0) {
-        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
-            candidates.push_back(static_cast<std::uint32_t>(i));
-        }
-    } else {
-        const auto index = [&](double value, int axis) {
-            return std::max<std::int64_t>(
-                0, static_cast<std::int64_t>(std::floor((value - low_[axis]) / cell_)));
-        };
-        for (std::int64_t x = index(c.x - reach, 0); x <= index(c.x + reach, 0); ++x) {
-            for (std::int64_t y = index(c.y - reach, 1); y <= index(c.y + reach, 1); ++y) {
-                for (std::int64_t z = index(c.z - reach, 2); z <= index(c.z + reach, 2); ++z) {
-                    const auto found = std::ranges::equal_range(cells_, cell_key(x, y, z), {}, &Cell::key);
-                    for (const Cell& cell : found) {
-                        candidates.push_back(cell.triangle);
-                    }
-                }
-            }
-        }
-        std::ranges::sort(candidates);
-        const auto repeated = std::ranges::unique(candidates);
-        candidates.erase(repeated.begin(), repeated.end());
-    }
-    for (const std::uint32_t triangle : candidates) {
-        const Corners t = corners_of(mesh_, triangle);
-        const double size = std::max(glm::distance(t[0], t[1]), glm::distance(t[0], t[2]));
-        if (glm::distance(c, t[0]) - size <= reach &&
-            slow_closest(center, t).distance <= static_cast<Real>(reach) * (1.0L + 1e-12L)) {
-            near_.push_back(triangle);
-        }
-    }
+    tree_.within(Vec3(center), static_cast<double>((radius_ + reach) * (1.0L + 1e-12L)), near_);
 }
 
 // The contact planes of everything with a gap of at most `reach`.
 void ReferenceDescent::constrain(const SlowVec3& center, Real reach) {
-    if (glm::distance(center, gathered_at_) > 0.4L * gathered_reach * radius_) {
-        gather(center);
+    if (glm::distance(center, gathered_at_) + reach > gathered_reach_) {
+        gather(center, 2.0L * reach);
     }
     constraints_.clear();
     for (const std::uint32_t triangle : near_) {
-        const SlowClosest closest = slow_closest(center, corners_of(mesh_, triangle));
+        const SlowClosest closest = slow_closest(center, corners_of(tree_.mesh(), triangle));
         if (closest.distance - radius_ <= reach && closest.distance > 0.0L) {
             constraints_.push_back({(center - closest.point) / closest.distance, closest.distance - radius_,
                                     closest.edge, closest.distance, closest.supports});
@@ -224,7 +161,8 @@ ReferenceDescent::Step ReferenceDescent::flat_step(const SlowVec3& pull) const {
 }
 
 // (1 - sum pressure * bend) motion - N pressure' = pull, N^T motion = -gap.
-bool ReferenceDescent::newton_step(const SlowVec3& pull, const Step& flat, SlowVec3& motion) const {
+bool ReferenceDescent::newton_step(const SlowVec3& pull, const Step& flat, SlowVec3& motion,
+                                   Real longest) const {
     Real w[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     bool bends = false;
     for (int i = 0; i < flat.count; ++i) {
@@ -292,7 +230,7 @@ bool ReferenceDescent::newton_step(const SlowVec3& pull, const Step& flat, SlowV
         return false;
     }
     motion = {x[0], x[1], x[2]};
-    if (glm::length(motion) > longest_step * radius_) {
+    if (glm::length(motion) > longest) {
         return false;
     }
     for (int i = 0; i < flat.count; ++i) {
@@ -309,10 +247,10 @@ ReferencePlace ReferenceDescent::settle(const Vec3& start, const Vec3& hand) {
     ReferencePlace place;
     place.position = SlowVec3(start);
     const SlowVec3 goal(hand);
-    gather(place.position);
-    const Real longest = longest_step * radius_;
+    gathered_reach_ = -1.0L;
+    Real longest = first_step * radius_;
     const Real enough = std::max(1e-15L * radius_, 8e-19L * glm::length(place.position));
-    for (place.steps = 0; place.steps < most_steps; ++place.steps) {
+    for (place.steps = 0; place.steps < max_steps; ++place.steps) {
         constrain(place.position, 2.0L * longest);
         const SlowVec3 pull = goal - place.position;
         const Step flat = flat_step(pull);
@@ -324,12 +262,15 @@ ReferencePlace ReferenceDescent::settle(const Vec3& start, const Vec3& hand) {
         }
         SlowVec3 motion = flat.motion;
         SlowVec3 polished;
-        if (newton_step(pull, flat, polished)) {
+        if (newton_step(pull, flat, polished, longest)) {
             motion = polished;
         }
         const Real length = glm::length(motion);
         if (length > longest) {
             motion *= longest / length;
+            place.position += motion;
+            longest = std::min(2.0L * longest, longest_step * radius_);
+            continue;
         }
         place.position += motion;
     }

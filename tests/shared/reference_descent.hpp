@@ -1,7 +1,7 @@
 // Where a sphere on a mesh should be: the local constrained minimum, reached by exact descent. Slow, in
-// extended precision, and made of other parts than the proxy: a plain grid instead of the tree, every subset
-// of contact planes tried instead of an incremental search, steps of a fiftieth of the radius instead of
-// sweeps.
+// extended precision, and made of other parts than the proxy: the judge's tree instead of the product's,
+// every subset of contact planes tried instead of an incremental search, steps of at most a fiftieth of the
+// radius instead of sweeps.
 //
 // From the start the centre goes down the distance to the hand, never letting any triangle come nearer than
 // the radius: the distance to a triangle is convex, so what keeps the half-space of each contact plane keeps
@@ -10,9 +10,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "shared/slow_distance.hpp"
+#include "shared/judge_tree.hpp"
 
 namespace tactus::shared {
 
@@ -28,6 +29,8 @@ class ReferenceDescent {
 public:
     // The mesh must live as long as this.
     ReferenceDescent(const TriangleMesh& mesh, double radius);
+    // The same over a tree that is there already; it must live as long as this.
+    ReferenceDescent(const JudgeTree& tree, double radius);
 
     // Where the centre settles that starts at `start` (at most a rounding error nearer than the radius to any
     // triangle).
@@ -49,26 +52,20 @@ private:
         int count = 0;
     };
 
-    void gather(const SlowVec3& center);
+    void gather(const SlowVec3& center, long double reach);
     void constrain(const SlowVec3& center, long double reach);
     bool solve_subset(const SlowVec3& pull, const std::vector<int>& working, const int* chosen, int count,
                       Step& step) const;
     Step enumerate(const SlowVec3& pull, const std::vector<int>& working) const;
     Step flat_step(const SlowVec3& pull) const;
-    bool newton_step(const SlowVec3& pull, const Step& flat, SlowVec3& motion) const;
-    std::uint64_t cell_key(std::int64_t x, std::int64_t y, std::int64_t z) const;
+    bool newton_step(const SlowVec3& pull, const Step& flat, SlowVec3& motion, long double longest) const;
 
-    struct Cell {
-        std::uint64_t key;
-        std::uint32_t triangle;
-    };
-
-    const TriangleMesh& mesh_;
+    std::unique_ptr<const JudgeTree> own_;
+    const JudgeTree& tree_;
     long double radius_;
-    double cell_ = 0.0;  // (unit: meters); 0: so few triangles that each is looked at
-    Vec3 low_{0.0};
-    std::vector<Cell> cells_;
     SlowVec3 gathered_at_{0.0L};
+    long double gathered_reach_ =
+        -1.0L;  // every triangle with a gap up to this there is known (unit: meters)
     std::vector<std::uint32_t> near_;
     std::vector<Constraint> constraints_;
 };

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/reference_descent.hpp"
@@ -41,24 +42,6 @@ void add_triangle(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& 
 void add_quad(TriangleMesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     add_triangle(mesh, a, b, c);
     add_triangle(mesh, a, c, d);
-}
-
-// How often the closed surface winds around the point (van Oosterom and Strackee 1983).
-int winding(const TriangleMesh& mesh, const Vec3& p) {
-    double angle = 0.0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const Corners t = corners_of(mesh, i);
-        const Vec3 a = t[0] - p;
-        const Vec3 b = t[1] - p;
-        const Vec3 c = t[2] - p;
-        const double la = glm::length(a);
-        const double lb = glm::length(b);
-        const double lc = glm::length(c);
-        const double volume = glm::dot(a, glm::cross(b, c));
-        angle += std::atan2(volume,
-                            la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-    }
-    return static_cast<int>(std::lround(angle / (2.0 * std::numbers::pi)));
 }
 
 Setting soup(RandomValues& random) {

@@ -2,9 +2,90 @@
 
 import shutil
 import subprocess
+import zipfile
 
+import addon
 import project
-from setup import godot
+import pytest
+from setup import cache, godot
+
+# The scene of docs/addon.md, by its five steps.
+FIRST_TOUCH = """[gd_scene format=3]
+
+[sub_resource type="SphereShape3D" id="shape"]
+radius = 0.05
+
+[sub_resource type="SphereMesh" id="ball"]
+radius = 0.05
+height = 0.1
+
+[sub_resource type="SphereMesh" id="tip"]
+radius = 0.01
+height = 0.02
+
+[node name="Scene" type="Node3D"]
+
+[node name="HapticWorld" type="HapticWorld" parent="."]
+
+[node name="Ball" type="StaticBody3D" parent="HapticWorld"]
+
+[node name="Shape" type="CollisionShape3D" parent="HapticWorld/Ball"]
+shape = SubResource("shape")
+
+[node name="Look" type="MeshInstance3D" parent="HapticWorld/Ball"]
+mesh = SubResource("ball")
+
+[node name="HapticDevice" type="HapticDevice" parent="HapticWorld"]
+transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.1)
+driver = 1
+
+[node name="ProxyPointer" type="ProxyPointer" parent="HapticWorld"]
+device = NodePath("../HapticDevice")
+radius = 0.01
+
+[node name="Look" type="MeshInstance3D" parent="HapticWorld/ProxyPointer"]
+mesh = SubResource("tip")
+
+[node name="Camera3D" type="Camera3D" parent="."]
+transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.4)
+
+[node name="Light" type="DirectionalLight3D" parent="."]
+"""
+
+# A user who points at the middle and turns the wheel six notches away from themselves.
+USER = """extends Node
+
+
+func _ready() -> void:
+	get_tree().change_scene_to_file.call_deferred("res://first_touch.tscn")
+	for notch in 6:
+		await get_tree().create_timer(0.2).timeout
+		var wheel := InputEventMouseButton.new()
+		wheel.button_index = MOUSE_BUTTON_WHEEL_UP
+		wheel.pressed = true
+		wheel.position = get_viewport().get_visible_rect().size / 2
+		Input.parse_input_event(wheel)
+	await get_tree().create_timer(0.5).timeout
+	var scene := get_tree().current_scene
+	var device: HapticDevice = scene.get_node("HapticWorld/HapticDevice")
+	var proxy: ProxyPointer = scene.get_node("HapticWorld/ProxyPointer")
+	print("FIRST TOUCH ", proxy.is_touching(), " ", device.get_force().z > 1.0, " ", snappedf(proxy.position.z, 0.001))
+	get_tree().quit()
+"""
+
+EXPORT = """[preset.0]
+
+name="Linux"
+platform="Linux"
+runnable=true
+export_filter="all_resources"
+include_filter="addons/tactus/meshes/*"
+
+[preset.0.options]
+
+binary_format/embed_pck=true
+binary_format/architecture="x86_64"
+"""
 
 PROJECT = """config_version=5
 
@@ -46,3 +127,69 @@ def test_copied_to_another_folder_it_finds_its_meshes(tmp_path):
     printed = godot_in(tmp_path, "--script", "res://touch.gd")
     assert "torus" in printed.partition("NAMES ")[2].splitlines()[0].split(","), printed
     assert "BODIES 1 PROBLEMS []" in printed, printed
+
+
+@pytest.fixture(scope="module")
+def own_project(tmp_path_factory):
+    """An empty project with the archive unzipped into it and the scene of its README, imported without a list of
+    extensions written first: as the editor does it."""
+    folder = tmp_path_factory.mktemp("own_project")
+    with zipfile.ZipFile(addon.pack()) as archive:
+        archive.extractall(folder)
+    (folder / "project.godot").write_text(PROJECT + '\n[autoload]\n\nUser="*res://user.gd"\n')
+    (folder / "first_touch.tscn").write_text(FIRST_TOUCH)
+    (folder / "user.gd").write_text(USER)
+    (folder / "start.tscn").write_text('[gd_scene format=3]\n\n[node name="Start" type="Node"]\n')
+    (folder / "export_presets.cfg").write_text(EXPORT)
+    (folder / ".godot").mkdir()
+    (folder / ".godot/extension_list.cfg").write_text("res://addons/tactus/tactus.gdextension\n")
+    imported = subprocess.run(
+        [str(godot.command()), "--headless", "--path", folder, "--import"], timeout=120, capture_output=True, text=True
+    )
+    assert imported.returncode == 0, imported.stdout + imported.stderr
+    return folder
+
+
+def test_the_archive_names_what_is_in_it(own_project):
+    folder = own_project / "addons/tactus"
+    for name in ("README.md", "LICENSE", "CHANGELOG.md", "NOTICES.txt", "tactus.gdextension"):
+        assert (folder / name).is_file(), name
+    for work in ("Jolt Physics", "libsodium", "GLM", "Godot Engine"):
+        assert work in (folder / "NOTICES.txt").read_text()
+    assert addon.version() in (folder / "CHANGELOG.md").read_text()
+    description = (folder / "tactus.gdextension").read_text()
+    for name in addon._libraries(description):
+        assert (folder / name).is_file(), name
+
+
+def test_the_oldest_godot_is_the_one_whose_api_was_used():
+    major, minor, *_ = godot.version(str(godot.command()))
+    description = (project.FOLDER / "addons/tactus/tactus.gdextension").read_text()
+    assert f'compatibility_minimum = "{major}.{minor}"' in description
+    assert "linux.debug.single.x86_64" in description
+
+
+def test_two_archives_of_the_same_are_the_same_bytes():
+    assert addon.pack().read_bytes() == addon.pack().read_bytes()
+
+
+def test_first_touch_by_the_five_steps(own_project):
+    printed = godot_in(own_project, "res://start.tscn")
+    assert "FIRST TOUCH true true 0.06" in printed, printed
+
+
+def test_first_touch_in_an_exported_program(own_project):
+    settings = own_project / "project.godot"
+    settings.write_text(settings.read_text().replace("[autoload]", 'run/main_scene="res://start.tscn"\n\n[autoload]'))
+    (own_project / "program").mkdir()
+    program = own_project / "program/touch.x86_64"
+    exported = godot_in(own_project, "--export-release", "Linux", str(program))
+    assert program.is_file(), exported
+    done = subprocess.run([program, "--headless"], timeout=120, capture_output=True, text=True)
+    assert "FIRST TOUCH true true 0.06" in done.stdout, done.stdout + done.stderr
+
+
+def test_the_cache_names_no_folder_of_this_machine_in_the_archive(own_project):
+    for path in (own_project / "addons/tactus").rglob("*"):
+        if path.is_file() and path.suffix in (".md", ".txt", ".gdextension"):
+            assert str(cache.root()) not in path.read_text()

@@ -1,10 +1,16 @@
 """Touch of what moves, over a network, with a model that is realistically wrong: how to bring the truth in (thesis 5.4).
 
     ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,10,50] [--pictures=1]
+        [--table=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
+        [--grid_schemes=default,never_corrected,…] [--grid_losses=0,50] [--grid_set=KEY=VALUE,KEY=VALUE]
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 Cases are CORRECTION.DERIVATION.DELAYms.LOSSpct: how a correction is brought in, how the present is derived from a state
 that is one delay old, the delay there and back, and the share of packets lost. traditional.DELAYms.LOSSpct is beside them.
+
+The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
+pose alone, velocities and traditional touch, over models that are wrong in many ways. --table=0 and the options of the
+grid leave out what is not wanted; --grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
 """
 
 import csv
@@ -12,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import options, teleop_runs
+from measuring import options, teleop_grid, teleop_runs
 
 CORRECTIONS = ("none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction")
 DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resimulate")
@@ -32,6 +38,14 @@ class Settings(teleop_runs.Imperfections):
     losses: str = "0,10,50"
     clock: Literal["virtual", "real"] = "virtual"
     pictures: int = 1
+    table: int = 1
+    grid: int = 1
+    grid_scenes: str = "all"
+    grid_wrong: str = "all"
+    grid_delays: str = "50,100,200"
+    grid_losses: str = "0,50"
+    grid_schemes: str = "all"
+    grid_set: str = ""
 
 
 def cases(description: dict, settings: Settings, output: Path) -> list[teleop_runs.Case]:
@@ -57,6 +71,13 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         from measuring import teleop_processes
 
         return teleop_processes.dynamic_mmt(description, settings.seconds, output)
+    summary: dict[str, object] = _table(description, settings, output) if settings.table else {}
+    if settings.grid:
+        summary |= _grid(description, settings, output)
+    return summary
+
+
+def _table(description: dict, settings: Settings, output: Path) -> dict[str, object]:
     found = teleop_runs.run(description["scene"], cases(description, settings, output), output)
     # A model that is never corrected derives nothing: one run stands for all derivations.
     for name in [name for name in found if name.startswith("none.none.")]:
@@ -71,6 +92,49 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         teleop.draw_schemes(found, CORRECTIONS[1:], DERIVATIONS, output / "schemes.png")
         teleop.draw_delays(found, output / "delays.png")
     return summary
+
+
+def _grid(description: dict, settings: Settings, output: Path) -> dict[str, object]:
+    grid = description["grid"]
+    scenes = _chosen(settings.grid_scenes, grid["scenes"])
+    wrongs = _chosen(settings.grid_wrong, grid["wrong"])
+    schemes = dict.fromkeys([*_chosen(settings.grid_schemes, teleop_grid.SCHEMES), "never_corrected"])
+    more = dict(pair.split("=", 1) for pair in settings.grid_set.split(",") if pair)
+    summary: dict[str, object] = {}
+    for loss in settings.grid_losses.split(","):
+        names = teleop_grid.cases(grid, scenes, wrongs, settings.grid_delays.split(","), loss)
+        # With losses, the default is asked against what it has to beat there.
+        asked = schemes if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]
+        found = teleop_grid.run(description, names, asked, output, more)
+        prefix = "grid." if loss == "0" else f"grid.loss_{loss}pct."
+        summary |= teleop_grid.summary(found, prefix)
+        _write_grid(output / ("grid.csv" if loss == "0" else f"grid_loss_{loss}pct.csv"), found)
+    return summary
+
+
+def _chosen(text: str, known: dict) -> list[str]:
+    chosen = list(known) if text == "all" else text.split(",")
+    unknown = [name for name in chosen if name not in known]
+    if unknown:
+        raise ValueError(f"{unknown[0]} is none of {', '.join(known)}")
+    return chosen
+
+
+def _write_grid(path: Path, found: teleop_grid.Found) -> None:
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        for scheme, results in found.items():
+            for name, figures in results.items():
+                keys = sorted(key for key in figures if key != "bins")
+                if file.tell() == 0:
+                    header = keys
+                    writer.writerow(["scheme", "scene", "hand", "wrong", "delay_ms", "loss_pct", "worse", "diverged", *keys])
+                verdict = [
+                    int(teleop_grid.is_worse(name, figures, found["never_corrected"][name])),
+                    int(teleop_grid.has_diverged(figures)),
+                ]
+                values = (f"{figures[key]:.6g}" if key in figures else "" for key in header)
+                writer.writerow([scheme, *name.replace("ms", "").replace("pct", "").split("."), *verdict, *values])
 
 
 def best(found: dict[str, dict[str, float]]) -> str:

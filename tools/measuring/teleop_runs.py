@@ -61,13 +61,15 @@ def wrong(given: dict[str, dict[str, object]]) -> Case:
     return keys
 
 
-def run(scene: str, cases: list[Case], folder: Path) -> dict[str, dict[str, float]]:
-    """The figures of each case by its name. `folder` gets the rows of those that ask for them by "rows"."""
+def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: str = "") -> dict[str, dict]:
+    """The figures of each case by its name; with `bins`, how the ticks spread is among them. `folder` gets the rows of
+    those that ask for them by "rows". `lines`: what is run in place of the scene as it is.
+    """
     build.build("template_release", "build/template_release/bench/teleop")
     program = cache.clone() / "build/template_release/bench/teleop"
     folder.mkdir(parents=True, exist_ok=True)
     scene_file = folder / "scene.txt"
-    scene_file.write_text(Scene(scene).lines())
+    scene_file.write_text(lines or Scene(scene).lines())
     workers = os.cpu_count() or 1
     shares = [cases[number::workers] for number in range(workers) if cases[number::workers]]
 
@@ -75,9 +77,8 @@ def run(scene: str, cases: list[Case], folder: Path) -> dict[str, dict[str, floa
         number, share = numbered
         cases_file = folder / f"cases_{number}.txt"
         cases_file.write_text("".join(_line(case) for case in share))
-        done = subprocess.run(
-            [program, f"--scene={scene_file}", f"--cases={cases_file}"], text=True, stdout=subprocess.PIPE
-        )
+        command = [program, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
+        done = subprocess.run(command, text=True, stdout=subprocess.PIPE)
         if done.returncode != 0:
             raise RuntimeError(f"{cases_file} could not be run")
         return [json.loads(line) for line in done.stdout.splitlines()]

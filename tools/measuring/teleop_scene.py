@@ -69,6 +69,30 @@ class Scene:
                 lines.append(f"radius {node.values.get('radius', '0.01')}")
         return "\n".join(lines) + "\n"
 
+    def dynamic(self) -> list[str]:
+        return [node.attributes["name"] for node in self._nodes if node.attributes.get("type") == "RigidBody3D"]
+
+    def place(self, body: str) -> list[float]:
+        return _placement(next(node for node in self._nodes if node.attributes["name"] == body))[:3]
+
+    def varied(self, variation: dict) -> str:
+        """What the runner reads, with copies of bodies elsewhere and hinges to the world:
+        {"copies": {"Box2": {"of": "Box", "at": [x, y, z]}}, "hinges": {"Box": {"at": [x, y, z], "axis": [x, y, z]}}}
+        """
+        lines = self.lines().splitlines()
+        for name, copy in variation.get("copies", {}).items():
+            start = next(i for i, line in enumerate(lines) if line.startswith(f"body {copy['of']} "))
+            _, _, *words = lines[start].split()
+            words[8:11] = _texts(copy["at"])
+            lines.append(" ".join(["body", name, *words]))
+            for line in lines[start + 1 :]:
+                if line.split()[0] not in ("box", "sphere"):
+                    break
+                lines.append(line)
+        for name, hinge in variation.get("hinges", {}).items():
+            lines.append(" ".join(["hinge", name, *_texts(hinge["at"]), *_texts(hinge["axis"])]))
+        return "\n".join(lines) + "\n"
+
     def _resource(self, text: str) -> dict[str, str]:
         """The values of an ExtResource or SubResource."""
         name = _reference(text)

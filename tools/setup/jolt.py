@@ -73,6 +73,11 @@ def fetch_and_build() -> Jolt:
     return _built(folder)
 
 
+def licence() -> str:
+    """Of the Jolt that is linked in; one built elsewhere is not asked for it."""
+    return (_jolt_source() / "LICENSE").read_text()
+
+
 def _source_folder() -> Path:
     return cache.root() / f"jolt-{VERSION}-source"
 

@@ -5,8 +5,8 @@ namespace godot {
 
 using internal::interface;
 
-String::String(const char* utf8) {
-    interface.string_new_with_utf8_chars(opaque_, utf8);
+String::String(const char* latin1) {
+    interface.string_new_with_latin1_chars(opaque_, latin1);
 }
 
 String::String(const char32_t* text) {
@@ -102,8 +102,8 @@ String rtoss(double value) {
     return String::num_scientific(value);
 }
 
-StringName::StringName(const char* utf8) {
-    interface.string_name_new_with_utf8_chars(opaque_, utf8);
+StringName::StringName(const char* latin1) {
+    interface.string_name_new_with_latin1_chars(opaque_, latin1, false);
 }
 
 bool StringName::operator==(const char* other) const {
@@ -114,6 +114,6 @@ bool StringName::operator!=(const char* other) const {
     return !(*this == other);
 }
 
-NodePath::NodePath(const char* utf8) : NodePath(String(utf8)) {}
+NodePath::NodePath(const char* latin1) : NodePath(String(latin1)) {}
 
 }  // namespace godot

@@ -1,199 +1,308 @@
-// The operator's samples at the far side, played out one a tick in their order, however they came.
+// The operator's samples at the far side, played out on this side's ticks, however they came.
 //
-// A sample that is there when its turn comes is played as it is. One that is missing while later ones are
-// there was lost: it is filled in between its neighbours. When nothing later is there either, the buffer is
-// dry: the last sample is held and its successor waits, which makes the buffer deeper by one tick, as deep as
-// the link's jitter needs. Where it has been deeper than that for a while, one sample is left out.
+// A playhead walks along the operator's sequence. With clocks that agree it goes one sample a tick and every
+// sample is played as it is; where the ticks of the two sides differ it goes so many samples a tick as the
+// ratio of the periods says, and what lies between two samples is interpolated. It keeps a lag behind the
+// arrivals that is as long as the network needs: a sample's transit is the tick of its arrival less its place
+// in the sequence, and the lag is what all but a few of the latest stretches of 50 ms would have needed. A
+// stretch that needed much more was an outage and no jitter: it is not waited for again.
 //
-// With `sparse`, missing is the rule (deadband): the last sample received is carried on with its velocity
-// instead, and nothing waits: the packet that was on its way for the shortest time sets the pace.
+// What is behind, after an outage or because less lag is needed, catches up by playing faster, within
+// `catch_up_seconds`, and the hand moves no faster than `catch_up_speed` meanwhile (or than it moves itself).
+// When nothing is there to be played the last sample is held.
+//
+// With `sparse`, missing is the rule (deadband): the last sample received is carried on with its velocity for
+// at most `guess_seconds`, and nothing waits: the packet that was on its way for the shortest time sets the
+// pace.
+//
+// What cannot be is not believed (sequence_guard.hpp).
+//
+// Work in a call is bounded by the ring, whatever comes.
 #pragma once
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/math/types.hpp"
+#include "core/teleop/playing.hpp"
+#include "core/teleop/playout_lag.hpp"
+#include "core/teleop/sample_ring.hpp"
+#include "core/teleop/sequence_guard.hpp"
 
 namespace tactus {
 
-struct JitterBufferSettings {
-    std::uint32_t depth = 0;        // samples kept in hand at the start, 0 … 200
-    std::uint32_t patience = 1000;  // ticks of needless depth before a sample is left out, > 0
-    bool sparse = false;
-    double seconds = 0.001;  // of a tick of the operator
-};
-
-enum class Playing : std::uint8_t {
-    waiting,  // nothing has come yet
-    exact,
-    filled,   // lost, between its neighbours
-    guessed,  // sparse: carried on from the last one
-    held,     // dry
-};
-
-struct BufferCounts {
-    std::uint64_t exact = 0, filled = 0, guessed = 0, held = 0;
-    std::uint64_t late = 0;      // came after their turn
-    std::uint64_t doubled = 0;   // were there already
-    std::uint64_t left_out = 0;  // to become less deep
-    std::uint64_t restarts = 0;  // jumps in the sequence too wide to fill
-};
-
-// Sample: a value with `sequence`, `position` and `velocity`, all else is taken from the later neighbour.
+// Sample: a value with `sequence`, `position` and `velocity`; all else is taken from a neighbour.
 template <typename Sample>
 class JitterBuffer {
 public:
-    static constexpr std::size_t capacity = 1024;
+    static constexpr std::size_t capacity = SampleRing<Sample>::capacity;
+    static constexpr double catch_up_seconds = 0.25;
+    static constexpr double catch_up_speed = 1.0;  // (unit: meters per second)
+    static constexpr double max_speed = 20.0;      // of any hand (unit: meters per second)
 
-    explicit JitterBuffer(const JitterBufferSettings& settings = {}) : settings_(settings), ring_(capacity) {}
+    explicit JitterBuffer(const JitterBufferSettings& settings = {}) { set_settings(settings); }
 
-    void set_settings(const JitterBufferSettings& settings) { settings_ = settings; }
+    void set_settings(const JitterBufferSettings& settings) {
+        settings_ = settings;
+        // Periods that no two sides have are held to what the arithmetic is made for.
+        ratio_ = std::clamp(settings.seconds / settings.sample_seconds, min_ratio, max_ratio);
+        guard_.set(ratio_, settings.seconds);
+        lag_.set({ratio_, settings.depth, settings.sparse, ticks(PlayoutLag::stretch_seconds)});
+    }
     const BufferCounts& counts() const { return counts_; }
     // Samples between the one played last and the newest one.
-    std::uint64_t depth() const { return newest_ > played_.sequence ? newest_ - played_.sequence : 0; }
+    std::uint64_t depth() const {
+        return ring_.newest() > played_.sequence ? ring_.newest() - played_.sequence : 0;
+    }
 
     void insert(const Sample& sample) {
         if (sample.sequence == 0) {
             return;
         }
-        if (newest_ > 0 && sample.sequence > newest_ + capacity / 2) {
-            restart();
-        }
-        if (playing_ && sample.sequence <= played_.sequence) {
-            ++counts_.late;
-            if (settings_.sparse && sample.sequence > anchor_.sequence) {
-                anchor_ = sample;  // too late for its own turn, but better than what was guessed from
+        if (!guard_.is_plausible(sample.sequence, ring_.newest(), capacity, tick_)) {
+            ++counts_.implausible;
+            if (guard_.is_new_beginning(sample.sequence, tick_)) {
+                begin_anew(sample);
             }
             return;
         }
-        Sample& slot = ring_[sample.sequence % capacity];
-        if (slot.sequence == sample.sequence) {
+        if (ring_.has(sample.sequence)) {
             ++counts_.doubled;
             return;
         }
-        slot = sample;
-        if (!playing_ && (first_ == 0 || sample.sequence < first_)) {
-            first_ = sample.sequence;
+        if (playing_) {
+            lag_.note(clock_ + ratio_ - place(sample.sequence));
+            if (place(sample.sequence) <= head_) {
+                ++counts_.late;
+                if (!settings_.sparse) {
+                    return;
+                }
+            }
         }
-        newest_ = std::max(newest_, sample.sequence);
+        if (sample.sequence > ring_.newest()) {
+            guard_.note_newest(tick_);
+        }
+        ring_.put(sample);
     }
 
     // One tick on. The sample is valid unless the answer is `waiting`; its sequence is the newest applied.
     Playing play(Sample& out) {
-        if (newest_ == 0 || (!playing_ && newest_ - first_ < settings_.depth)) {
+        ++tick_;
+        if (ring_.empty()) {
             return Playing::waiting;
         }
+        const bool first = !playing_ && !continues_;
         if (!playing_) {
-            playing_ = true;
-            played_ = ring_[first_ % capacity];
-            anchor_ = played_;
-            out = played_;
-            ++counts_.exact;
-            return Playing::exact;
+            if (first && ring_.newest() - ring_.oldest() < settings_.depth) {
+                return Playing::waiting;
+            }
+            begin();
+        } else {
+            clock_ += ratio_;
+            lag_.tick();
+            const double before = std::exchange(head_, next_head());
+            stands_ = head_ <= before + tiny;
         }
-        shed();
-        if (settings_.sparse) {
-            keep_pace();
-        }
-        const Playing how = next();
-        out = played_;
+        const Playing how = settings_.sparse ? carry_on() : stands_ ? hold() : move_to_head();
+        limit_speed(first);
+        out = out_;
         return how;
     }
 
-    // The sender has started anew.
+    // The sender has started anew, or nobody is there: what comes next is a new beginning.
     void restart() {
-        std::fill(ring_.begin(), ring_.end(), Sample{});
-        newest_ = first_ = 0;
-        playing_ = false;
+        forget();
+        continues_ = false;
         ++counts_.restarts;
     }
 
 private:
-    const Sample* find(std::uint64_t sequence) const {
-        const Sample& slot = ring_[sequence % capacity];
-        return slot.sequence == sequence ? &slot : nullptr;
+    static constexpr double min_ratio = 1.0 / 64.0, max_ratio = 64.0;
+    static constexpr double tiny = 1e-9;       // rounding (unit: samples)
+    static constexpr double slow_down = 0.1;   // share of a tick that is waited to get deeper
+    static constexpr double hurry = 0.1;       // share of a tick that is played more, at least, to catch up
+    static constexpr std::uint64_t wide = 16;  // so many lost in a row are an outage
+    static constexpr double at_once_seconds = 0.02;  // so far behind is caught up at once
+    static constexpr double patience_seconds = 0.2;  // less only after so long
+    static constexpr double still_after = 0.02;  // held for longer: the hand does not move (unit: seconds)
+
+    std::uint64_t ticks(double seconds) const {
+        return std::max<std::uint64_t>(1,
+                                       static_cast<std::uint64_t>(std::llround(seconds / settings_.seconds)));
+    }
+    // Samples from the base on; wraps where the sequence is lower.
+    double place(std::uint64_t sequence) const {
+        return static_cast<double>(static_cast<std::int64_t>(sequence - base_));
+    }
+    std::uint64_t sequence_at(double head) const {
+        return base_ + static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(head + tiny)));
     }
 
-    Playing next() {
-        const std::uint64_t turn = played_.sequence + 1;
-        if (const Sample* found = find(turn)) {
-            played_ = *found;
-            anchor_ = played_;
+    void forget() {
+        ring_.clear();
+        playing_ = false;
+        guard_.forget();
+    }
+
+    void begin_anew(const Sample& sample) {
+        forget();
+        continues_ = true;
+        guard_.note_newest(tick_);
+        ring_.put(sample);
+        ++counts_.restarts;
+    }
+
+    void begin() {
+        playing_ = true;
+        const std::uint64_t depth = continues_ ? 0 : settings_.depth;
+        base_ = ring_.at_or_after(ring_.newest() - depth)->sequence;
+        head_ = 0.0;
+        clock_ = place(ring_.newest());
+        lag_.begin(clock_);
+        behind_for_ = held_for_ = 0;
+        catching_up_ = fraction_ = 0.0;
+        stands_ = false;
+        slewing_ = continues_;
+        played_ = anchor_ = *ring_.find(base_);
+    }
+
+    double next_head() {
+        const double target = clock_ - lag_.wanted();
+        const double available = place(ring_.newest());
+        const double reach = settings_.sparse ? target : std::min(target, available);
+        const double plain = head_ + ratio_;
+        if (plain > reach + tiny) {
+            behind_for_ = 0;
+            catching_up_ = 0.0;
+            const double slow = std::max(target, head_ + ratio_ * (1.0 - slow_down));
+            return settings_.sparse ? slow : std::clamp(slow, head_, std::max(head_, available));
+        }
+        return catch_up(plain, reach);
+    }
+
+    double catch_up(double plain, double reach) {
+        const double behind = reach - plain;
+        const bool much = behind * settings_.sample_seconds > at_once_seconds;
+        behind_for_ = behind >= 1.0 - tiny ? behind_for_ + 1 : 0;
+        if (catching_up_ == 0.0 && (much || behind_for_ >= ticks(patience_seconds))) {
+            ++counts_.catch_ups;
+            slewing_ = true;
+            catching_up_ = tiny;
+        }
+        if (catching_up_ > 0.0) {
+            catching_up_ = std::max(
+                {catching_up_, hurry * ratio_, behind / static_cast<double>(ticks(catch_up_seconds))});
+            plain = std::min(plain + catching_up_, reach);
+            if (plain > reach - tiny) {
+                catching_up_ = 0.0;
+                return reach;
+            }
+        }
+        return plain;
+    }
+
+    Playing hold() {
+        ++counts_.held;
+        if (++held_for_ >= ticks(still_after)) {
+            played_.velocity = Vec3(0.0);
+            slewing_ = true;
+        }
+        return Playing::held;
+    }
+
+    // A sample, or what lies between its neighbours.
+    Playing move_to_head() {
+        held_for_ = 0;
+        const std::uint64_t turn = sequence_at(head_);
+        const double part = std::max(0.0, head_ - place(turn));
+        const Sample* const here = ring_.find(turn);
+        if (here && part < tiny) {
+            played_ = *here;
+            fraction_ = 0.0;
             ++counts_.exact;
             return Playing::exact;
         }
-        if (settings_.sparse) {
-            return guess(turn);
-        }
-        if (newest_ <= turn) {
-            ++counts_.held;
-            return Playing::held;
-        }
-        return fill(turn);
-    }
-
-    // No farther behind the newest sample than wanted. What is left out still tells where the hand is.
-    void keep_pace() {
-        while (played_.sequence + 1 + settings_.depth < newest_) {
-            ++counts_.left_out;
-            if (const Sample* found = find(++played_.sequence)) {
-                anchor_ = *found;
-            }
-        }
-    }
-
-    Playing guess(std::uint64_t turn) {
-        const double seconds = settings_.seconds * static_cast<double>(turn - anchor_.sequence);
-        played_ = anchor_;
+        const Sample earlier = here ? *here : played_;
+        const double from = here ? place(turn) : place(played_.sequence) + fraction_;
+        const Sample& later = *ring_.at_or_after(turn + 1);  // the newest one is there
+        const double share = std::clamp((head_ - from) / (place(later.sequence) - from), 0.0, 1.0);
+        slewing_ = slewing_ || later.sequence - earlier.sequence > wide;
+        played_ = later;
         played_.sequence = turn;
-        played_.position = anchor_.position + anchor_.velocity * seconds;
-        ++counts_.guessed;
-        return Playing::guessed;
-    }
-
-    Playing fill(std::uint64_t turn) {
-        std::uint64_t later = turn + 1;
-        while (!find(later)) {
-            ++later;
-        }
-        const Sample& neighbour = *find(later);
-        const double share = 1.0 / static_cast<double>(later - played_.sequence);
-        Sample between = neighbour;
-        between.sequence = turn;
-        between.position = played_.position + (neighbour.position - played_.position) * share;
-        between.velocity = played_.velocity + (neighbour.velocity - played_.velocity) * share;
-        played_ = between;
+        played_.position = earlier.position + (later.position - earlier.position) * share;
+        played_.velocity = earlier.velocity + (later.velocity - earlier.velocity) * share;
+        fraction_ = part;
         ++counts_.filled;
         return Playing::filled;
     }
 
-    // What has been in hand all the time for `patience` ticks beyond the wanted depth is not needed.
-    void shed() {
-        least_ = std::min(least_, depth());
-        if (++watched_ < settings_.patience) {
+    // Sparse: from the newest sample whose turn has come.
+    Playing carry_on() {
+        const std::uint64_t turn = sequence_at(head_);
+        if (const Sample* const latest = ring_.at_or_before(turn);
+            latest && latest->sequence > anchor_.sequence) {
+            anchor_ = *latest;
+        }
+        const double carried = (head_ - place(anchor_.sequence)) * settings_.sample_seconds;
+        const bool exact = anchor_.sequence == turn && carried < tiny;
+        played_ = anchor_;
+        played_.sequence = turn;
+        played_.position =
+            anchor_.position + anchor_.velocity * std::clamp(carried, 0.0, settings_.guess_seconds);
+        if (carried > settings_.guess_seconds) {
+            played_.velocity = Vec3(0.0);
+            slewing_ = true;
+            ++counts_.held;
+            return Playing::held;
+        }
+        ++(exact ? counts_.exact : counts_.guessed);
+        return exact ? Playing::exact : Playing::guessed;
+    }
+
+    // Where the hand went on while nothing was heard it is led there. `first`: there is no hand yet.
+    void limit_speed(bool first) {
+        const Vec3 from = std::exchange(out_, played_).position;
+        if (first) {
             return;
         }
-        if (least_ > settings_.depth + 1 && !settings_.sparse) {
-            ++played_.sequence;
-            ++counts_.left_out;
+        constexpr double over_own = 1.25;
+        const double own = std::clamp(over_own * glm::length(played_.velocity), catch_up_speed, max_speed);
+        const double speed = slewing_ ? own : max_speed;
+        const Vec3 way = played_.position - from;
+        const double distance = glm::length(way);
+        if (distance > speed * settings_.seconds) {
+            out_.position = from + way * (speed * settings_.seconds / distance);
+        } else if (catching_up_ == 0.0 && held_for_ == 0) {
+            slewing_ = false;
         }
-        watched_ = 0;
-        least_ = capacity;
     }
 
     JitterBufferSettings settings_;
-    std::vector<Sample> ring_;
+    double ratio_ = 1.0;  // samples of the operator in a tick here
+    SampleRing<Sample> ring_;
+    SequenceGuard guard_;
+    PlayoutLag lag_;
     BufferCounts counts_;
-    Sample played_{};
-    Sample anchor_{};  // the last one that was received and played
-    std::uint64_t newest_ = 0;
-    std::uint64_t first_ = 0;
+
     bool playing_ = false;
-    std::uint64_t least_ = capacity;
-    std::uint32_t watched_ = 0;
+    bool continues_ = false;  // a hand has been played before: what begins is led on from there
+    std::uint64_t tick_ = 1;
+    std::uint64_t base_ = 0;  // the sequence that places count from
+    double clock_ = 0.0;      // place of a sample that would come now after no time (unit: samples)
+    double head_ = 0.0;       // place that is played
+    bool stands_ = false;     // the head has not moved in this tick
+    Sample played_{};         // at the head
+    double fraction_ = 0.0;   // of the head beyond played_.sequence
+    Sample anchor_{};         // sparse: the last one that was received and whose turn has come
+    Sample out_{};            // played_, led there no faster than a hand moves
+
+    std::uint64_t behind_for_ = 0, held_for_ = 0;  // (unit: ticks)
+    double catching_up_ = 0.0;                     // samples more in a tick; 0: it does not
+    bool slewing_ = false;
 };
 
 }  // namespace tactus

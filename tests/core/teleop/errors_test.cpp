@@ -26,5 +26,41 @@ TEST(Errors, ASeriesKnowsItsMeanItsRmsAndItsLargest) {
     EXPECT_EQ(series.largest, 7.0);
 }
 
+TEST(FeltExcess, AConstantErrorHasNone) {
+    const FeltExcess excess = felt_excess({3.0, 1.0, 0.0}, {2.0, 0.0, 0.0}, {1.5, 1.0, 0.0}, {0.5, 0.0, 0.0});
+    EXPECT_EQ(excess.newtons, 0.0);
+    EXPECT_EQ(excess.jnd, 0.0);
+}
+
+TEST(FeltExcess, IsComparedWithTheForceThatWasToBeExpected) {
+    // 2 N was felt, direct touch has grown by 1 N: 3 N were to come, 4 N came.
+    const FeltExcess excess = felt_excess({0.0, 4.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 1.0, 0.0});
+    EXPECT_DOUBLE_EQ(excess.newtons, 1.0);
+    EXPECT_DOUBLE_EQ(excess.jnd, 1.0 / just_noticeable({}, 3.0));
+}
+
+TEST(FeltExcess, AForceOutOfNothingCountsAgainstTheLeastNoticeable) {
+    const FeltExcess excess = felt_excess({0.0, 0.1, 0.0}, Vec3(0.0), Vec3(0.0), Vec3(0.0));
+    EXPECT_DOUBLE_EQ(excess.jnd, 0.1 / StealthSettings{}.least_noticeable);
+}
+
+TEST(PortEnergy, ASpringThatGivesBackWhatItTookHasCreatedNothing) {
+    PortEnergy port;
+    port.add({0.0, 2.0, 0.0}, {0.0, -0.01, 0.0});
+    port.add({0.0, 2.0, 0.0}, {0.0, 0.01, 0.0});
+    EXPECT_EQ(port.total(), 0.0);
+    EXPECT_EQ(port.created(), 0.0);
+}
+
+TEST(PortEnergy, WhatOneContactTookIsNothingThatTheNextMayGive) {
+    PortEnergy port;
+    port.add({0.0, 2.0, 0.0}, {0.0, -0.01, 0.0});
+    port.add(Vec3(0.0), {0.0, 0.05, 0.0});
+    port.add({0.0, 1.0, 0.0}, {0.0, 0.01, 0.0});
+    port.add({0.0, 1.0, 0.0}, {0.0, -0.01, 0.0});
+    EXPECT_DOUBLE_EQ(port.created(), 0.01);
+    EXPECT_DOUBLE_EQ(port.total(), -0.02);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -1,0 +1,55 @@
+"""tactus.gdextension, the file by which Godot finds the extension's libraries.
+
+The methods that a library asks Godot for are those of the API that it was generated from, so an older Godot cannot
+load it: `compatibility_minimum` is that API's version.
+"""
+
+import json
+import re
+from pathlib import Path
+
+ADDON = Path("demo_project/addons/tactus")
+TARGETS = {"debug": "template_debug", "release": "template_release"}
+SUFFIX = {"linux": "so", "windows": "dll"}
+
+
+def library(platform, target, architecture):
+    """The file name of a library."""
+    return f"libtactus.{platform}.{target}.{architecture}.{SUFFIX[platform]}"
+
+
+def api_version(description):
+    """Version and precision of a generated API: extension_api.json."""
+    header = json.loads(description.read_text())["header"]
+    return f"{header['version_major']}.{header['version_minor']}", header.get("precision", "single")
+
+
+def installed_api_version(includes):
+    """The same of an installed godot-cpp, from the version header that it generates; None where it has none."""
+    for include in includes:
+        header = Path(include, "godot_cpp/core/version.hpp")
+        if header.is_file():
+            numbers = dict(re.findall(r"GODOT_VERSION_(MAJOR|MINOR)\s+(\d+)", header.read_text()))
+            if len(numbers) == 2:
+                return f"{numbers['MAJOR']}.{numbers['MINOR']}", "single"
+    return None
+
+
+def text(minimum, precision, builds):
+    """`builds`: (platform, architecture) of every library beside it."""
+    lines = ["[configuration]", "", 'entry_symbol = "tactus_library_init"', f'compatibility_minimum = "{minimum}"']
+    lines += ["reloadable = false", "", "[libraries]", ""]
+    for platform, architecture in builds:
+        for feature, target in TARGETS.items():
+            # A library of one precision cannot be loaded by a Godot of the other: the tag hides it.
+            tags = f"{platform}.{feature}.{precision}.{architecture}"
+            lines.append(f'{tags} = "bin/{library(platform, target, architecture)}"')
+    lines += ["", "[icons]", ""]
+    lines += [f'{icon.stem} = "icons/{icon.name}"' for icon in sorted((ADDON / "icons").glob("*.svg"))]
+    return "\n".join(lines) + "\n"
+
+
+def write(path, content):
+    """Leaves a file that says the same already as it is: Godot imports what has changed."""
+    if not path.is_file() or path.read_text() != content:
+        path.write_text(content)

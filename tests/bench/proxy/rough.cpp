@@ -1,0 +1,310 @@
+#include "proxy/rough.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <numeric>
+
+#include "core/haptics/force_law.hpp"
+#include "shared/free_way.hpp"
+#include "shared/judge_tree.hpp"
+#include "shared/reference_descent.hpp"
+#include "shared/rough_meshes.hpp"
+#include "shared/rough_paths.hpp"
+#include "shared/touch_rig.hpp"
+
+namespace tactus::bench {
+
+namespace {
+
+using shared::FreeWay;
+using shared::JudgeTree;
+using shared::SlowVec3;
+using shared::TouchRig;
+
+constexpr std::array radii{0.01, 0.05, 0.2};
+constexpr int max_unfinished_checks = 20;  // a case and kind: descent from far off is slow
+
+struct Played {
+    Vec3 hand{0.0};
+    Vec3 position{0.0};
+    double microseconds = 1e300;
+    std::uint32_t status = 0;
+};
+
+struct Verdict {
+    int contact_ticks = 0, penetrations = 0, passes = 0, unjudged = 0;
+    int unfinished = 0, frozen = 0;
+    int checked = 0, unsettled = 0, other_replays = 0;
+    double error_rms = 0.0, error_max = 0.0;  // of finished ticks, of the size
+    double unfinished_error_max = 0.0;        // how far off unfinished ticks are, of the size
+    double mean = 0.0, p95 = 0.0, p99 = 0.0;  // of the ticks in contact (unit: microseconds)
+    double max = 0.0;                         // of all ticks (unit: microseconds)
+    int slowest_tick = -1;
+};
+
+bool is_in_contact(const Played& tick) {
+    return (tick.status & (proxy_touching | proxy_unfinished)) != 0;
+}
+
+// The same ticks over and over; a tick's time is the least of them.
+std::vector<Played> play(const shared::SpanClock& clock, const std::shared_ptr<const TouchShape>& shape,
+                         double radius, const std::vector<Vec3>& way, int replays, Verdict& verdict) {
+    std::vector<Played> ticks(way.size());
+    for (int replay = 0; replay < replays; ++replay) {
+        TouchRig rig(radius);
+        rig.add(shape);
+        for (std::size_t i = 0; i < way.size(); ++i) {
+            const std::uint64_t start = clock.now();
+            const ProxyTick tick = rig.tick(way[i]);
+            const HandForce force =
+                contact_force(rig.scene, rig.proxy.touching(), tick.slide, Vec3(0.0), 1e-3);
+            const std::uint64_t end = clock.now();
+            Played& played = ticks[i];
+            if (replay == 0) {
+                played.hand = way[i];
+                played.position = tick.position;
+                played.status = tick.status;
+                verdict.contact_ticks += force.contact_count > 0;
+            }
+            verdict.other_replays += played.position != tick.position;
+            played.microseconds = std::min(played.microseconds, 1e-3 * clock.nanoseconds(start, end));
+        }
+    }
+    return ticks;
+}
+
+void judge_times(const std::vector<Played>& ticks, Verdict& verdict) {
+    std::vector<double> contact;
+    for (const Played& tick : ticks) {
+        if (is_in_contact(tick)) {
+            contact.push_back(tick.microseconds);
+        }
+    }
+    const auto slowest = std::ranges::max_element(ticks, {}, &Played::microseconds);
+    verdict.max = slowest->microseconds;
+    verdict.slowest_tick = static_cast<int>(slowest - ticks.begin());
+    if (!contact.empty()) {
+        verdict.mean =
+            std::accumulate(contact.begin(), contact.end(), 0.0) / static_cast<double>(contact.size());
+        verdict.p95 = shared::quantile(contact, 0.95);
+        verdict.p99 = shared::quantile(contact, 0.99);
+    }
+}
+
+// Clearance of every tick, and that a free way leads from each to the next.
+void judge_places(const std::vector<Played>& ticks, const JudgeTree& tree, double radius, Verdict& verdict) {
+    double known = -1.0;  // distance from the mesh at `known_at`
+    Vec3 known_at(0.0);
+    const Played* before = nullptr;
+    for (const Played& tick : ticks) {
+        if (tick.status & proxy_absent) {
+            before = nullptr;
+            continue;
+        }
+        const Vec3& p = tick.position;
+        const double rounding = 8.0 * 0x1p-52 * (tree.magnitude() + glm::length(p));
+        if (known - glm::distance(p, known_at) < 1.1 * radius) {
+            const shared::JudgedNearest nearest = tree.nearest(p, 3.0 * radius);
+            known = nearest.distance;
+            known_at = p;
+            if (known < radius - rounding) {
+                const shared::Corners t = shared::corners_of(tree.mesh(), nearest.triangle);
+                verdict.penetrations += shared::slow_distance(p, t) < radius - rounding;
+            }
+        }
+        if (before && !is_straight_way_free(tree, before->position, p, radius)) {
+            const double reach = glm::distance(before->position, tick.hand) + 0.01 * radius;
+            const FreeWay way = find_free_way(tree, before->position, p, radius, tick.hand, reach);
+            verdict.passes += way == FreeWay::none;
+            verdict.unjudged += way == FreeWay::unknown;
+        }
+        before = &tick;
+    }
+}
+
+// Unfinished ticks against exact descent. A tick that could have moved and has not is frozen; beyond the
+// first checks, a tick that stands still is judged like the last one that was looked at.
+class UnfinishedTicks {
+public:
+    UnfinishedTicks(shared::ReferenceDescent& reference, double radius, Verdict& verdict)
+        : reference_(reference), radius_(radius), verdict_(verdict) {}
+
+    void judge(const Played& tick, double moved) {
+        ++verdict_.unfinished;
+        const bool still = moved < 1e-3 * radius_;
+        int& checked = still ? still_checked_ : going_checked_;
+        if (checked < max_unfinished_checks) {
+            ++checked;
+            const shared::ReferencePlace place = reference_.settle(tick.position, tick.hand);
+            const auto error = static_cast<double>(glm::distance(place.position, SlowVec3(tick.position)));
+            verdict_.unfinished_error_max = std::max(verdict_.unfinished_error_max, error);
+            frozen_ = error > 1e-3 * radius_ && moved < 1e-3 * std::min(error, radius_);
+        }
+        verdict_.frozen += still && frozen_;
+    }
+
+private:
+    shared::ReferenceDescent& reference_;
+    double radius_;
+    Verdict& verdict_;
+    int still_checked_ = 0, going_checked_ = 0;
+    bool frozen_ = false;
+};
+
+// Places against exact descent: some of the finished ticks, and those that say they are not finished.
+void judge_ends(const std::vector<Played>& ticks, const JudgeTree& tree, double radius, int checks,
+                Verdict& verdict) {
+    shared::ReferenceDescent reference(tree, radius);
+    UnfinishedTicks unfinished(reference, radius, verdict);
+    const auto contacts = static_cast<int>(std::ranges::count_if(ticks, is_in_contact));
+    const int every = std::max(1, contacts / std::max(1, checks));
+    double sum = 0.0;
+    int seen = 0;
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+        const Played& tick = ticks[i];
+        if (tick.status & proxy_unfinished) {
+            unfinished.judge(tick, i > 0 ? glm::distance(ticks[i - 1].position, tick.position) : 0.0);
+        } else if (is_in_contact(tick) && seen++ % every == 0) {
+            const shared::ReferencePlace place = reference.settle(tick.position, tick.hand);
+            const auto error = static_cast<double>(glm::distance(place.position, SlowVec3(tick.position)));
+            verdict.unsettled += !place.settled;
+            verdict.error_max = std::max(verdict.error_max, error);
+            sum += error * error;
+            ++verdict.checked;
+        }
+    }
+    verdict.error_rms = verdict.checked > 0 ? std::sqrt(sum / verdict.checked) : 0.0;
+}
+
+void tell(const std::string& name, const Verdict& v, int ticks, shared::Report& report) {
+    report.set(name + ".mean_us", v.mean);
+    report.set(name + ".p95_us", v.p95);
+    report.set(name + ".p99_us", v.p99);
+    report.set(name + ".max_us", v.max);
+    report.set(name + ".ticks", ticks);
+    report.set(name + ".contact_ticks", v.contact_ticks);
+    report.set(name + ".penetrations", v.penetrations);
+    report.set(name + ".passes", v.passes);
+    report.set(name + ".unjudged_ways", v.unjudged);
+    report.set(name + ".frozen_ticks", v.frozen);
+    report.set(name + ".unfinished_ticks", v.unfinished);
+    report.set(name + ".unfinished_error_max", v.unfinished_error_max);
+    report.set(name + ".error_rms", v.error_rms);
+    report.set(name + ".error_max", v.error_max);
+    report.set(name + ".checked_ticks", v.checked);
+    report.set(name + ".reference_unsettled", v.unsettled);
+    std::printf("%-32s %7d %8.2f %8.2f %8.2f %9.2f %6d %5d %5d %5d %7d %7d %9.1e %9.1e %9.1e\n",
+                name.c_str() + 6, v.contact_ticks, v.mean, v.p95, v.p99, v.max, v.slowest_tick,
+                v.penetrations, v.passes, v.unjudged, v.frozen, v.unfinished, v.error_rms, v.error_max,
+                v.unfinished_error_max);
+    std::fflush(stdout);
+}
+
+struct Total {
+    int cases = 0;
+    double ticks = 0.0;
+    Verdict sum;  // counts added, times and errors the largest
+
+    void add(const Verdict& v, int count) {
+        ++cases;
+        ticks += count;
+        for (int Verdict::* const figure :
+             {&Verdict::contact_ticks, &Verdict::penetrations, &Verdict::passes, &Verdict::unjudged,
+              &Verdict::unfinished, &Verdict::frozen, &Verdict::checked, &Verdict::unsettled,
+              &Verdict::other_replays}) {
+            sum.*figure += v.*figure;
+        }
+        for (double Verdict::* const figure :
+             {&Verdict::error_rms, &Verdict::error_max, &Verdict::unfinished_error_max, &Verdict::mean,
+              &Verdict::p95, &Verdict::p99, &Verdict::max}) {
+            sum.*figure = std::max(sum.*figure, v.*figure);
+        }
+    }
+};
+
+void tell_total(const Total& total, shared::Report& report) {
+    const Verdict& v = total.sum;
+    report.set("rough.cases", total.cases);
+    report.set("rough.ticks", total.ticks);
+    report.set("rough.contact_ticks", v.contact_ticks);
+    report.set("rough.penetrations", v.penetrations);
+    report.set("rough.passes", v.passes);
+    report.set("rough.unjudged_ways", v.unjudged);
+    report.set("rough.frozen_ticks", v.frozen);
+    report.set("rough.unfinished_share", v.unfinished / std::max(1.0, total.ticks));
+    report.set("rough.unfinished_error_max", v.unfinished_error_max);
+    report.set("rough.error_rms_max", v.error_rms);
+    report.set("rough.error_max", v.error_max);
+    report.set("rough.checked_ticks", v.checked);
+    report.set("rough.reference_unsettled", v.unsettled);
+    report.set("rough.other_replays", v.other_replays);
+    report.set("rough.worst_mean_us", v.mean);
+    report.set("rough.worst_p95_us", v.p95);
+    report.set("rough.worst_p99_us", v.p99);
+    report.set("rough.worst_max_us", v.max);
+    std::printf(
+        "%d rough cases, %.0f ticks: %d penetrations, %d passes (%d ways too long to judge), %d "
+        "frozen, %.2e unfinished (off by %.1e at most), error rms %.1e max %.1e, worst mean %.2f "
+        "p95 %.2f p99 %.2f max %.2f us, %d ticks different in a replay\n",
+        total.cases, total.ticks, v.penetrations, v.passes, v.unjudged, v.frozen,
+        v.unfinished / std::max(1.0, total.ticks), v.unfinished_error_max, v.error_rms, v.error_max, v.mean,
+        v.p95, v.p99, v.max, v.other_replays);
+}
+
+std::string case_name(const std::string& mesh, double radius, const char* path) {
+    char text[64];
+    std::snprintf(text, sizeof text, "_r%g_", radius);
+    return mesh + text + path;
+}
+
+}  // namespace
+
+void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings, shared::Report& report) {
+    std::printf("%-32s %7s %8s %8s %8s %9s %6s %5s %5s %5s %7s %7s %9s %9s %9s\n", "rough case", "contact",
+                "mean us", "p95 us", "p99 us", "max us", "at", "penet", "pass", "?", "frozen", "unfin.",
+                "err rms", "err max", "unf. err");
+    Total total;
+    for (const shared::RoughMesh& rough : shared::rough_meshes()) {
+        // Names hold the number of triangles, which only the mesh itself knows.
+        if (!shared::is_chosen(std::string("rough_") + rough.name + "_", settings.only, false)) {
+            continue;
+        }
+        const auto mesh = std::make_shared<const TriangleMesh>(rough.make());
+        const std::string mesh_name =
+            std::string("rough_") + rough.name + "_" + std::to_string(mesh->triangles.size());
+        std::vector<std::pair<double, const shared::RoughPath*>> chosen;
+        for (const double radius : radii) {
+            for (const shared::RoughPath& path : shared::rough_paths()) {
+                if (shared::is_chosen(case_name(mesh_name, radius, path.name), settings.only)) {
+                    chosen.emplace_back(radius, &path);
+                }
+            }
+        }
+        if (chosen.empty() || static_cast<int>(mesh->triangles.size()) > settings.max_triangles) {
+            continue;
+        }
+        const JudgeTree tree(*mesh);
+        const PlacedShape placed{MeshShape{mesh}, {}};
+        const std::shared_ptr<const TouchShape> shape =
+            make_touch_shape({&placed, 1}, shared::run_on_two_threads).shape;
+        for (const auto& [radius, path] : chosen) {
+            Verdict verdict;
+            const std::vector<Vec3> way = path->make(tree, radius, settings.ticks);
+            const std::vector<Played> ticks = play(clock, shape, radius, way, settings.replays, verdict);
+            judge_times(ticks, verdict);
+            judge_places(ticks, tree, radius, verdict);
+            judge_ends(ticks, tree, radius, settings.checks, verdict);
+            tell(case_name(mesh_name, radius, path->name), verdict, settings.ticks, report);
+            total.add(verdict, settings.ticks);
+        }
+    }
+    if (total.cases > 0) {
+        tell_total(total, report);
+    }
+}
+
+}  // namespace tactus::bench

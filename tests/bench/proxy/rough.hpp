@@ -1,0 +1,21 @@
+// Rough meshes: what the proxy costs and does where nothing is even. See tests/shared/rough_meshes.hpp.
+#pragma once
+
+#include <string>
+
+#include "shared/bench_kit.hpp"
+
+namespace tactus::bench {
+
+struct RoughSettings {
+    std::string only;  // see is_chosen()
+    int ticks = 4'000;
+    int replays = 3;
+    int checks = 48;  // finished ticks in contact held against exact descent, a case; unfinished ones besides
+    int max_triangles = 3'000'000;
+};
+
+// Sets rough_NAME_TRIANGLES_rR_PATH.* and, over all of them, rough.*.
+void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings, shared::Report& report);
+
+}  // namespace tactus::bench

@@ -1,0 +1,272 @@
+#include "shared/teleop_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <utility>
+
+namespace tactus::shared {
+
+namespace {
+
+constexpr Nanoseconds period = 1'000'000;
+constexpr double tick_seconds = 1e-3;
+
+// A second-order Butterworth high-pass (bilinear transform), one component.
+class HighPass {
+public:
+    explicit HighPass(double hertz) {
+        const double k = std::tan(3.14159265358979 * hertz * tick_seconds);
+        const double norm = 1.0 / (1.0 + std::sqrt(2.0) * k + k * k);
+        b0_ = norm;
+        a1_ = 2.0 * (k * k - 1.0) * norm;
+        a2_ = (1.0 - std::sqrt(2.0) * k + k * k) * norm;
+    }
+    double operator()(double x) {
+        const double y = b0_ * (x - 2.0 * x1_ + x2_) - a1_ * y1_ - a2_ * y2_;
+        x2_ = std::exchange(x1_, x);
+        y2_ = std::exchange(y1_, y);
+        return y;
+    }
+
+private:
+    double b0_ = 0.0, a1_ = 0.0, a2_ = 0.0, x1_ = 0.0, x2_ = 0.0, y1_ = 0.0, y2_ = 0.0;
+};
+
+double percentile(std::vector<double> values, double share) {
+    if (values.empty()) {
+        return 0.0;
+    }
+    std::ranges::sort(values);
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+}  // namespace
+
+void write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
+    std::ofstream file(path);
+    file << "time_us,hand_x,hand_y,hand_z,force_x,force_y,force_z,direct_x,direct_y,direct_z,far_x,far_y,"
+            "far_z,model_x,model_y,model_z,truth_x,truth_y,truth_z,box_error_m,offset_m,jnd_share,depth_m,"
+            "local_depth_m,felt_excess_1ms_N,felt_excess_100ms_N,felt_excess_100ms_jnd,let_go\n";
+    const auto put = [&file](const Vec3& v) {
+        char text[96];
+        std::snprintf(text, sizeof text, ",%.9g,%.9g,%.9g", v.x, v.y, v.z);
+        file << text;
+    };
+    for (const TeleopRow& row : rows) {
+        file << row.time / 1000;
+        put(row.hand);
+        put(row.force);
+        put(row.direct);
+        put(row.far);
+        put(row.model.position);
+        put(row.truth.position);
+        file << ',' << (row.far_known ? row.box_error : 0.0) << ',' << row.offset << ',' << row.jnd_share
+             << ',' << row.depth << ',' << row.local_depth << ',' << row.excess_1ms.newtons << ','
+             << row.excess_100ms.newtons << ',' << row.excess_100ms.jnd << ',' << row.let_go << '\n';
+    }
+}
+
+namespace {
+
+// What a pushed hand did: how deep it went, how far beyond where it came to rest, and how much energy the
+// device gave it (a wall that is really there takes some).
+struct Pushing {
+    double deepest = 0.0, settled = 0.0, energy = 0.0;
+    std::size_t settled_ticks = 0;
+
+    void add(const TeleopCase& experiment, double time, double depth, const Vec3& force,
+             const Vec3& velocity) {
+        deepest = std::max(deepest, depth);
+        energy += glm::dot(force, velocity) * tick_seconds;
+        if (time >= experiment.settled_from && time < experiment.settled_to) {
+            settled += depth;
+            ++settled_ticks;
+        }
+    }
+    void tell(const std::string& prefix, TeleopFigures& figures) const {
+        const double rest = settled_ticks > 0 ? settled / static_cast<double>(settled_ticks) : 0.0;
+        figures[prefix + "penetration_max_mm"] = 1e3 * deepest;
+        figures[prefix + "settled_depth_mm"] = 1e3 * rest;
+        figures[prefix + "overshoot_mm"] = 1e3 * (deepest - rest);
+        figures[prefix + "energy_J"] = energy;
+    }
+};
+
+void evaluate_arm(const std::vector<TeleopRow>& rows, const TeleopCase& experiment, TeleopFigures& figures) {
+    Pushing over_the_link, local;
+    Series deviation;
+    for (const TeleopRow& row : rows) {
+        const double time = to_seconds(row.time);
+        over_the_link.add(experiment, time, row.depth, row.force, row.velocity);
+        local.add(experiment, time, row.local_depth, row.local_force, row.local_velocity);
+        deviation.add(glm::distance(row.hand, row.local_hand));
+    }
+    over_the_link.tell("", figures);
+    local.tell("local_", figures);
+    figures["hand_deviation_rms_mm"] = 1e3 * deviation.rms();
+}
+
+// How long after each leave-taking the object needs to be where it is at the far side (unit: seconds).
+double longest_until_right(const std::vector<TeleopRow>& rows) {
+    constexpr double right = 1e-4;
+    constexpr std::size_t apart = 250;  // ticks without touch that make a leave-taking
+    double longest = 0.0;
+    for (std::size_t i = 1; i + apart < rows.size(); ++i) {
+        if (!rows[i - 1].touches || rows[i].touches) {
+            continue;
+        }
+        std::size_t end = i;
+        while (end < rows.size() && !rows[end].touches) {
+            ++end;
+        }
+        if (end - i < apart) {
+            continue;
+        }
+        std::size_t wrong_at = i;
+        for (std::size_t j = i; j < end; ++j) {
+            if (rows[j].far_known && rows[j].box_error > right) {
+                wrong_at = j;
+            }
+        }
+        longest = std::max(longest, static_cast<double>(wrong_at - i) * tick_seconds);
+    }
+    return longest;
+}
+
+// How one figure of all ticks spreads.
+class Spread {
+public:
+    void add(double value) {
+        values_.push_back(value);
+        series_.add(value);
+    }
+    void tell(const std::string& name, const std::string& unit, TeleopFigures& figures) const {
+        figures[name + "_" + unit + "_mean"] = series_.mean();
+        figures[name + "_" + unit + "_p95"] = percentile(values_, 0.95);
+        figures[name + "_" + unit + "_p99"] = percentile(values_, 0.99);
+        figures[name + "_" + unit + "_max"] = series_.largest;
+    }
+    void count(std::map<int, std::uint64_t>& bins) const {
+        for (const double value : values_) {
+            const double place = value > 0.0 ? std::floor(100.0 * std::log10(value)) : no_bin;
+            ++bins[static_cast<int>(std::clamp(place, double{no_bin}, double{last_bin}))];
+        }
+    }
+
+private:
+    std::vector<double> values_;
+    Series series_;
+};
+
+// In a tick in which the pointer says that it lets go, what is felt is no touch: nothing is counted there,
+// nor against it.
+void find_excess(std::vector<TeleopRow>& rows) {
+    const auto within = [&](std::size_t i, std::size_t window) {
+        const std::size_t before = i - std::min(i, window);
+        return felt_excess(rows[i].force, rows[i].direct, rows[before].force, rows[before].direct);
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].excess_1ms = within(i, 1);
+        rows[i].excess_100ms = within(i, 100);
+    }
+}
+
+void evaluate_excess(const std::vector<TeleopRow>& rows, TeleopFigures& figures, TeleopBins* bins) {
+    Spread steps_N, steps_jnd, changes_N, changes_jnd;
+    for (const TeleopRow& row : rows) {
+        steps_N.add(row.excess_1ms.newtons);
+        steps_jnd.add(row.excess_1ms.jnd);
+        changes_N.add(row.excess_100ms.newtons);
+        changes_jnd.add(row.excess_100ms.jnd);
+    }
+    const auto tell = [&](const Spread& spread, const std::string& name, const std::string& unit) {
+        spread.tell(name, unit, figures);
+        if (bins) {
+            spread.count((*bins)[name + "_" + unit]);
+        }
+    };
+    tell(steps_N, "felt_excess_1ms", "N");
+    tell(steps_jnd, "felt_excess_1ms", "jnd");
+    tell(changes_N, "felt_excess_100ms", "N");
+    tell(changes_jnd, "felt_excess_100ms", "jnd");
+}
+
+}  // namespace
+
+TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment, const TeleopPorts& ports,
+                       TeleopBins* bins) {
+    TeleopFigures figures;
+    Series error, shifted, box, turn, jitter;
+    std::vector<double> errors, shares;
+    std::array<HighPass, 3> filters{HighPass(30.0), HighPass(30.0), HighPass(30.0)};
+    const std::size_t shift =
+        experiment.settings.traditional
+            ? static_cast<std::size_t>((experiment.forth.delay + experiment.back.delay) / period + 1)
+            : 0;
+    double last_wrong = 0.0, first_touch = -1.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const TeleopRow& row = rows[i];
+        const double wrong = force_error(row.force, row.direct);
+        error.add(wrong);
+        errors.push_back(wrong);
+        if (i >= shift && rows[i - shift].far_known) {
+            shifted.add(force_error_shifted(row.force, rows[i - shift].far));
+        }
+        if (row.far_known) {
+            box.add(row.box_error);
+            turn.add(row.turn_error);
+        }
+        const Vec3 fast(filters[0](row.force.x), filters[1](row.force.y), filters[2](row.force.z));
+        jitter.add(glm::length(fast));
+        if (row.jnd_share > 0.0) {
+            shares.push_back(row.jnd_share);
+        }
+        if (first_touch < 0.0 && row.direct_touches) {
+            first_touch = to_seconds(row.time);
+        }
+        if (wrong > 0.02) {
+            last_wrong = to_seconds(row.time);
+        }
+    }
+    figures["force_error_mean_N"] = error.mean();
+    figures["force_error_p95_N"] = percentile(errors, 0.95);
+    figures["force_error_max_N"] = error.largest;
+    figures["force_error_shifted_mean_N"] = shifted.mean();
+    figures["force_jitter_rms_N"] = jitter.rms();
+    figures["correction_cost_jnd_p99"] = percentile(shares, 0.99);
+    figures["seconds_until_right"] = first_touch < 0.0 ? 0.0 : std::max(0.0, last_wrong - first_touch);
+    figures["energy_at_hand_J"] = ports.hand.total();
+    figures["energy_at_far_side_J"] = ports.far.total();
+    figures["energy_created_J"] = ports.hand.created();
+    figures["link_energy_created_J"] = ports.link_created;
+    find_excess(rows);
+    evaluate_excess(rows, figures, bins);
+    figures["let_go_ticks"] =
+        static_cast<double>(std::ranges::count_if(rows, [](const TeleopRow& row) { return row.let_go; }));
+    if (experiment.uses_arm) {
+        evaluate_arm(rows, experiment, figures);
+    }
+    if (!experiment.object.empty()) {
+        const auto last =
+            std::find_if(rows.rbegin(), rows.rend(), [](const TeleopRow& row) { return row.far_known; });
+        figures["box_position_error_rms_mm"] = 1e3 * box.rms();
+        figures["box_position_error_max_mm"] = 1e3 * box.largest;
+        figures["box_position_error_final_mm"] = last == rows.rend() ? 0.0 : 1e3 * last->box_error;
+        if (last != rows.rend()) {
+            for (int axis = 0; axis < 3; ++axis) {
+                const std::string name = std::string("_final_") + "xyz"[axis];
+                figures["model" + name] = last->model.position[axis];
+                figures["truth" + name] = last->truth.position[axis];
+            }
+        }
+        figures["box_rotation_error_rms_deg"] = 57.29577951308232 * turn.rms();
+        figures["box_right_after_letting_go_s"] = longest_until_right(rows);
+    }
+    return figures;
+}
+
+}  // namespace tactus::shared

@@ -1,0 +1,51 @@
+"""The grid of dynamic_mmt: what is run, and how its cases are pooled."""
+
+from measuring import teleop_grid, teleop_runs
+from measuring.teleop_scene import Scene
+
+DESCRIPTION = teleop_runs.description("dynamic_mmt")
+
+
+def _names(wrong: str, loss: str = "0") -> list[str]:
+    return teleop_grid.cases(DESCRIPTION["grid"], ["one", "hinge"], [wrong], ["50", "200"], loss)
+
+
+def test_what_is_never_corrected_does_not_depend_on_the_delay():
+    keys = [teleop_grid._keys(DESCRIPTION, name, "never_corrected") for name in _names("heavy")]
+    assert keys[0] == keys[1] and keys[0]["wrong.Box.mass"] == 3
+    assert all("delay_ms" in teleop_grid._keys(DESCRIPTION, name, "default") for name in _names("heavy"))
+
+
+def test_traditional_touch_has_no_model_that_could_be_wrong():
+    keys = [teleop_grid._keys(DESCRIPTION, name, "traditional") for name in _names("all")]
+    assert not any(key.startswith("wrong.") for one in keys for key in one)
+
+
+def test_what_hangs_on_a_hinge_is_moved_about_it():
+    one, hinged = (teleop_grid._keys(DESCRIPTION, name, "default") for name in _names("moved")[::4])
+    assert one["wrong.Box.move"] == "0.05,0,0"
+    assert 10 < hinged["wrong.Box.swing"] < 30 and "wrong.Box.move" not in hinged
+
+
+def test_copies_stand_elsewhere_with_the_same_shapes():
+    lines = Scene(DESCRIPTION["scene"]).varied({"copies": {"Other": {"of": "Box", "at": [1, 2, 3]}}}).splitlines()
+    of, other = (next(i for i, line in enumerate(lines) if line.startswith(f"body {name} ")) for name in ("Box", "Other"))
+    assert lines[other].split()[2:10] == lines[of].split()[2:10]
+    assert lines[other].split()[10:13] == ["1.0", "2.0", "3.0"]
+    assert lines[other + 1] == lines[of + 1]
+
+
+def test_pooled_ticks_are_counted_together():
+    pooled = teleop_grid.pool([{"0": 98, "100": 1}, {"0": 1}])
+    assert pooled == {0: 99, 100: 1}
+    assert teleop_grid.pooled_percentile(pooled, 0.99) == 10**0.01
+    assert teleop_grid.pooled_percentile(pooled, 1.0) == 10**1.01
+
+
+def test_errors_that_nobody_tells_apart_are_not_worse():
+    def one(error: float) -> dict[str, float]:
+        return {"force_error_mean_N": error, "box_position_error_rms_mm": 1.0}
+
+    assert not teleop_grid.is_worse("one.arm.heavy.50ms.0pct", one(0.1005), one(0.1))
+    assert teleop_grid.is_worse("one.arm.heavy.50ms.0pct", one(0.102), one(0.1))
+    assert teleop_grid.is_worse("one.arm.heavy.50ms.0pct", one(float("nan")), one(0.1))

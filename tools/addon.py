@@ -1,0 +1,107 @@
+"""./run addon: one archive of the addon, to be unzipped into any Godot project: build/addon/tactus-VERSION.zip."""
+
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+from setup import cache, godot, jolt
+
+FOLDER = cache.clone() / "demo_project/addons/tactus"
+STAGE = cache.clone() / "build/addon"
+OLDEST_DATE = (1980, 1, 1, 0, 0, 0)  # of a zip: the same content gives the same bytes
+
+SYSTEM_NOTICES = {
+    "GLM": "/usr/share/doc/libglm-dev/copyright",
+    "libsodium": "/usr/share/doc/libsodium-dev/copyright",
+    "GCC's runtime libraries, linked under the GCC Runtime Library Exception": "/usr/share/doc/libstdc++-*-dev/copyright",
+}
+
+
+def version() -> str:
+    """The newest one in the changelog."""
+    found = re.search(r"^## (\d+\.\d+\.\d+)$", (cache.clone() / "CHANGELOG.md").read_text(), re.M)
+    if not found:
+        raise RuntimeError("CHANGELOG.md names no version: a heading '## 1.2.3'")
+    return found[1]
+
+
+def archive() -> Path:
+    return STAGE / f"tactus-{version()}.zip"
+
+
+def pack() -> Path:
+    content = contents()
+    missing = [name for name in _libraries(content["tactus.gdextension"].decode()) if name not in content]
+    if missing:
+        raise RuntimeError(f"{FOLDER} has no {', '.join(missing)}: ./run setup builds them")
+    cache.emptied(STAGE)
+    partial = archive().with_suffix(".partial")
+    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, data in sorted(content.items()):
+            entry = zipfile.ZipInfo(f"addons/tactus/{name}", OLDEST_DATE)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            entry.external_attr = 0o644 << 16
+            file.writestr(entry, data)
+    return partial.rename(archive())
+
+
+def contents() -> dict[str, bytes]:
+    """Path below the addon's folder → bytes."""
+    found = {}
+    for path in sorted(FOLDER.rglob("*")):
+        # What Godot imports into this project, it imports anew into another one.
+        if path.is_file() and path.suffix != ".import" and ".partial" not in path.name:
+            found[str(path.relative_to(FOLDER))] = path.read_bytes()
+    clone = cache.clone()
+    found["README.md"] = (clone / "docs/addon.md").read_bytes()
+    for name in ("LICENSE", "CHANGELOG.md"):
+        found[name] = (clone / name).read_bytes()
+    found["NOTICES.txt"] = notices().encode()
+    return found
+
+
+def _libraries(description: str) -> list[str]:
+    return sorted(set(re.findall(r'"(bin/[^"]+)"', description)))
+
+
+def notices() -> str:
+    """The licence of everything that the libraries contain, as it stands where it came from."""
+    command = godot.command()
+    interface = godot.api_folder(command) / "gdextension_interface.h" if command else None
+    texts = {"Jolt Physics": jolt.licence(), "Godot Engine (interface to extensions)": _first_comment(interface)}
+    for name, path in SYSTEM_NOTICES.items():
+        files = sorted(Path("/").glob(path.lstrip("/")))
+        if not files:
+            raise RuntimeError(f"the licence of {name} is not on this machine: {path}")
+        texts[name] = files[-1].read_text()
+    rule = "=" * 80
+    parts = [f"{rule}\n{name}\n{rule}\n\n{text.strip()}\n" for name, text in texts.items()]
+    return "Tactus contains parts of the following works.\n\n" + "\n".join(parts)
+
+
+def _first_comment(header: Path | None) -> str:
+    if header is None:
+        raise RuntimeError("there is no Godot whose licence could be given")
+    lines = []
+    for line in header.read_text().splitlines():
+        if not line.startswith("/*"):
+            break
+        lines.append(line.strip("/* "))
+    return "\n".join(lines)
+
+
+def main() -> int:
+    path = pack()
+    print(f"{path.relative_to(cache.clone())}: {path.stat().st_size / 1e6:.1f} MB, for")
+    for name in _libraries((FOLDER / "tactus.gdextension").read_text()):
+        print(f"  {Path(name).name}")
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except RuntimeError as error:
+        print(error, file=sys.stderr)
+        sys.exit(1)
