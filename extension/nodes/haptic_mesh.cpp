@@ -70,6 +70,13 @@ void HapticMesh::set_smoothing_angle(double angle) {
     }
 }
 
+void HapticMesh::set_one_sided(bool one_sided) {
+    if (one_sided_ != one_sided) {
+        one_sided_ = one_sided;
+        ++change_count;
+    }
+}
+
 void HapticMesh::set_use_library_mass(bool use) {
     use_library_mass_ = use;
     update_configuration_warnings();
@@ -131,8 +138,12 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
     } else if (local.basis.determinant() == 0) {
         reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
     } else {
-        reading.meshes.push_back(
-            {triangles, without_rounding(scaling_of(local.basis)), pose_of(local), smoothing_angle_, {}});
+        reading.meshes.push_back({triangles,
+                                  without_rounding(scaling_of(local.basis)),
+                                  pose_of(local),
+                                  smoothing_angle_,
+                                  one_sided_,
+                                  {}});
     }
     return reading;
 }
@@ -207,6 +218,8 @@ void HapticMesh::_bind_methods() {
     ClassDB::bind_method(D_METHOD("is_using_library_mass"), &HapticMesh::is_using_library_mass);
     ClassDB::bind_method(D_METHOD("set_smoothing_angle", "angle"), &HapticMesh::set_smoothing_angle);
     ClassDB::bind_method(D_METHOD("get_smoothing_angle"), &HapticMesh::get_smoothing_angle);
+    ClassDB::bind_method(D_METHOD("set_one_sided", "one_sided"), &HapticMesh::set_one_sided);
+    ClassDB::bind_method(D_METHOD("is_one_sided"), &HapticMesh::is_one_sided);
     ClassDB::bind_method(D_METHOD("get_library_mass"), &HapticMesh::get_library_mass);
     ClassDB::bind_method(D_METHOD("get_library_source"), &HapticMesh::get_library_source);
     ClassDB::bind_method(D_METHOD("_resource_changed"), &HapticMesh::resource_changed);
@@ -223,6 +236,7 @@ void HapticMesh::_bind_methods() {
     ADD_PROPERTY(
         PropertyInfo(Variant::FLOAT, "smoothing_angle", PROPERTY_HINT_RANGE, "0,180,0.1,radians_as_degrees"),
         "set_smoothing_angle", "get_smoothing_angle");
+    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "one_sided"), "set_one_sided", "is_one_sided");
 }
 
 }  // namespace tactus

@@ -240,6 +240,14 @@ void Session::remove_body(SessionHandle body) {
     }
 }
 
+std::string Session::deform_body(SessionHandle body, ReadyBody&& form) {
+    if (form.error.empty() && impl_->bodies.in_use(body)) {
+        impl_->send(command::DeformBody{body, std::move(form.body), std::move(form.same_body),
+                                        std::move(form.touch)});
+    }
+    return std::move(form.error);
+}
+
 void Session::teleport_body(SessionHandle body, const Pose& pose) {
     if (limits::is_pose(pose)) {
         impl_->send(command::TeleportBody{body, pose});
@@ -392,6 +400,7 @@ bool Session::collect() {
             case Retired::Kind::joint:
                 impl_->joints.give_back(remains.handle);
                 break;
+            case Retired::Kind::form:
             case Retired::Kind::texture:
             case Retired::Kind::side:
                 break;

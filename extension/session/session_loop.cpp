@@ -49,6 +49,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       state_changes_(settings.most_bodies),
       state_of_(settings.most_bodies, no_handle) {
     travelling_.reserve(settings.most_bodies);
+    forming_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
     pushed_.reserve(settings.most_bodies);
     joints_.resize(settings.physics.max_joints);
@@ -61,6 +62,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     ++tick_;
     time_ = now;
     scene_.begin_tick();
+    take_forms();
     follow_physics();
     follow_replay();
     travel();

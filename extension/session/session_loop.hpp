@@ -25,6 +25,8 @@ public:
         BodyId id;
         int slot = -1;  // in the touch scene; -1: not in the loop
         std::shared_ptr<const TouchShape> shape;
+        std::shared_ptr<const TouchShape> former;  // form; its triangles may still be on their way
+        bool takes_form = false;                   // `shape` is not in the touch scene yet
         std::shared_ptr<const HeightImage> texture;
         Motion motion = Motion::Static;
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
@@ -146,6 +148,7 @@ private:
 
     bool carry_out(command::AddBody& c, Retired& retired);
     bool carry_out(command::RemoveBody& c, Retired& retired);
+    bool carry_out(command::DeformBody& c, Retired& retired);
     bool carry_out(command::TeleportBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);
@@ -170,6 +173,7 @@ private:
 
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
     void end_travel(SessionHandle handle);
+    void take_forms();
     void travel();
     void follow_physics();
     void follow_replay();
@@ -201,6 +205,7 @@ private:
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
+    std::vector<SessionHandle> forming_;  // bodies that take another form in the coming tick
     std::vector<SessionHandle> pushed_;   // bodies with a push of their own
     std::vector<JointId> joints_;         // by handle
     std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched

@@ -8,6 +8,7 @@
 
 #include "core/geometry/convex_hull.hpp"
 #include "session/session.hpp"
+#include "shared/deforms.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
@@ -92,8 +93,10 @@ public:
         }
         if (kick == KickCase::deforms) {
             form_ = form_of(random_.flip() ? icosphere(2, size_) : terrain(10, 3.0 * size_, 0.2 * size_),
-                            random_.flip(), false);
+                            false, false);
             form_.solid = is_closed(form_.mesh);
+            rest_ = form_.mesh;
+            touch_ = touch_of(rest_);
         }
         Workspace workspace;
         workspace.force_limit = random_.flip() ? 8.0 : 1e6;
@@ -113,6 +116,7 @@ private:
         addition.description.pose = pose;
         addition.description.motion = motion;
         addition.touch_material = material(stiffness_);
+        addition.touch = kick_ == KickCase::deforms ? touch_ : nullptr;
         return addition;
     }
     TouchMaterial material(double stiffness) {
@@ -137,6 +141,8 @@ private:
     RandomValues random_;
     double radius_ = 0.0, size_ = 0.0, stiffness_ = 0.0, friction_ = 0.0, stiffest_ = 0.0;
     Form form_;
+    TriangleMesh rest_;
+    std::shared_ptr<const TouchShape> touch_;
     Pose pose_;
     Hand hand_;
     Session session_{SessionSettings{}};
@@ -254,7 +260,14 @@ void KickPlay::event() {
             stiffest_ = std::max(stiffest_, 5000.0);
             session_.set_touch_material(body_, material(random_.magnitude(50.0, 5000.0)));
             break;
-        case KickCase::deforms:
+        case KickCase::deforms: {
+            const RandomWay way(random_, random_.between(0.1, 5.0) * radius_, size_, !form_.solid);
+            form_.mesh = moved(rest_, way);
+            touch_ = refitted(*touch_, form_.mesh);
+            form_.shape = MeshShape{std::make_shared<const TriangleMesh>(form_.mesh)};
+            session_.deform_body(body_, session_.prepare_body(body(form_, pose_, Motion::Static)));
+            break;
+        }
         case KickCase::squeezed:
             break;
     }

@@ -11,7 +11,8 @@ namespace tactus::shared {
 enum class KickCase { appears, teleports, grows, squeezed, vanishes, stiffens, deforms };
 
 inline constexpr KickCase kick_cases[] = {KickCase::appears,  KickCase::teleports, KickCase::grows,
-                                          KickCase::squeezed, KickCase::vanishes,  KickCase::stiffens};
+                                          KickCase::squeezed, KickCase::vanishes,  KickCase::stiffens,
+                                          KickCase::deforms};
 
 std::string_view name_of(KickCase kick);
 

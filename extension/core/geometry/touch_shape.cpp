@@ -110,6 +110,13 @@ bool is_sound(const Pose& pose) {
 
 }  // namespace
 
+bool is_deformation(const TouchShape& from, const TouchShape& to) {
+    return std::ranges::equal(from.parts, to.parts, [](const TouchPart& p, const TouchPart& q) {
+        return p.tree() && q.tree() && q.tree()->is_refit_of(*p.tree()) &&
+               p.pose.position == q.pose.position && p.pose.rotation == q.pose.rotation;
+    });
+}
+
 TriangleMesh height_field_mesh(const HeightFieldShape& field) {
     TriangleMesh mesh;
     mesh.vertices.reserve(std::size_t{field.columns} * field.rows);

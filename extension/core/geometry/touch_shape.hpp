@@ -39,6 +39,10 @@ struct TouchShape {
     double reach = 0.0;
 };
 
+// True where both are made of the same meshes at the same places and only corners have moved: what touches
+// the one can be swept against the way to the other (see DeformSweep).
+bool is_deformation(const TouchShape& from, const TouchShape& to);
+
 struct TouchShapeResult {
     std::shared_ptr<const TouchShape> shape;  // null where there is an error
     std::string error;                        // what is wrong and what to do

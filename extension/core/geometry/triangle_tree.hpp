@@ -51,6 +51,10 @@ public:
     // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's
     // shape.
     void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
+    // The same as another tree: this one may be touched meanwhile.
+    TriangleTree refitted(const TriangleMesh& moved, const ParallelRunner& run = run_serially) const;
+    // True where both hold the same triangles at the same places of the tree, one as it is refitted.
+    bool is_refit_of(const TriangleTree& other) const { return lineage_ == other.lineage_; }
 
     // Every pack with a triangle in the ball around `center`, by its box: cheap, and with some that have
     // none. Their distances are those from `point`.
@@ -106,7 +110,9 @@ private:
     double extent_ = 0.0;  // largest distance of a box side from the origin along an axis
     double magnitude_ = 0.0;
     std::size_t triangle_count_ = 0;
+    std::uint64_t lineage_ = 0;  // another one for each build
 
+    friend class DeformSweep;
     friend class TriangleTreeBuilder;
 };
 

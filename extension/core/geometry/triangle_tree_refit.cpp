@@ -131,6 +131,17 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
     magnitude_ = all.magnitude;
 }
 
+TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {
+    TriangleTree tree;
+    tree.nodes_ = nodes_;
+    tree.ids_ = ids_;
+    tree.origin_ = origin_;
+    tree.triangle_count_ = triangle_count_;
+    tree.lineage_ = lineage_;
+    tree.refit(moved, run);
+    return tree;
+}
+
 void TriangleTree::refit(const TriangleMesh& moved, const ParallelRunner& run) {
     place_triangles(moved, run);
     fit_boxes(run);

@@ -30,7 +30,9 @@ bool was_inside(const TouchBody& body, const Change* change, std::uint32_t mask,
 // `change`: what has happened to the body; null where the sphere is what has changed.
 bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, const TouchingSphere& sphere,
                         Work& work) {
-    if (!body.shape || (body.layer & sphere.mask) == 0) {
+    const bool rides = change && change->kind == Change::Kind::form && body.former &&
+                       is_deformation(*body.former, *body.shape);
+    if (!body.shape || (body.layer & sphere.mask) == 0 || rides) {
         return false;
     }
     const bool known = rests_on(sphere, slot) && (!change || change->kind != Change::Kind::came);

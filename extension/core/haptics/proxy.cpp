@@ -1,5 +1,7 @@
 #include "core/haptics/proxy.hpp"
 
+#include "core/haptics/deform_ride.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -24,7 +26,9 @@ bool Proxy::appear() {
 
 // Whether the force may change although neither hand nor bodies have moved.
 bool Proxy::take_in_jumps() {
-    const bool other_sphere = settings_.radius != settled_.radius || settings_.mask != settled_.mask;
+    const bool missed = scene_->ticks() > std::exchange(scene_ticks_, scene_->ticks()) + 1;
+    const bool other_sphere =
+        settings_.radius != settled_.radius || settings_.mask != settled_.mask || missed;
     const std::uint64_t since = std::exchange(revision_, scene_->revision());
     const bool other_material =
         std::exchange(material_changes_, scene_->material_changes()) != scene_->material_changes();
@@ -67,9 +71,49 @@ int Proxy::carrier() const {
     return body;
 }
 
+// The body's triangles on their way since the last tick, where the body was then. False where they leave the
+// proxy no room.
+bool Proxy::ride_deformation(int index) {
+    const TouchBody& body = scene_->body(index);
+    const bool rests = std::ranges::any_of(touching(), [&](const Contact& c) { return c.body == index; });
+    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+        const TouchPart& from = body.former->parts[i];
+        const TouchPart& to = body.shape->parts[i];
+        const Pose placed = compose(body.previous, to.pose);
+        const Vec3 local = to_local(placed, position_);
+        if (glm::length(local - to.center) > std::max(from.radius, to.radius) + 1.1 * settings_.radius) {
+            continue;
+        }
+        const DeformSweep sweep(*from.tree(), *to.tree());
+        const auto advanced = [&](const Vec3& motion) {
+            const Vec3 before = position_;
+            bool free = true;
+            advance(direction_to_parent(placed, motion), free, index);
+            return direction_to_local(placed, position_ - before);
+        };
+        if (!ride({sweep, settings_.radius, rests}, local, surroundings_.work_left(), advanced)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void Proxy::ride_deformations(ProxyTick& tick) {
+    for (const int index : scene_->deformed_bodies()) {
+        const TouchBody& body = scene_->body(index);
+        PassedBodies& passed = surroundings_.passed();
+        if ((body.layer & settings_.mask) != 0 && !passed.contains(index) &&
+            is_deformation(*body.former, *body.shape) && !ride_deformation(index)) {
+            tick.status |= proxy_squeezed;
+            let_go(passed.pass(index, PassedBecause::squeezes));
+        }
+    }
+}
+
 // A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
 // leads through anything but the body that causes it, which stands at its new place already.
 void Proxy::ride_along(ProxyTick& tick) {
+    ride_deformations(tick);
     if (scene_->moved_bodies().empty()) {
         return;
     }

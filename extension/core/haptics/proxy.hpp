@@ -104,6 +104,8 @@ private:
     bool take_in_jumps();
     void let_go(bool every);
     void ride_along(ProxyTick& tick);
+    void ride_deformations(ProxyTick& tick);
+    bool ride_deformation(int body);
     void advance(const Vec3& motion, bool& free, int except = -1);
     int carrier() const;
     bool fly(const Vec3& hand);
@@ -124,6 +126,7 @@ private:
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     // What the last move has seen.
+    std::uint64_t scene_ticks_ = 0;
     std::uint64_t revision_ = 0;
     std::uint64_t material_changes_ = 0;
     ProxySettings settled_{0.0, 0, 0};

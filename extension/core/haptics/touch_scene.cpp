@@ -26,6 +26,7 @@ bool same_pose(const Pose& p, const Pose& q) {
 TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts)
     : bodies_(most_bodies), parts_(most_parts) {
     moved_.reserve(most_bodies);
+    deformed_.reserve(most_bodies);
 }
 
 // First fit: removed bodies leave gaps that later ones fill.
@@ -50,7 +51,8 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
         return -1;
     }
     const int index = static_cast<int>(slot - bodies_.begin());
-    *slot = {&shape, pose, pose, material, layer, false, 0.0, static_cast<std::uint32_t>(first_part)};
+    *slot = {
+        &shape, pose, pose, material, layer, false, 0.0, nullptr, static_cast<std::uint32_t>(first_part)};
     for (std::size_t i = 0; i < shape.parts.size(); ++i) {
         const Pose placed = compose(pose, shape.parts[i].pose);
         parts_[slot->first_part + i] = {&shape.parts[i], static_cast<std::uint32_t>(index), placed, placed};
@@ -69,6 +71,7 @@ void TouchScene::remove(int body) {
         parts_[removed.first_part + i] = {};
     }
     std::erase(moved_, body);
+    std::erase(deformed_, body);
     note_change(body, Change::Kind::went, removed.pose, removed.layer);
     bodies_full_below_ = std::min(bodies_full_below_, static_cast<std::size_t>(body));
     parts_full_below_ = std::min(parts_full_below_, static_cast<std::size_t>(removed.first_part));
@@ -95,6 +98,30 @@ void TouchScene::begin_tick() {
         }
     }
     moved_.clear();
+    for (const int index : deformed_) {
+        body_at(index).former = nullptr;
+    }
+    deformed_.clear();
+}
+
+bool TouchScene::deform(int index, const TouchShape& shape) {
+    TouchBody& body = body_at(index);
+    if (shape.parts.size() != body.shape->parts.size()) {
+        return false;
+    }
+    if (!body.former) {
+        deformed_.push_back(index);
+        body.former = body.shape;
+    }
+    body.shape = &shape;
+    for (std::size_t i = 0; i < shape.parts.size(); ++i) {
+        ScenePart& part = parts_[body.first_part + i];
+        part.part = &shape.parts[i];
+        part.pose = compose(body.pose, shape.parts[i].pose);
+        part.previous = compose(body.previous, shape.parts[i].pose);
+    }
+    note_change(index, Change::Kind::form, body.pose, body.layer);
+    return true;
 }
 
 void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {

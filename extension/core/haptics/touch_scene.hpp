@@ -23,6 +23,7 @@ struct TouchBody {
     std::uint32_t layer = 1;  // bits; a proxy touches it where its mask has one of them
     bool moved = false;       // since the last tick
     double moved_by = 0.0;    // no point of the body moved farther since the last tick (unit: meters)
+    const TouchShape* former = nullptr;  // its form one tick ago; null: it has not deformed since
     std::uint32_t first_part =
         0;  // its parts are scene parts first_part … first_part + shape->parts.size() - 1
 };
@@ -54,11 +55,16 @@ public:
         ++material_changes_;
     }
     void set_layer(int body, std::uint32_t layer);
+    // The body takes another form, its parts one by one; the former must live until the next tick has begun.
+    // Proxies sweep along the way of the triangles that are refits of those before. False, and nothing
+    // happens, where the parts are not as many.
+    bool deform(int body, const TouchShape& shape);
 
     std::size_t slots() const { return bodies_.size(); }
     const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
     std::span<const ScenePart> parts() const { return parts_; }
     std::span<const int> moved_bodies() const { return moved_; }
+    std::span<const int> deformed_bodies() const { return deformed_; }
     std::uint64_t ticks() const { return ticks_; }  // begun so far
 
     // Parts of a body that was added, removed, teleported, deformed or changed its layer: what a proxy
@@ -86,6 +92,7 @@ private:
     std::vector<TouchBody> bodies_;
     std::vector<ScenePart> parts_;
     std::vector<int> moved_;
+    std::vector<int> deformed_;
     std::size_t bodies_full_below_ = 0, parts_full_below_ = 0;  // no slot is free before these
     std::array<Change, remembered_changes> changes_;
     std::uint64_t revision_ = 1;
