@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 BINDING = Path("extension/binding")
+sys.path.append(str(BINDING.resolve()))
 
 
 def installed(prefix, target):
@@ -53,16 +54,33 @@ def generated(api):
     return output / "include", sorted(str(path) for path in (output / "src").rglob("*.cpp"))
 
 
+def class_bindings():
+    """The sources that bind the classes whose table is the class reference."""
+    import bind_classes
+
+    output = Path("build/classes")
+    sources = []
+    for table in map(bind_classes.ClassTable, sorted(Path("extension/doc_classes").glob("*.xml"))):
+        if table.is_bound():
+            _write_if_changed(output / f"{table.name}.cpp", table.source().encode())
+            sources.append(str(output / f"{table.name}.cpp"))
+    return sources
+
+
 def class_reference(target):
     """The source that gives the editor the class reference; a program for players has none."""
-    files = sorted(Path("extension/doc_classes").glob("*.xml"))
-    if target != "template_debug" or not files:
+    import bind_classes
+    import doc_data
+
+    tables = [bind_classes.ClassTable(path) for path in sorted(Path("extension/doc_classes").glob("*.xml"))]
+    if target != "template_debug" or not tables:
         return None
     output = Path("build", target, "doc_data.cpp")
-    command = [sys.executable, BINDING / "doc_data.py", "--output", output.with_suffix(".partial"), *files]
-    subprocess.run(command, check=True)
-    partial = output.with_suffix(".partial")
-    if not output.is_file() or output.read_bytes() != partial.read_bytes():
-        partial.replace(output)
-    partial.unlink(missing_ok=True)
+    _write_if_changed(output, doc_data.doc_source([table.help() for table in tables]).encode())
     return str(output)
+
+
+def _write_if_changed(path, content):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not path.is_file() or path.read_bytes() != content:
+        path.write_bytes(content)

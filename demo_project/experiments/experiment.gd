@@ -14,9 +14,10 @@ extends Node
 ## --baseline=1         a bare loop that only sleeps runs beside, for comparison
 ## --processor=NUMBER   the one on which the haptic thread stays; see HapticWorld.processor
 ## --screenshots=1,2.5  saves CASE_1.png, CASE_2.5.png at these times; needs a screen
-## --link.NAME=VALUE    a property of the scene's MMTLink. With --link.scenario=2 or 4 this is one side of a
-##                      teleoperation: the operator's hand waits until it knows all bodies of the far side,
-##                      and the duration counts from there; the far side stays until the operator has gone
+## --link.NAME=VALUE    a property of the scene's MMTLink, or of its resources as in link.conditions.delay.
+##                      With --link.scenario=2 or 4 this is one side of a teleoperation: the operator's hand
+##                      waits until it knows all bodies of the far side, and the duration counts from there;
+##                      the far side stays until the operator has gone
 ## --device.NAME=VALUE  a property of the scene's HapticDevice
 ## --corrects=touch     the model is left as it is until it is touched
 
@@ -62,7 +63,7 @@ func run(arguments: PackedStringArray) -> int:
 
 
 func _take(option: String, value: String) -> bool:
-	var name := option.get_slice(".", 1)
+	var name := option.substr(option.find(".") + 1).replace(".", ":")
 	match option.get_slice(".", 0):
 		"link":
 			_link_options[name] = JSON.parse_string(value)
@@ -98,6 +99,7 @@ func _run_scene(scene: Node) -> int:
 	var link := _first(scene, "MMTLink") as MMTLink
 	if link == null and not _link_options.is_empty():
 		return _fail("the scene '%s' has no MMTLink" % _options.scene)
+	_give_own_resources(link)
 	_set_all(link, _link_options)
 	var device := _first(scene, "HapticDevice") as HapticDevice
 	_set_all(device, _device_options)
@@ -129,9 +131,16 @@ func _run_scene(scene: Node) -> int:
 	return 0 if _write("_statistics.json", statistics) and _write("_periods.json", periods) else 1
 
 
+## Options change nothing that another scene shares.
+func _give_own_resources(link: MMTLink) -> void:
+	if link != null:
+		link.conditions = link.conditions.duplicate() if link.conditions != null else NetworkConditions.new()
+		link.tuning = link.tuning.duplicate() if link.tuning != null else TeleopTuning.new()
+
+
 func _set_all(node: Node, properties: Dictionary) -> void:
 	for name: String in properties:
-		node.set(name, properties[name])
+		node.set_indexed(name, properties[name])
 
 
 func _is_networked(link: MMTLink) -> bool:

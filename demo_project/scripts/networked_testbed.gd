@@ -15,12 +15,12 @@ const CORRECTIONS := {
 	"Stealthy: direction": MMTLink.CORRECTION_STEALTHY_DIRECTION,
 }
 const DERIVATIONS := {
-	"What was true": MMTLink.DERIVATION_NONE,
-	"Velocity (eq. 3.1)": MMTLink.DERIVATION_VELOCITY,
-	"Acceleration": MMTLink.DERIVATION_ACCELERATION,
-	"Averaged velocity": MMTLink.DERIVATION_AVERAGED,
-	"Model's history": MMTLink.DERIVATION_HISTORY,
-	"Re-simulation": MMTLink.DERIVATION_RESIMULATE,
+	"What was true": TeleopTuning.DERIVATION_NONE,
+	"Velocity (eq. 3.1)": TeleopTuning.DERIVATION_VELOCITY,
+	"Acceleration": TeleopTuning.DERIVATION_ACCELERATION,
+	"Averaged velocity": TeleopTuning.DERIVATION_AVERAGED,
+	"Model's history": TeleopTuning.DERIVATION_HISTORY,
+	"Re-simulation": TeleopTuning.DERIVATION_RESIMULATE,
 }
 const CONTROLS := {
 	"Spring": MMTLink.CONTROL_SPRING,
@@ -44,7 +44,8 @@ func _ready() -> void:
 		_here.correction_scheme,
 		func(value: int) -> void: _here.correction_scheme = value
 	)
-	_fill(%Derivation, DERIVATIONS, _here.derivation, func(value: int) -> void: _here.derivation = value)
+	var tuning := _here.tuning
+	_fill(%Derivation, DERIVATIONS, tuning.derivation, func(value: int) -> void: tuning.derivation = value)
 	_fill(%Control, CONTROLS, _there.control_scheme, func(value: int) -> void: _there.control_scheme = value)
 	%WrongModel.toggled.connect(func(wrong: bool) -> void: _here.model_errors = WRONG_MODEL if wrong else {})
 	for slider: HSlider in [%Delay, %Jitter, %Loss]:
@@ -65,10 +66,11 @@ func _choose_scenario(scenario: int) -> void:
 
 
 func _set_network() -> void:
-	for link: MMTLink in [_here, _there]:
-		link.emulated_delay = %Delay.value * 0.5e-3
-		link.emulated_jitter = %Jitter.value * 1e-3
-		link.emulated_loss = %Loss.value * 1e-2
+	# Both sides share them: each way has half of the delay.
+	var conditions := _here.conditions
+	conditions.delay = %Delay.value * 0.5e-3
+	conditions.jitter = %Jitter.value * 1e-3
+	conditions.loss = %Loss.value * 1e-2
 	%DelayText.text = "Delay, there and back   %d ms" % %Delay.value
 	%JitterText.text = "Jitter   ± %d ms" % %Jitter.value
 	%LossText.text = "Loss   %d %%" % %Loss.value

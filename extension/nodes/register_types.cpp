@@ -10,7 +10,9 @@
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
+#include "nodes/network_conditions.hpp"
 #include "nodes/proxy_pointer.hpp"
+#include "nodes/teleop_tuning.hpp"
 
 namespace tactus {
 
@@ -26,6 +28,8 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticDevice);
     GDREGISTER_CLASS(ProxyPointer);
     GDREGISTER_CLASS(HapticRecorder);
+    GDREGISTER_CLASS(NetworkConditions);
+    GDREGISTER_CLASS(TeleopTuning);
     GDREGISTER_CLASS(MMTLink);
     GDREGISTER_CLASS(HapticWorld);
 }

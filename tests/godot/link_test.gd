@@ -14,6 +14,8 @@ func _link(world: HapticWorld, side: MMTLink.Side, scenario: MMTLink.Scenario) -
 	link.name = "Link"
 	link.side = side
 	link.scenario = scenario
+	link.conditions = NetworkConditions.new()
+	link.tuning = TeleopTuning.new()
 	world.add_child(link)
 	return link
 
@@ -28,8 +30,8 @@ func _connect(scenario: MMTLink.Scenario, delay := 0.0) -> void:
 	_there = _link(_far, MMTLink.SIDE_TELEOPERATOR, scenario)
 	_here.partner = NodePath("../../Far/Link")
 	_there.partner = NodePath("../../Operator/Link")
-	_here.emulated_delay = delay / 2.0
-	_there.emulated_delay = delay / 2.0
+	_here.conditions.delay = delay / 2.0
+	_there.conditions.delay = delay / 2.0
 	await frames(2)
 
 
@@ -148,50 +150,97 @@ func test_every_property_may_change_while_a_body_is_pressed() -> void:
 	_add_hands(0.3)
 	_advance(1.0)
 	var changes := {}
-	for property in _here.get_property_list():
-		var name: String = property.name
-		if (
-			property.type == TYPE_FLOAT
-			and name.get_slice("_", 0) in ["emulated", "stand", "threshold", "stealth", "drag", "deadband"]
-		):
-			changes[name] = float(_here.get(name)) * 0.5
-		elif (
-			property.hint == PROPERTY_HINT_ENUM
-			and name in ["control_scheme", "correction_scheme", "derivation"]
-		):
-			changes[name] = 1
-	check(changes.size() > 30, "only %d properties are found" % changes.size())
+	for part: String in ["conditions", "tuning"]:
+		var values: Resource = _here.get(part)
+		for property in values.get_property_list():
+			var name := "%s:%s" % [part, property.name]
+			if property.type == TYPE_FLOAT:
+				changes[name] = float(values.get(property.name)) * 0.5
+			elif property.hint == PROPERTY_HINT_ENUM:
+				changes[name] = 1
+	changes.merge({"control_scheme": 1, "correction_scheme": 1})
+	check(changes.size() > 33, "only %d properties are found" % changes.size())
 	for name: String in changes:
 		for link: MMTLink in [_here, _there]:
-			link.set(name, changes[name])
+			link.set_indexed(name, changes[name])
 		_advance(0.01)
 		check_near(_felt(_operator).y, 8.0, 1e-3, "force after the change of " + name)
 
 
 func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 	var link := MMTLink.new()
+	link.conditions = NetworkConditions.new()
+	link.tuning = TeleopTuning.new()
 	add_child(link)
 	for wrong: Array in [
-		["emulated_delay", -1.0],
-		["emulated_delay", NAN],
-		["emulated_loss", 1.5],
+		["conditions:delay", -1.0],
+		["conditions:delay", NAN],
+		["conditions:delay", "long"],
+		["conditions:loss", 1.5],
+		["conditions:jitter_shape", 4],
+		["conditions:clock_drift", 0.1],
+		["conditions:seed", -1],
 		["local_port", 70000],
 		["remote_port", -1],
-		["states_every", 0],
-		["repeated_samples", 10],
-		["emulated_clock_drift", 0.1],
-		["stealth_window", 0.0],
+		["tuning:state_interval", 0],
+		["tuning:repeated_samples", 10],
+		["tuning:repeated_samples", 1.5],
+		["tuning:stealth_window", 0.0],
+		["tuning:derivation", 6],
+		["control_scheme", 4],
+		["correction_scheme", -1],
 		["scenario", 3],
 		["side", 7],
 	]:
-		var before: Variant = link.get(wrong[0])
-		expect_error("%s = %s was refused" % wrong)
-		link.set(wrong[0], wrong[1])
-		check(link.get(wrong[0]) == before, "%s took %s" % wrong)
-	link.emulated_jitter_shape = MMTLink.JITTER_TRACE
-	link.emulated_trace_file = "res://nothing.txt"
+		var before: Variant = link.get_indexed(wrong[0])
+		expect_error("%s = %s was refused" % [wrong[0].get_slice(":", wrong[0].count(":")), wrong[1]])
+		link.set_indexed(wrong[0], wrong[1])
+		check(link.get_indexed(wrong[0]) == before, "%s took %s" % wrong)
+	link.conditions.jitter_shape = NetworkConditions.JITTER_TRACE
+	link.conditions.trace_file = "res://nothing.txt"
 	check(link.get_warnings()[-1].contains("there is no file"), "no warning about the trace")
 	link.queue_free()
+
+
+func test_a_scene_from_before_conditions_and_tuning_still_loads() -> void:
+	var link := MMTLink.new()
+	add_child(link)
+	expect_error("emulated_delay is conditions.delay now")
+	for old: Array in [
+		["emulated_delay", 0.02],
+		["emulated_seed", 7],
+		["emulated_jitter_shape", 2],
+		["emulated_trace_file", "res://nothing.txt"],
+		["states_every", 3],
+		["stealth_longest_offset", 0.25],
+		["deadband", true],
+		["derivation", 1],
+	]:
+		link.set(old[0], old[1])
+	check_near(link.conditions.delay, 0.02, 0.0, "delay")
+	check_equal(link.conditions.seed, 7, "seed")
+	check_equal(link.conditions.jitter_shape, NetworkConditions.JITTER_HEAVY_TAIL, "shape of the jitter")
+	check_equal(link.conditions.trace_file, "res://nothing.txt", "trace")
+	check_equal(link.tuning.state_interval, 3, "state interval")
+	check_near(link.tuning.stealth_max_offset, 0.25, 0.0, "longest offset")
+	check(link.tuning.deadband_enabled, "deadband")
+	check_equal(link.tuning.derivation, TeleopTuning.DERIVATION_VELOCITY, "derivation")
+	link.queue_free()
+
+
+func test_links_share_their_conditions() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	_there.conditions = _here.conditions
+	_here.conditions.delay = 0.05
+	add_floor(_far, STIFFNESS)
+	_add_hands(0.1)
+	_advance(1.0)
+	check_near(_here.get_statistics().round_trip_s, 0.1, 0.02, "round trip")
+	var seen := [0]
+	_here.tuning.changed.connect(func() -> void: seen[0] += 1)
+	_here.tuning.derivation = TeleopTuning.DERIVATION_VELOCITY
+	_here.tuning.derivation = TeleopTuning.DERIVATION_VELOCITY
+	check_equal(seen[0], 1, "changes that were told")
 
 
 func test_a_link_says_what_it_lacks() -> void:
@@ -300,8 +349,8 @@ func test_two_runs_are_the_same_to_the_bit() -> void:
 	for run in 2:
 		await _connect(MMTLink.SCENARIO_MMT, 0.05)
 		for link: MMTLink in [_here, _there]:
-			link.emulated_jitter = 0.01
-			link.emulated_loss = 0.2
+			link.conditions.jitter = 0.01
+			link.conditions.loss = 0.2
 		add_floor(_far, STIFFNESS)
 		_add_hands(0.3)
 		var one := PackedVector3Array()

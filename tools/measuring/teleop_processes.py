@@ -55,14 +55,14 @@ class Case:
 
     def options(self, side: int) -> dict[str, object]:
         options: dict[str, object] = {
-            "link.scenario": self.scenario, "link.side": side, "link.emulated_delay": self.delay / 2,
-            "link.emulated_loss": self.loss, "link.local_port": PORTS[side], "link.remote_port": PORTS[1 - side],
+            "link.scenario": self.scenario, "link.side": side, "link.conditions.delay": self.delay / 2,
+            "link.conditions.loss": self.loss, "link.local_port": PORTS[side], "link.remote_port": PORTS[1 - side],
             "processor": PROCESSORS[side], "clock": "real", "duration": self.seconds, "warmup": self.warmup,
         }  # fmt: skip
         if side == OPERATOR:
             options |= self.device_options()
             options["link.correction_scheme"] = CORRECTIONS.index(self.correction)
-            options["link.derivation"] = DERIVATIONS.index(self.derivation)
+            options["link.tuning.derivation"] = DERIVATIONS.index(self.derivation)
             options["link.model_errors"] = json.dumps(self.wrong or {})
             options["corrects"] = "touch" if self.corrects_from_touch else "always"
         return options

@@ -68,12 +68,6 @@ float inverse_for_slabs(double motion) {
 
 }  // namespace
 
-void run_serially(std::size_t count, const std::function<void(std::size_t)>& task) {
-    for (std::size_t i = 0; i < count; ++i) {
-        task(i);
-    }
-}
-
 // Rounding a coordinate difference to float errs by at most 2^-24 of its operands; three axes and the
 // rounding of the query point itself stay below four times that.
 double TriangleTree::float_slack(const Vec3& relative) const {
@@ -218,8 +212,7 @@ double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distanc
 }
 
 std::size_t TriangleTree::bytes() const {
-    return nodes_.size() * sizeof(BoxNode) + ids_.size() / lane_count * sizeof(TrianglePack) +
-           ids_.size() * sizeof(std::uint32_t);
+    return nodes_.size() * sizeof(BoxNode) + labels_.size() * (sizeof(TrianglePack) + sizeof(PackLabels));
 }
 
 }  // namespace tactus

@@ -6,22 +6,18 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/geometry/box_node.hpp"
 #include "core/geometry/inside_test.hpp"
+#include "core/geometry/pack_labels.hpp"
+#include "core/geometry/parallel.hpp"
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
 
 namespace tactus {
-
-// Runs task(0) … task(count - 1), in any order, on any threads, and returns when all are done.
-using ParallelRunner = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
-
-void run_serially(std::size_t count, const std::function<void(std::size_t)>& task);
 
 // A pack whose box is near a point. Its triangles are no nearer than `distance` (unit: meters).
 struct FoundPack {
@@ -85,9 +81,13 @@ public:
     void fetch_pack(std::uint32_t index) const { fetch_early(&packs_[index], sizeof(TrianglePack)); }
     // Which triangles of the mesh stand in the lanes of a pack.
     std::span<const std::uint32_t, lane_count> triangle_ids(std::uint32_t pack) const {
-        return std::span<const std::uint32_t, lane_count>(&ids_[pack * lane_count], lane_count);
+        return labels_[pack].triangle;
     }
 
+    // What is known of the triangles of a pack, the links between them as slots.
+    const PackLabels& labels(std::uint32_t pack) const { return labels_[pack]; }
+
+    std::size_t pack_count() const { return labels_.size(); }
     std::size_t triangle_count() const { return triangle_count_; }
     std::size_t bytes() const;
     Vec3 center() const { return origin_; }
@@ -99,12 +99,17 @@ private:
     double float_slack(const Vec3& relative) const;
     bool crossings(const Vec3& point, int axis, double sign, Work& work, int& number) const;
     NearestTriangle search(const Vec3& point, double far, double share, double& least) const;
+    void place_features(const TriangleMesh& mesh, const ParallelRunner& run);
     void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
+    void forget_sides(const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
+    std::uint32_t triangle_at(std::uint32_t slot) const {
+        return labels_[slot / lane_count].triangle[slot % lane_count];
+    }
 
     std::vector<BoxNode> nodes_;             // parents before children
-    std::unique_ptr<TrianglePack[]> packs_;  // as many as ids_ holds groups of lane_count
-    std::vector<std::uint32_t> ids_;
+    std::unique_ptr<TrianglePack[]> packs_;  // as many as labels_
+    std::vector<PackLabels> labels_;
     Vec3 origin_{0.0};
     double radius_ = 0.0;
     double extent_ = 0.0;  // largest distance of a box side from the origin along an axis

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/geometry/mesh_features.hpp"
 #include "core/geometry/triangle_tree.hpp"
 
 namespace tactus {
@@ -176,6 +177,7 @@ public:
         Range all = make_primitives();
         build_nodes(tree, all);
         primitives_.reset();
+        tree.place_features(mesh_, run_);
         tree.place_triangles(mesh_, run_);
         tree.fit_boxes(run_);
         return tree;
@@ -469,13 +471,13 @@ private:
     std::uint32_t append_leaf(TriangleTree& tree, const Range& range) const {
         Part leaf;
         add_pack(range, leaf);
-        const auto index = static_cast<std::uint32_t>(tree.ids_.size() / lane_count);
-        tree.ids_.insert(tree.ids_.end(), leaf.packs[0].begin(), leaf.packs[0].end());
+        const auto index = static_cast<std::uint32_t>(tree.labels_.size());
+        append_pack(tree, leaf.packs[0]);
         return index | BoxNode::leaf_bit;
     }
 
     static std::uint32_t append(TriangleTree& tree, const Part& part, std::uint32_t first_node) {
-        const auto first_pack = static_cast<std::uint32_t>(tree.ids_.size() / lane_count);
+        const auto first_pack = static_cast<std::uint32_t>(tree.labels_.size());
         for (BoxNode node : part.nodes) {
             for (std::uint32_t& child : node.child) {
                 if (child == BoxNode::unused) {
@@ -486,9 +488,13 @@ private:
             tree.nodes_.push_back(node);
         }
         for (const auto& ids : part.packs) {
-            tree.ids_.insert(tree.ids_.end(), ids.begin(), ids.end());
+            append_pack(tree, ids);
         }
         return first_node;
+    }
+
+    static void append_pack(TriangleTree& tree, const std::array<std::uint32_t, lane_count>& ids) {
+        std::ranges::copy(ids, tree.labels_.emplace_back().triangle);
     }
 
     const TriangleMesh& mesh_;
@@ -497,6 +503,33 @@ private:
     Vec3 origin_{0.0};
     std::unique_ptr<Primitive[]> primitives_;
 };
+
+void TriangleTree::place_features(const TriangleMesh& mesh, const ParallelRunner& run) {
+    const std::vector<TriangleFeatures> features = find_features(mesh, run);
+    std::vector<std::uint32_t> slot_of(features.size());
+    run_in_parts(run, labels_.size(), chunk, [&](std::size_t, std::size_t p, std::size_t end) {
+        for (; p < end; ++p) {
+            for (std::size_t i = lane_count; i-- > 0;) {  // of the lanes that repeat one, the first
+                slot_of[labels_[p].triangle[i]] = static_cast<std::uint32_t>(p * lane_count + i);
+            }
+        }
+    });
+    run_in_parts(run, labels_.size(), chunk, [&](std::size_t, std::size_t p, std::size_t end) {
+        for (; p < end; ++p) {
+            for (std::size_t i = 0; i < lane_count; ++i) {
+                const TriangleFeatures& triangle = features[labels_[p].triangle[i]];
+                labels_[p].owned[i] = triangle.owned;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const EdgeLink other = triangle.neighbour[k];
+                    labels_[p].neighbour[k][i] =
+                        other.exists()
+                            ? EdgeLink::to(slot_of[other.triangle()], static_cast<unsigned>(other.edge()))
+                            : other;
+                }
+            }
+        }
+    });
+}
 
 TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner& run) {
     static std::atomic<std::uint64_t> last_lineage{0};

@@ -63,16 +63,15 @@ constexpr std::size_t packs_a_task = 16384;
 }  // namespace
 
 void TriangleTree::place_triangles(const TriangleMesh& mesh, const ParallelRunner& run) {
-    const std::size_t count = ids_.size() / lane_count;
+    const std::size_t count = labels_.size();
     if (!packs_) {
         packs_ = std::make_unique_for_overwrite<TrianglePack[]>(count);
     }
-    run((count + packs_a_task - 1) / packs_a_task, [&](std::size_t task) {
-        const std::size_t end = std::min(count, (task + 1) * packs_a_task);
-        for (std::size_t p = task * packs_a_task; p < end; ++p) {
+    run_in_parts(run, count, packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
+        for (; p < end; ++p) {
             LanesVec3* const corners[3] = {&packs_[p].a, &packs_[p].b, &packs_[p].c};
             for (std::size_t i = 0; i < lane_count; ++i) {
-                const auto& triangle = mesh.triangles[ids_[p * lane_count + i]];
+                const auto& triangle = mesh.triangles[labels_[p].triangle[i]];
                 for (std::size_t k = 0; k < 3; ++k) {
                     const Vec3& corner = mesh.vertices[triangle[k]];
                     corners[k]->x[i] = corner.x;
@@ -134,7 +133,7 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
 TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {
     TriangleTree tree;
     tree.nodes_ = nodes_;
-    tree.ids_ = ids_;
+    tree.labels_ = labels_;
     tree.origin_ = origin_;
     tree.triangle_count_ = triangle_count_;
     tree.lineage_ = lineage_;
@@ -142,7 +141,24 @@ TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRun
     return tree;
 }
 
+void TriangleTree::forget_sides(const ParallelRunner& run) {
+    run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
+        for (; p < end; ++p) {
+            PackLabels& labels = labels_[p];
+            for (int i = 0; i < lane_count; ++i) {
+                std::array<bool, 3> owns{};
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const EdgeLink other = labels.neighbour[k][i];
+                    owns[k] = !other.exists() || labels.triangle[i] < triangle_at(other.triangle());
+                }
+                labels.owned[i].forget_sides(owns);
+            }
+        }
+    });
+}
+
 void TriangleTree::refit(const TriangleMesh& moved, const ParallelRunner& run) {
+    forget_sides(run);
     place_triangles(moved, run);
     fit_boxes(run);
 }

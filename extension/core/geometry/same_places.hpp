@@ -1,0 +1,17 @@
+// Which vertices of a mesh are one place. Files and engines split vertices along seams of texture or shading;
+// touch knows only where they are.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/parallel.hpp"
+#include "core/math/types.hpp"
+
+namespace tactus {
+
+// By vertex: the first with the same coordinates, itself where there is none before. 0 and -0 are the same.
+std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices,
+                                       const ParallelRunner& run = run_serially);
+
+}  // namespace tactus

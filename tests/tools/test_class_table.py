@@ -1,0 +1,52 @@
+"""The class reference as the table behind code and help."""
+
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+from bind_classes import OWN_ATTRIBUTES, ClassTable
+
+FOLDER = Path(__file__).resolve().parents[2] / "extension" / "doc_classes"
+TABLES = [ClassTable(path) for path in sorted(FOLDER.glob("*.xml"))]
+BOUND = [table for table in TABLES if table.is_bound()]
+
+
+@pytest.mark.parametrize("table", TABLES, ids=lambda table: table.name)
+def test_the_help_is_in_godots_format(table):
+    root = ElementTree.fromstring(table.help())
+    assert [child.tag for child in root][:3] == ["brief_description", "description", "tutorials"]
+    for kind, attributes in OWN_ATTRIBUTES.items():
+        for element in root.iter(kind):
+            assert not set(attributes) & set(element.keys()), f"{kind} {element.get('name')}"
+    assert root.find(".//statistics") is None
+    for element in (*root.iter("member"), *root.iter("constant"), *root.iter("description")):
+        assert element.text.strip(), f"{element.tag} {element.get('name')} says nothing"
+
+
+@pytest.mark.parametrize("table", BOUND, ids=lambda table: table.name)
+def test_every_member_is_bound_and_every_number_has_its_range(table):
+    source = table.source()
+    for member in table.all("member"):
+        assert f'"{member.get("name")}"' in source
+        if member.get("type") in ("int", "float") and member.get("field"):
+            assert member.get("enum") or member.get("max"), f"{member.get('name')} has no range"
+    for signal in table.all("signal"):
+        assert f'MethodInfo("{signal.get("name")}"' in source
+    for constant in table.all("constant"):
+        assert f'== {constant.get("value")});' in source
+
+
+def test_statistics_are_keys_in_code_and_lines_in_the_help():
+    table = next(table for table in TABLES if table.name == "MMTLink")
+    keys = [one.get("key") for one in table.all("statistic")]
+    assert len(keys) == len(set(keys)) > 50
+    text = table.help().decode()
+    for key in keys:
+        assert f'd["{key}"]' in table.source()
+        assert f"[code]{key}[/code]: " in text
+
+
+def test_a_range_is_said_with_its_unit():
+    table = next(table for table in TABLES if table.name == "NetworkConditions")
+    assert "[b]Range:[/b] 0 to 10 s." in table.help().decode()
