@@ -108,7 +108,7 @@ std::string check_proxy(const ProxyDescription& d) {
 }
 
 // In commands of the least kind (SessionSettings::commands_per_tick).
-std::uint32_t cost(const Command& command) {
+std::uint32_t share_of_tick(const Command& command) {
     const auto* const body = std::get_if<command::AddBody>(&command);
     return body && body->motion == Motion::Dynamic ? 4 : 1;
 }
@@ -148,7 +148,7 @@ struct Session::Impl {
             if (!command) {
                 break;
             }
-            taken += cost(*command);
+            taken += share_of_tick(*command);
             Retired remains;
             if (SessionLoop* const twin = loop.twin()) {
                 Command same;

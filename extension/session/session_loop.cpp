@@ -245,7 +245,7 @@ void SessionLoop::fade_jumps() {
             continue;
         }
         FadingForce::Step step{slot.hand, slot.hand_velocity};
-        for (const Contact& contact : slot.proxy->touching()) {
+        for (const Touch& contact : slot.proxy->touching()) {
             const TouchMaterial& material = scene_.body(contact.body).material;
             step.stiffness = std::max(step.stiffness, material.stiffness);
             step.damping = std::max(step.damping, material.damping);
@@ -362,7 +362,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     state.residual = tick.residual;
     state.status = tick.status;
     state.contact_count = 0;
-    for (const Contact& contact : slot.proxy->touching()) {
+    for (const Touch& contact : slot.proxy->touching()) {
         if (state.contact_count == HandForce::most_contacts) {
             break;
         }

@@ -100,19 +100,19 @@ double longest(const LanesVec3& v, int i) {
 
 }  // namespace
 
-DeformSweep::Nearest DeformSweep::nearest(double t, const Vec3& point, double far, Work& work) const {
+DeformSweep::Nearest DeformSweep::nearest(double t, const Vec3& point, double far, WorkBudget& work) const {
     Nearest nearest{far};
     const Vec3 relative = point - from_.origin_;
     const LanesVec3 exact = splat(point);
     Pending stack[stack_size];
     int depth = 0;
     stack[depth++] = {0, 0.0};
-    while (depth > 0 && work > 0) {
+    while (depth > 0 && !work.is_gone()) {
         const Pending item = stack[--depth];
         if (!(item.key < nearest.distance)) {
             continue;
         }
-        --work;
+        work.spend(item.node & BoxNode::leaf_bit ? cost::pack_look : 2 * cost::box_node);
         if (!(item.node & BoxNode::leaf_bit)) {
             push_children(from_.nodes_[item.node], nearest.distance, stack, depth, [&](int slot) {
                 return distance_to(box_of(from_.nodes_[item.node], slot), box_of(to_.nodes_[item.node], slot),
@@ -144,7 +144,7 @@ DeformSweep::Nearest DeformSweep::nearest(double t, const Vec3& point, double fa
 // A triangle that is `distance` away comes nearer by no more than its fastest corner does, seen from the
 // point; and not before its box lets it.
 double DeformSweep::free_until(double t, const Vec3& point, const Vec3& motion, double room,
-                               Work& work) const {
+                               WorkBudget& work) const {
     double until = 1.0;
     const Vec3 relative = point - from_.origin_;
     const LanesVec3 exact = splat(point);
@@ -157,9 +157,10 @@ double DeformSweep::free_until(double t, const Vec3& point, const Vec3& motion, 
         if (!(item.key < until)) {
             continue;
         }
-        if (--work <= 0) {
+        if (work.is_gone()) {
             return t;
         }
+        work.spend(item.node & BoxNode::leaf_bit ? cost::pack_look : 2 * cost::box_node);
         if (!(item.node & BoxNode::leaf_bit)) {
             push_children(from_.nodes_[item.node], until, stack, depth, [&](int slot) {
                 return entry_into(box_of(from_.nodes_[item.node], slot), box_of(to_.nodes_[item.node], slot),

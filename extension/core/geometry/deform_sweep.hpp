@@ -21,11 +21,11 @@ public:
     };
 
     // The nearest triangle at t. Where `work` is used up there may be a nearer one.
-    Nearest nearest(double t, const Vec3& point, double far, Work& work) const;
+    Nearest nearest(double t, const Vec3& point, double far, WorkBudget& work) const;
 
     // The way is free up to here: before, no triangle comes nearer than `room` to a point that is at `point`
     // at t and goes on by `motion` in the time from 0 to 1. At most 1. A lower bound: on from there.
-    double free_until(double t, const Vec3& point, const Vec3& motion, double room, Work& work) const;
+    double free_until(double t, const Vec3& point, const Vec3& motion, double room, WorkBudget& work) const;
 
 private:
     const TriangleTree& from_;

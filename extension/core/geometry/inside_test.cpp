@@ -191,7 +191,7 @@ bool is_closed(const TriangleMesh& mesh) {
 }
 
 // The boxes are wider than their triangles by rounding, never narrower.
-bool TriangleTree::crossings(const Vec3& point, int axis, double sign, Work& work, int& number) const {
+bool TriangleTree::crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const {
     const auto axes = across(axis);
     const Vec3 relative = point - origin_;
     const auto slack = static_cast<float>(float_slack(relative) * (1.0 + 1e-6));
@@ -206,9 +206,10 @@ bool TriangleTree::crossings(const Vec3& point, int axis, double sign, Work& wor
     number = 0;
     while (depth > 0) {
         const BoxNode& node = nodes_[stack[--depth]];
-        if (--work <= 0) {
+        if (work.is_gone()) {
             return false;
         }
+        work.spend(cost::box_node);
         for (int slot = 0; slot < node_width; ++slot) {
             const auto holds = [&](int k) {
                 return node.low[k][slot] <= at[k] + slack && node.high[k][slot] >= at[k] - slack;
@@ -222,7 +223,7 @@ bool TriangleTree::crossings(const Vec3& point, int axis, double sign, Work& wor
                 stack[depth++] = node.child[slot];
                 continue;
             }
-            --work;
+            work.spend(cost::pack_look);
             const std::uint32_t index = node.child[slot] & ~BoxNode::leaf_bit;
             const TrianglePack& triangles = pack(index);
             const auto ids = triangle_ids(index);
@@ -248,7 +249,7 @@ bool TriangleTree::crossings(const Vec3& point, int axis, double sign, Work& wor
 }
 
 // The nearest way out of the tree's box first: it meets the least.
-Winding TriangleTree::winding(const Vec3& point, Work& work) const {
+Winding TriangleTree::winding(const Vec3& point, WorkBudget& work) const {
     struct Way {
         double length;
         int axis;
@@ -276,7 +277,7 @@ Winding TriangleTree::winding(const Vec3& point, Work& work) const {
     Winding winding;
     for (const Way& way : ways) {
         winding.known = crossings(point, way.axis, way.sign, work, winding.number);
-        if (winding.known || work <= 0) {
+        if (winding.known || work.is_gone()) {
             break;
         }
     }

@@ -24,7 +24,7 @@ struct DeformRide {
 // much of the motion as nothing else is in the way of, and returns that. False where the sphere is left no
 // room, or the work does not suffice: it must be let out then.
 template <class Advance>
-bool ride(const DeformRide& given, Vec3 center, Work& work, Advance&& advance) {
+bool ride(const DeformRide& given, Vec3 center, WorkBudget& work, Advance&& advance) {
     constexpr int max_steps = 256;
     constexpr int max_lifts = 12;
     const DeformSweep& sweep = given.sweep;
@@ -33,7 +33,7 @@ bool ride(const DeformRide& given, Vec3 center, Work& work, Advance&& advance) {
     double t = 0.0;
     DeformSweep::Nearest at = sweep.nearest(t, center, 1.1 * radius, work);
     for (int step = 0; t < 1.0; ++step) {
-        if (at.distance < least || step == max_steps || work <= 0) {
+        if (at.distance < least || step == max_steps || work.is_gone()) {
             return false;
         }
         const bool rests = given.carried && at.distance < 1.1 * radius;

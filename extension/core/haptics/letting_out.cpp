@@ -12,13 +12,13 @@ using Change = TouchScene::Change;
 constexpr double touching_share = 1e-3;
 
 bool rests_on(const TouchingSphere& sphere, int body) {
-    return std::ranges::any_of(sphere.touching, [&](const Contact& c) { return c.body == body; });
+    return std::ranges::any_of(sphere.touching, [&](const Touch& c) { return c.body == body; });
 }
 
 // Where a closed mesh that can be touched from inside was already around the point before it went elsewhere,
 // it still is.
 bool was_inside(const TouchBody& body, const Change* change, std::uint32_t mask, const Vec3& point,
-                Work& work) {
+                WorkBudget& work) {
     if (!change) {
         return true;
     }
@@ -29,7 +29,7 @@ bool was_inside(const TouchBody& body, const Change* change, std::uint32_t mask,
 
 // `change`: what has happened to the body; null where the sphere is what has changed.
 bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, const TouchingSphere& sphere,
-                        Work& work) {
+                        WorkBudget& work) {
     const bool rides = change && change->kind == Change::Kind::form && body.former &&
                        is_deformation(*body.former, *body.shape);
     if (!body.shape || (body.layer & sphere.mask) == 0 || rides) {
@@ -58,7 +58,7 @@ bool is_repeated(const TouchScene& scene, std::uint64_t since, std::uint64_t rev
 }  // namespace
 
 bool let_out(const TouchScene& scene, std::uint64_t since, bool all, const TouchingSphere& sphere,
-             PassedBodies& passed, Work& work) {
+             PassedBodies& passed, WorkBudget& work) {
     bool every = true;
     const auto look_at = [&](int slot, const Change* change) {
         if (change && (change->kind == Change::Kind::came || change->kind == Change::Kind::went)) {
@@ -84,7 +84,7 @@ bool let_out(const TouchScene& scene, std::uint64_t since, bool all, const Touch
 }
 
 bool let_out_of_squeeze(const TouchScene& scene, const TouchingSphere& sphere, PassedBodies& passed,
-                        Work& work) {
+                        WorkBudget& work) {
     bool every = true;
     const double room = sphere.radius * (1.0 - max_overlap_share);
     for (const int slot : scene.moved_bodies()) {
@@ -98,7 +98,7 @@ bool let_out_of_squeeze(const TouchScene& scene, const TouchingSphere& sphere, P
     return every;
 }
 
-bool is_inside_one_sided(const TouchScene& scene, const Vec3& point, std::uint32_t mask, Work& work) {
+bool is_inside_one_sided(const TouchScene& scene, const Vec3& point, std::uint32_t mask, WorkBudget& work) {
     for (std::size_t slot = 0; slot < scene.slots(); ++slot) {
         const TouchBody& body = scene.body(static_cast<int>(slot));
         if (body.shape && (body.layer & mask) != 0 &&

@@ -15,7 +15,7 @@ bool asks_for(Insides insides, const TouchPart& part) {
 }  // namespace
 
 Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far,
-                     Insides insides, Work& work) {
+                     Insides insides, WorkBudget& work) {
     Overlap overlap{far, false, true};
     for (const TouchPart& part : shape.parts) {
         const Vec3 local = to_local(compose(pose, part.pose), center);
@@ -25,12 +25,15 @@ Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& cent
         }
         const TriangleTree* const tree = part.tree();
         if (!tree) {
+            work.spend(cost::solid_look);
             const double distance = distance_to_solid(part.solid(), local).distance;
             overlap.distance = std::min(overlap.distance, distance);
             overlap.inside = overlap.inside || distance < 0.0;
             continue;
         }
-        overlap.distance = std::min(overlap.distance, tree->nearest(local, far).distance);
+        const NearestTriangle nearest = tree->nearest(local, far, work);
+        overlap.distance = std::min(overlap.distance, nearest.distance);
+        overlap.known = overlap.known && nearest.complete;
         if (to_ball < 0.0 && !overlap.inside && asks_for(insides, part)) {
             const Winding winding = tree->winding(local, work);
             overlap.inside = winding.inside();
@@ -72,7 +75,7 @@ bool PassedBodies::any(PassedBecause reason) const {
 
 // A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it:
 // on either side, where both can be touched.
-void PassedBodies::update(const TouchScene& scene, const Vec3& center, double room, Work& work) {
+void PassedBodies::update(const TouchScene& scene, const Vec3& center, double room, WorkBudget& work) {
     for (std::size_t i = 0; i < count_;) {
         Passed& passed = passed_[i];
         const TouchBody& body = scene.body(passed.body);

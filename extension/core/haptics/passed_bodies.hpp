@@ -32,7 +32,7 @@ struct Overlap {
 // only meshes that are touched from one side count and it is not one of them.
 enum class Insides { of_solids, of_one_sided, of_all };
 Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far,
-                     Insides insides, Work& work);
+                     Insides insides, WorkBudget& work);
 
 class PassedBodies {
 public:
@@ -47,7 +47,7 @@ public:
 
     // Takes out those that a sphere of that radius around `center` is clear of (unit: meters): by `room`, and
     // outside where it has to be.
-    void update(const TouchScene& scene, const Vec3& center, double room, Work& work);
+    void update(const TouchScene& scene, const Vec3& center, double room, WorkBudget& work);
     // Another body has its slot now, or none.
     void forget(int body);
 
