@@ -105,6 +105,13 @@ bool ProxyPointer::is_present() const {
     return state_.handle != no_handle && (state_.status & proxy_absent) == 0;
 }
 
+bool ProxyPointer::is_being_let_out() const {
+    return (state_.status & proxy_letting_out) != 0;
+}
+bool ProxyPointer::is_squeezed() const {
+    return (state_.status & proxy_squeezed) != 0;
+}
+
 TypedArray<Dictionary> ProxyPointer::get_contacts() const {
     TypedArray<Dictionary> contacts;
     for (std::size_t i = 0; i < static_cast<std::size_t>(state_.contact_count); ++i) {
@@ -140,6 +147,9 @@ String ProxyPointer::get_state_text() const {
     }
     if (!is_present()) {
         return "the hand began inside a body: move it out once";
+    }
+    if (is_being_let_out()) {
+        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
     }
     return is_touching() ? "touching" : "free";
 }
@@ -307,6 +317,8 @@ void ProxyPointer::_bind_methods() {
     ClassDB::bind_method(D_METHOD("get_proxy_position"), &ProxyPointer::get_proxy_position);
     ClassDB::bind_method(D_METHOD("is_touching"), &ProxyPointer::is_touching);
     ClassDB::bind_method(D_METHOD("is_present"), &ProxyPointer::is_present);
+    ClassDB::bind_method(D_METHOD("is_being_let_out"), &ProxyPointer::is_being_let_out);
+    ClassDB::bind_method(D_METHOD("is_squeezed"), &ProxyPointer::is_squeezed);
     ClassDB::bind_method(D_METHOD("get_status"), &ProxyPointer::get_status);
     ClassDB::bind_method(D_METHOD("get_residual"), &ProxyPointer::get_residual);
     ClassDB::bind_method(D_METHOD("get_contacts"), &ProxyPointer::get_contacts);

@@ -8,8 +8,8 @@ namespace {
 
 using Change = TouchScene::Change;
 
-// A sphere that just touches has room enough: the first step lifts it off by what may be missing.
-constexpr double touching_share = 1e-3;
+// A sphere that just touches has room enough: the first step lifts it off by what is missing.
+constexpr double touching_share = 0.02;
 
 bool rests_on(const TouchingSphere& sphere, int body) {
     return std::ranges::any_of(sphere.touching, [&](const Touch& c) { return c.body == body; });
@@ -37,7 +37,8 @@ bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, c
     }
     const bool known = rests_on(sphere, slot) && (!change || change->kind != Change::Kind::came);
     const double room = sphere.radius * (1.0 - (known ? max_overlap_share : touching_share));
-    const Overlap at = overlap_with(*body.shape, body.pose, sphere.center, room, Insides::of_all, work);
+    // From where it was a tick ago on it pushes the sphere ahead.
+    const Overlap at = overlap_with(*body.shape, body.previous, sphere.center, room, Insides::of_all, work);
     if (at.distance < room) {
         return true;
     }
