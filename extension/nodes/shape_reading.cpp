@@ -160,7 +160,7 @@ std::shared_ptr<MeshSource> source_of(const godot::ConcavePolygonShape3D& concav
 
 ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling,
                     const Pose& pose) {
-    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, {}}}, {}};
+    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, false, {}}}, {}};
 }
 
 bool is_finite(const godot::Transform3D& transform) {
