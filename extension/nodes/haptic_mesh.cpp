@@ -75,6 +75,13 @@ void HapticMesh::set_smoothing_angle(double angle) {
     }
 }
 
+void HapticMesh::set_one_sided(bool one_sided) {
+    if (one_sided_ != one_sided) {
+        one_sided_ = one_sided;
+        ++change_count;
+    }
+}
+
 void HapticMesh::set_use_library_mass(bool use) {
     use_library_mass_ = use;
     update_configuration_warnings();
@@ -136,8 +143,12 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
     } else if (local.basis.determinant() == 0) {
         reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
     } else {
-        reading.meshes.push_back(
-            {triangles, without_rounding(scaling_of(local.basis)), pose_of(local), smoothing_angle_, {}});
+        reading.meshes.push_back({triangles,
+                                  without_rounding(scaling_of(local.basis)),
+                                  pose_of(local),
+                                  smoothing_angle_,
+                                  one_sided_,
+                                  {}});
     }
     return reading;
 }

@@ -71,6 +71,11 @@ public:
     AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
     void remove_body(SessionHandle body);
     // Where the body is from the next tick on, without a way there: nothing is pushed.
+    // The body takes another form where it is, of as many shapes as before; what it is else stays. Where only
+    // corners of its meshes have moved (see is_deformation), proxies that touch it are carried and pushed
+    // along their way, however far that is; else they are let out of it. Its former touch shape is kept
+    // until the next form. An error is that of the new body, and nothing happens.
+    std::string deform_body(SessionHandle body, ReadyBody&& form);
     void teleport_body(SessionHandle body, const Pose& pose);
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);

@@ -79,6 +79,7 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
 void SessionLoop::begin_replay_tick() {
     ++tick_;
     scene_.begin_tick();
+    take_forms();
     if (std::exchange(follows_all_, false)) {
         for (const BodyState& state : states_) {
             place(state.handle, physics_.pose(bodies_[state.handle].id), false);

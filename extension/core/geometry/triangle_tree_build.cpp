@@ -3,6 +3,7 @@
 // is the same whatever the number of threads.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -547,7 +548,10 @@ void TriangleTree::place_features(const TriangleMesh& mesh, const ParallelRunner
 }
 
 TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner& run) {
-    return TriangleTreeBuilder(mesh, run).build();
+    static std::atomic<std::uint64_t> last_lineage{0};
+    TriangleTree tree = TriangleTreeBuilder(mesh, run).build();
+    tree.lineage_ = ++last_lineage;
+    return tree;
 }
 
 }  // namespace tactus
