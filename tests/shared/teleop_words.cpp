@@ -184,7 +184,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
     } else if (key == "seed") {
         c.seed = natural;
     } else if (key == "correction") {
-        return choose(value, {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
+        return choose(value,
+                      {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
                        "stealthy_translate", "stealthy_turn"},
                       s.correction);
     } else if (key == "derivation") {
