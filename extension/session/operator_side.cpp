@@ -243,7 +243,7 @@ void OperatorSide::take(const ForceSample& force) {
     ForceSample here = force;
     here.force = direction_to_parent(settings().frame, force.force);
     here.proxy = to_parent(settings().frame, force.proxy);
-    if (!traditional_.take(here, body_of(force.object))) {
+    if (!traditional_.take(here, body_of(force.object), sample_)) {
         ++statistics_.stale_states;
         return;
     }

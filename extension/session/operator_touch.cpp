@@ -37,6 +37,9 @@ std::uint32_t felt_status(FeltState state) {
     return 0;
 }
 
+// A far side that has heard nothing more of the hand for so long has lost it (unit: seconds).
+constexpr double usual_silence = 0.5;
+
 }  // namespace
 
 // --- correcting
@@ -162,7 +165,12 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     in.hand_velocity = way / seconds_;
     in.seconds = seconds_;
     if (settings().traditional) {
-        const bool answers = traditional_.answers(index, sample_, seconds_, channel_.link().hears_peer());
+        // With a deadband it may be that nothing needs saying, and some of what is said is lost.
+        const double silence = settings().deadband.enabled
+                                   ? 5.0 * to_seconds(settings().deadband.longest_silence)
+                                   : usual_silence;
+        const bool answers = traditional_.answers(index, sample_, channel_.link().hears_peer(),
+                                                  static_cast<SampleSequence>(silence / seconds_));
         changed |= std::exchange(pointer.answered, answers) != answers;
         in.modelled = answers ? traditional_.far(index).force : Vec3(0.0);
         traditional_.describe(index, slot, in.modelled);

@@ -170,7 +170,7 @@ void TeleoperatorSide::keep(SessionLoop& loop, Pointer& pointer, const SessionLo
     if (const SessionLoop::Body* const under = loop.body(pointer.kept_on)) {
         const Pose& pose = loop.scene().body(under->slot).pose;
         pointer.kept_proxy = to_local(pose, slot.proxy->position());
-        pointer.kept_hand = to_local(pose, slot.hand);
+        pointer.kept_hand = to_local(pose, pointer.hand);
     }
 }
 

@@ -11,20 +11,20 @@ constexpr double no_force = 1e-9;
 
 }  // namespace
 
-bool TraditionalTouch::take(const ForceSample& force, SessionHandle touched) {
+bool TraditionalTouch::take(const ForceSample& force, SessionHandle touched, SampleSequence now) {
     Far& far = far_[force.pointer];
     if (force.newest_operator_sample < far.sample) {
         return false;
     }
-    far = {force.newest_operator_sample, force.force, force.proxy, touched};
+    const SampleSequence went_on = force.newest_operator_sample > far.sample ? now : far.went_on;
+    far = {force.newest_operator_sample, went_on, force.force, force.proxy, touched};
     return true;
 }
 
-bool TraditionalTouch::answers(std::size_t index, SampleSequence sample, double tick_seconds,
-                               bool hears_peer) const {
+bool TraditionalTouch::answers(std::size_t index, SampleSequence sample, bool hears_peer,
+                               SampleSequence ticks) const {
     const Far& far = far_[index];
-    const double silence = static_cast<double>(sample - far.sample) * tick_seconds;
-    return far.sample != no_sample && hears_peer && silence <= longest_silence;
+    return far.sample != no_sample && hears_peer && sample - far.went_on <= ticks;
 }
 
 void TraditionalTouch::describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const {

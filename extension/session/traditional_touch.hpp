@@ -15,18 +15,20 @@ public:
     // What the far side's hand was given last.
     struct Far {
         SampleSequence sample =
-            no_sample;    // the newest one that had been applied; no_sample: nothing has come
-        Vec3 force{0.0};  // (unit: newtons)
-        Vec3 proxy{0.0};  // in the world (unit: meters)
+            no_sample;  // the newest one that had been applied; no_sample: nothing has come
+        SampleSequence went_on = no_sample;  // the operator's own when that one came
+        Vec3 force{0.0};                     // (unit: newtons)
+        Vec3 proxy{0.0};                     // in the world (unit: meters)
         SessionHandle touched = no_handle;
     };
 
     // False, and nothing has changed, where it is older than what is known.
-    bool take(const ForceSample& force, SessionHandle touched);
+    // `now`: the operator's own newest sample.
+    bool take(const ForceSample& force, SessionHandle touched, SampleSequence now);
 
     // Whether what came last for pointer `index` still holds in the tick of `sample`: the far side is heard,
-    // and has heard of this hand within `longest_silence`.
-    bool answers(std::size_t index, SampleSequence sample, double tick_seconds, bool hears_peer) const;
+    // and has heard more of this hand within `ticks`.
+    bool answers(std::size_t index, SampleSequence sample, bool hears_peer, SampleSequence ticks) const;
 
     // Of what is touched there, no more is known than which object, and where the force points.
     void describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const;
@@ -35,8 +37,6 @@ public:
     void forget() { far_ = {}; }
 
 private:
-    static constexpr double longest_silence = 1.0;  // (unit: seconds)
-
     std::array<Far, most_proxies> far_;
 };
 

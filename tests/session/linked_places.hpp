@@ -1,0 +1,163 @@
+// Two sessions with the same bodies, joined by a link with a delay, ticked in virtual time: what an
+// operator's model and the environment have become after the same sample of the hand.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "network/link_emulator.hpp"
+#include "network/memory_link.hpp"
+#include "session/operator_side.hpp"
+#include "session/teleoperator_side.hpp"
+#include "session_rig.hpp"
+
+namespace tactus::session_test {
+
+class LinkedPlaces {
+public:
+    struct Place {
+        explicit Place(const SessionSettings& settings, int hands) : session(settings), devices(hands) {
+            Workspace workspace;
+            workspace.force_limit = 100.0;
+            for (HeldDevice& device : devices) {
+                device.position = {0.0, 5.0, 0.0};
+                ProxyDescription pointer;
+                pointer.device = session.add_device(device, workspace).handle;
+                session.add_proxy(pointer);
+            }
+        }
+        Pose pose(SessionHandle body) const {
+            const SessionSnapshot& snapshot = session.snapshot();
+            for (std::size_t i = 0; i < snapshot.body_count; ++i) {
+                if (snapshot.bodies[i].handle == body) {
+                    return snapshot.bodies[i].pose;
+                }
+            }
+            return {};
+        }
+
+        Session session;
+        std::vector<HeldDevice> devices;
+        std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
+    };
+
+    // `delay`: there and back (unit: seconds).
+    LinkedPlaces(double delay, double loss, int hands, const TeleopSettings& here = {},
+                 const TeleopSettings& there = {}, std::size_t tracked = 64)
+        : settings_(session_settings()),
+          conditions_(conditions(delay, loss)),
+          at_far_(wire_.second(), conditions_, 1),
+          at_near_(wire_.first(), conditions_, 2),
+          near(settings_, hands),
+          far(settings_, hands) {
+        OperatorRoom room;
+        room.most_tracked = tracked;
+        near.session.attach(std::make_unique<OperatorSide>(settings_, room, here, at_near_, near.port,
+                                                           endpoint(Side::operator_side, 1)));
+        far.session.attach(std::make_unique<TeleoperatorSide>(settings_, there, at_far_, far.port,
+                                                              endpoint(Side::teleoperator_side, 2)));
+    }
+
+    SessionHandle add(const BodyAddition& there, const BodyAddition& here) {
+        const SessionHandle handle = far.session.add_body(there).handle;
+        EXPECT_EQ(near.session.add_body(here).handle, handle);
+        near.port->bindings.try_push({handle, handle});
+        watched.push_back(handle);
+        return handle;
+    }
+    SessionHandle add(const BodyAddition& both) { return add(both, both); }
+    void settle() {
+        near.session.settle();
+        far.session.settle();
+    }
+
+    void tick() {
+        now += period;
+        for (Place* const place : {&near, &far}) {
+            place->session.tick(now);
+            place->session.refresh();
+            place->session.collect();
+            place->port->statistics.refresh();
+        }
+        Moment& ours = moments_[near.port->statistics.front().sample];
+        for (const SessionHandle body : watched) {
+            ours.near.push_back(near.pose(body));
+        }
+        if (const auto same = moments_.find(far.port->statistics.front().sample); same != moments_.end()) {
+            same->second.far.clear();
+            for (const SessionHandle body : watched) {
+                same->second.far.push_back(far.pose(body));
+            }
+            answered = same->first;
+        }
+    }
+    void ticks(int count) {
+        for (int i = 0; i < count; ++i) {
+            tick();
+        }
+    }
+
+    void lose_everything(bool lost) {
+        LinkConditions other = conditions_;
+        other.loss = lost ? 1.0 : conditions_.loss;
+        at_far_.change(other);
+        at_near_.change(other);
+    }
+
+    // How far model and environment are apart after the newest sample that both know (unit: meters).
+    double apart(std::size_t watched_index) const {
+        const auto found = moments_.find(answered);
+        if (found == moments_.end() || found->second.far.size() <= watched_index ||
+            found->second.near.size() <= watched_index) {
+            return 0.0;
+        }
+        return glm::distance(found->second.near[watched_index].position,
+                             found->second.far[watched_index].position);
+    }
+    const TeleopStatistics& statistics() const { return near.port->statistics.front(); }
+
+    static SessionSettings session_settings() {
+        SessionSettings settings;
+        settings.most_bodies = 256;
+        settings.most_parts = 512;
+        settings.full_rate_bodies = 0;
+        return settings;
+    }
+
+private:
+    struct Moment {
+        std::vector<Pose> near, far;
+    };
+    static LinkConditions conditions(double delay, double loss) {
+        LinkConditions made;
+        made.delay = from_seconds(0.5 * delay);
+        made.loss = loss;
+        return made;
+    }
+    static EndpointSettings endpoint(Side side, std::uint64_t epoch) {
+        EndpointSettings settings;
+        settings.side = side;
+        settings.epoch = epoch;
+        return settings;
+    }
+
+    SessionSettings settings_;
+    LinkConditions conditions_;
+    MemoryLinkPair wire_{4096};
+    LinkEmulator at_far_, at_near_;
+
+public:
+    Place near, far;
+    Nanoseconds now = 0;
+    std::vector<SessionHandle> watched;
+    SampleSequence answered = no_sample;
+
+private:
+    std::map<SampleSequence, Moment> moments_;
+};
+
+}  // namespace tactus::session_test
