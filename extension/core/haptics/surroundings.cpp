@@ -14,6 +14,7 @@ namespace {
 // A mesh is remembered this many ticks' travel around the sphere: fewer means gathering more often, more
 // means looking at more packs in between. Chosen by the bench `proxy`.
 constexpr double ticks_remembered = 2.5;
+constexpr double strides_remembered = 2.0;
 // Share of that by which its ball is put ahead of the sphere: most ways go on as they began.
 constexpr double ahead_share = 0.6;
 
@@ -94,10 +95,16 @@ std::size_t Surroundings::owner_of(std::uint32_t part) {
     return oldest;
 }
 
+// A ball that holds for some ticks; over rough ground, for some strides.
+double Surroundings::wanted_margin() const {
+    return std::max(std::min(ticks_remembered * broad_phase_.pace(), strides_remembered * stride_),
+                    4.0 * tolerances().reach);
+}
+
 // The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of
 // the given length from there. Null where they are too many: the ball is then made smaller, and not tried
 // again until the sphere has moved on.
-PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way) {
+PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way, bool may_gather) {
     const double now = broad_phase_.reading(index);
     const double needed = rest() + tolerances().reach + way;
     const std::size_t place = owner_of(index);
@@ -106,7 +113,7 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, 
     if (memory.covered_around(local) >= needed) {
         return &memory;
     }
-    if (now < owner.crowded_until) {
+    if (!may_gather || now < owner.crowded_until) {
         return nullptr;
     }
     const ScenePart& placed = scene_->parts()[index];
@@ -114,16 +121,21 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, 
     const double length = glm::length(last_way);
     const Vec3 heading =
         length > tolerances().reach ? direction_to_local(placed.pose, last_way / length) : Vec3(0.0);
-    const double margin =
-        owner.share * std::max(ticks_remembered * broad_phase_.pace(), 4.0 * tolerances().reach);
+    const double margin = owner.share * wanted_margin();
     const Vec3 center = local + heading * (ahead_share * margin);
     if (!memory.gather(*placed.part->tree(), center, needed + margin, local, needed, now, work_)) {
         owner.share = std::max(0.25 * owner.share, 1.0 / 64.0);
-        owner.crowded_until = now + margin;
+        owner.crowd = std::clamp(2.0 * owner.crowd, 0.01 * radius_, radius_);
+        owner.crowded_until = now + owner.crowd;
         return nullptr;
     }
-    if (memory.count() < PackMemory::capacity / 4) {
+    owner.crowd = 0.0;
+    // About as many as are looked through in the time of one search of the tree.
+    constexpr std::size_t comfortable = 256;
+    if (memory.count() < comfortable / 2) {
         owner.share = std::min(1.0, 2.0 * owner.share);
+    } else if (memory.count() > 2 * comfortable) {
+        owner.share = std::max(0.5 * owner.share, 1.0 / 64.0);
     }
     return &memory;
 }
@@ -145,14 +157,15 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
         const ScenePart& placed = scene_->parts()[part];
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
-            find_tree_contacts(part, local, limit, out);
+            find_tree_contacts(part, local, beyond, limit, out);
         } else {
             find_solid_contact(part, local, limit, out);
         }
     }
     // What was taken in before something nearer was found.
-    const auto kept = std::remove_if(out.items.begin(), out.items.begin() + out.count,
-                                     [&](const Contact& contact) { return contact.gap > limit - rest(); });
+    const auto kept = std::remove_if(
+        out.items.begin(), out.items.begin() + out.count,
+        [&](const Contact& contact) { return contact.gap > limit - rest() + tolerances().same; });
     out.count = static_cast<int>(kept - out.items.begin());
     add_in_mind(center, tolerances().reach + beyond, out);
     add_insisted(center, out);
@@ -173,7 +186,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, do
     }
 }
 
-void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double& limit,
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double beyond, double& limit,
                                       ContactList& out) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = *placed.part->tree();
@@ -188,16 +201,16 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             const std::uint32_t slot = pack * lane_count + static_cast<std::uint32_t>(k);
             const std::uint32_t id = tree.triangle_at(slot);
             if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
-                work_.spend(cost::closest_point);
                 last_id = id;
                 const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
-                add_seen({normal, distances[k] - rest(), {index, slot}, ContactState::seen}, out);
+                add_seen({normal, distances[k] - rest(), {index, slot}, ContactState::seen}, limit, out);
             }
         }
     };
     double others = 0.0;
     bool is_known = false;
-    if (PackMemory* const memory = memory_around(index, local, 0.0)) {
+    // Above a surface a ball around the sphere ends before the surface begins.
+    if (PackMemory* const memory = memory_around(index, local, 0.0, beyond <= wanted_margin())) {
         others = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
         // What is remembered ends somewhere: in free space before the surface begins.
         const double covered = memory->covered_around(local);
@@ -218,8 +231,10 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
 }
 
-// An edge or corner is found once with every triangle that shares it: the first stands for all.
-void Surroundings::add_seen(const Contact& contact, ContactList& out) const {
+// An edge or corner is found once with every triangle that shares it: the first stands for all. Once the list
+// is full, only what is nearer by more than rounding is let in: each time the list is looked through.
+void Surroundings::add_seen(const Contact& contact, double& limit, ContactList& out) {
+    work_.spend(1 + out.count / 8);
     Contact added = contact;
     const double same = tolerances().same;
     for (int i = 0; i < out.count && added.state == ContactState::seen; ++i) {
@@ -230,6 +245,9 @@ void Surroundings::add_seen(const Contact& contact, ContactList& out) const {
         }
     }
     out.add(added);
+    if (out.is_full()) {
+        limit = std::min(limit, out.max_gap() + rest() - same);
+    }
 }
 
 void Surroundings::keep_in_mind(const FeatureId& feature) {
@@ -293,7 +311,7 @@ Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double l
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
     const double length = glm::length(way.motion);
     for (const double ahead : {0.0, length * limit}) {
-        if (ahead > 2.0 * ticks_remembered * broad_phase_.pace()) {
+        if (ahead > 2.0 * wanted_margin()) {
             break;
         }
         PackMemory* const memory = memory_around(index, way.start, ahead);
