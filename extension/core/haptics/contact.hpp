@@ -22,7 +22,8 @@ struct FeatureId {
 
 enum class ContactState : std::uint8_t {
     seen,     // as the search found it: good enough to tell which contacts hold the sphere back
-    exact,    // looked at closely
+    exact,    // looked at closely: an edge, a corner, or a shape in closed form
+    face,     // looked at closely: flat
     covered,  // an edge or corner for which a nearer or earlier contact stands
 };
 

@@ -166,24 +166,27 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     WorkBudget& work = surroundings_.work();
     const ContactLook look = surroundings_.look_from(position_);
     ConstrainedStep step;
-    for (bool seen = true; seen;) {
+    for (bool again = true; again;) {
         step = flat_step(pull, contacts_, tolerances().same, work);
-        seen = false;
+        again = false;
         for (int i = 0; i < step.pressing_count && !work.is_gone(); ++i) {
             if (contacts_[step.pressing[i]].state == ContactState::seen) {
                 look.look_closely(contacts_, step.pressing[i]);
-                seen = true;
+                again = true;
             }
         }
     }
+    bool is_flat = true;
     for (int i = 0; i < step.pressing_count; ++i) {
-        surroundings_.keep_in_mind(contacts_[step.pressing[i]].feature);
+        const Contact& contact = contacts_[step.pressing[i]];
+        surroundings_.keep_in_mind(contact.feature);
+        is_flat = is_flat && contact.state == ContactState::face;
     }
     if (step.pressing_count == 0) {
         return step;
     }
     doubt(step, pull, descent);
-    if (step.pressing_count == TouchList::capacity) {
+    if (is_flat || step.pressing_count == TouchList::capacity) {
         return step;
     }
     std::array<Curvature, TouchList::capacity - 1> curvatures;
@@ -239,6 +242,8 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         contacts_hold_ = false;
         if (hit.found) {
             surroundings_.keep_in_mind(stopped_by);
+        } else {
+            surroundings_.clear_mind();
         }
         descent.beyond = drop_after(glm::distance(before, position_));
         descent.dropped = step.pressing_count > 0 ? descent.beyond : 0.0;

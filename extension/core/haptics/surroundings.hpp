@@ -42,6 +42,7 @@ public:
     // as far above it as the sphere may be: in a groove it is the other wall. What stops the sphere at once,
     // although no contact does, counts until the sphere has moved; false where it did so already.
     void keep_in_mind(const FeatureId& feature);
+    void clear_mind() { in_mind_count_ = 0; }
     bool insist_on(const FeatureId& feature, const Vec3& center);
 
     // The next part near the sphere, counting from `from`, that has run into it since the last tick; false
