@@ -119,6 +119,45 @@ TEST(TriangleTree, FindsEveryPackWithinReach) {
     }
 }
 
+// Heights that fade out beyond what single precision holds as normal numbers: extents whose inverse is
+// infinite.
+TriangleMesh fading_heights(int cells, double size) {
+    TriangleMesh mesh = shared::terrain(cells, size, 0.0);
+    for (Vec3& v : mesh.vertices) {
+        v.y = static_cast<float>(v.x * std::exp(-v.x * v.x - v.z * v.z));
+    }
+    return mesh;
+}
+
+TEST(TriangleTree, ExtentsBelowNormalNumbersAreNoTrouble) {
+    RandomValues random(49);
+    for (const double size : {19.0, 20.0, 24.0, 60.0}) {
+        const TriangleMesh mesh = fading_heights(80, size);
+        const TriangleTree tree = TriangleTree::build(mesh);
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 p(random.between(-0.5, 0.5) * size, random.unit(), random.between(-0.5, 0.5) * size);
+            ASSERT_NEAR(tree.nearest(p, 1e30).distance, static_cast<double>(shared::slow_distance(p, mesh)),
+                        1e-13 * size);
+        }
+    }
+    TriangleMesh tiny = shared::icosphere(3, 1.0);
+    for (Vec3& v : tiny.vertices) {
+        v *= 1e-42;
+    }
+    tiny.vertices.push_back(Vec3(1.0));
+    tiny.triangles.push_back({0, 1, 642});
+    EXPECT_NEAR(TriangleTree::build(tiny).nearest(Vec3(0.0, 1.0, 0.0), 1e30).distance, std::sqrt(2.0 / 3.0),
+                1e-12);
+}
+
+TEST(TriangleTree, AVertexThatNoTriangleUsesCostsNoPrecision) {
+    TriangleMesh mesh = shared::icosphere(3, 1.0);
+    mesh.vertices.push_back(Vec3(1e9, -1e9, 1e9));
+    const TriangleTree tree = TriangleTree::build(mesh);
+    EXPECT_LT(glm::length(tree.center()), 1e-12);
+    EXPECT_LT(tree.radius(), 1.3);
+}
+
 TEST(TriangleTree, SaysWhenThereWereMorePacksThanRoom) {
     const TriangleTree tree = TriangleTree::build(shared::icosphere(3, 1.0));
     std::vector<FoundPack> room(3);

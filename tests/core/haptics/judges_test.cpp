@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "shared/bench_kit.hpp"
 #include "shared/free_way.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/rough_paths.hpp"
+#include "shared/stress_judge.hpp"
 
 namespace tactus {
 namespace {
@@ -104,8 +106,68 @@ TEST(FreeWay, LeavesNoClosedMesh) {
               FreeWay::none);
 }
 
+TEST(BodyJudge, KnowsMeshesBoxesAndBallsWhereverTheyStand) {
+    const Vec3 half(0.3, 0.2, 0.4);
+    const TriangleMesh mesh = shared::box(half);
+    const JudgeTree tree(mesh);
+    shared::BodyJudge by_mesh = shared::BodyJudge::of_mesh(tree);
+    shared::BodyJudge by_box = shared::BodyJudge::of_box(half);
+    shared::BodyJudge by_ball = shared::BodyJudge::of_ball(0.3);
+    RandomValues random(91);
+    for (int i = 0; i < 200; ++i) {
+        const Pose pose{random.in_ball(3.0), random.rotation()};
+        const Vec3 local = random.in_ball(1.0);
+        for (shared::BodyJudge* const judge : {&by_mesh, &by_box, &by_ball}) {
+            judge->place(pose);
+            judge->changed();
+        }
+        const Vec3 p = to_parent(pose, local);
+        EXPECT_NEAR(by_ball.distance(p, 2.0), glm::length(local) - 0.3, 1e-14);
+        if (by_box.distance(p, 2.0) > 0.0) {
+            EXPECT_NEAR(by_box.distance(p, 2.0), by_mesh.distance(p, 2.0), 1e-14);
+        } else {
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(local), half)));
+        }
+    }
+}
+
+TEST(BodyJudge, SparesLooksOnlyWhereNothingCanHaveComeNear) {
+    const TriangleMesh mesh = shared::icosphere(2, 1.0);
+    const JudgeTree tree(mesh);
+    shared::BodyJudge judge = shared::BodyJudge::of_mesh(tree);
+    RandomValues random(92);
+    Vec3 p(1.3, 0.0, 0.0);
+    for (int i = 0; i < 5'000; ++i) {
+        p += random.in_ball(0.01) - 0.002 * (p - Vec3(1.2, 0.0, 0.0));
+        const bool near = tree.nearest(p, 9.0).distance < 0.1;
+        EXPECT_EQ(judge.distance(p, 0.1) < 0.1, near);
+    }
+    EXPECT_GT(judge.spared, 1'000u);
+    EXPECT_GT(judge.looks, 100u);
+    EXPECT_EQ(judge.bound_faults, 0u);
+}
+
+TEST(BodyJudge, ExcusesUntilTheSphereIsClear) {
+    shared::BodyJudge judge = shared::BodyJudge::of_ball(1.0);
+    judge.excuse();
+    EXPECT_FALSE(judge.is_penetrated({1.05, 0.0, 0.0}, 0.1));
+    EXPECT_TRUE(judge.is_excused());
+    EXPECT_FALSE(judge.is_penetrated({1.2, 0.0, 0.0}, 0.1));
+    EXPECT_TRUE(judge.is_penetrated({1.05, 0.0, 0.0}, 0.1));
+}
+
+TEST(Bench, ChoosesCasesByTheBeginningOfTheirNames) {
+    EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", ""));
+    EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_gear"));
+    EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_*_r0.2"));
+    EXPECT_FALSE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_*_r0.05"));
+    EXPECT_FALSE(shared::is_chosen("rough_gear", "rough_gear_1"));
+    EXPECT_TRUE(shared::is_chosen("rough_gear_", "rough_gear_100", false));
+    EXPECT_FALSE(shared::is_chosen("rough_gear_", "rough_scan", false));
+}
+
 // Closed: every edge has two sides, in opposite directions.
-bool is_closed(const TriangleMesh& mesh) {
+bool has_two_sides_at_every_edge(const TriangleMesh& mesh) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> forth, back;
     for (const auto& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -122,9 +184,9 @@ TEST(RoughMeshes, AreWhatTheySay) {
     for (const TriangleMesh& mesh :
          {shared::blobs(20, 1), shared::branches(32, 0), shared::displaced(3), shared::shell(3),
           shared::rounded_box(4), shared::gear(600), shared::graded(24, 40), shared::cavity(3)}) {
-        EXPECT_TRUE(is_closed(mesh)) << mesh.triangles.size();
+        EXPECT_TRUE(has_two_sides_at_every_edge(mesh)) << mesh.triangles.size();
     }
-    EXPECT_FALSE(is_closed(shared::scanned(3)));
+    EXPECT_FALSE(has_two_sides_at_every_edge(shared::scanned(3)));
     for (const TriangleMesh& mesh : {shared::scanned(3), shared::clustered(2, 100)}) {
         Vec3 size(0.0);
         for (const Vec3& v : mesh.vertices) {
