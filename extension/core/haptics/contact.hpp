@@ -40,9 +40,10 @@ struct ContactList {
     int count = 0;
 
     void clear() { count = 0; }
+    bool is_full() const { return count == capacity; }
     // Where there is no room the farthest goes. Sweeps still see it, and name it if it stops them.
     void add(const Contact& contact) {
-        if (count < capacity) {
+        if (!is_full()) {
             items[static_cast<std::size_t>(count++)] = contact;
             return;
         }
@@ -51,6 +52,8 @@ struct ContactList {
             farthest = contact;
         }
     }
+    // No contact with a larger gap finds room (unit: meters).
+    double max_gap() const { return std::ranges::max_element(all(), {}, &Contact::gap)->gap; }
     Contact& operator[](int index) { return items[static_cast<std::size_t>(index)]; }
     const Contact& operator[](int index) const { return items[static_cast<std::size_t>(index)]; }
     std::span<const Contact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
