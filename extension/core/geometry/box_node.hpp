@@ -7,6 +7,7 @@
 #include <immintrin.h>
 #endif
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -71,6 +72,17 @@ inline FloatLanes float_sqrt(FloatLanes a) {
     }
     return root;
 #endif
+}
+
+// The largest float not above a number, and the smallest not below.
+inline float round_down(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest > value ? std::nextafterf(nearest, -__builtin_inff()) : nearest;
+}
+
+inline float round_up(double value) {
+    const auto nearest = static_cast<float>(value);
+    return nearest < value ? std::nextafterf(nearest, __builtin_inff()) : nearest;
 }
 
 // One bit a lane: those with a value up to `limit`.

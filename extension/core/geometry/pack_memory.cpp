@@ -12,7 +12,7 @@ namespace {
 
 // Packs that lie side by side have numbers side by side (Fibonacci hashing).
 std::size_t place_of(std::uint32_t pack) {
-    return (pack * 2'654'435'769u) >> 24;
+    return (pack * 2'654'435'769u) >> 23;
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ bool PackMemory::gather(const TriangleTree& tree, const Vec3& center, double rad
                         double soon, double odometer, WorkBudget& work) {
     std::array<FoundPack, capacity> found;
     const FoundPacks packs = tree.packs_within(center, radius, point, found);
-    work.spend(static_cast<std::int64_t>(packs.count) + cost::box_node);
+    work.spend(static_cast<std::int64_t>(packs.count) * cost::pack_look + cost::box_node);
     if (!packs.complete) {
         clear();
         return false;

@@ -27,7 +27,7 @@ public:
     PackMemory(const PackMemory&) = delete;
     PackMemory& operator=(const PackMemory&) = delete;
 
-    static constexpr std::size_t capacity = 256;
+    static constexpr std::size_t capacity = 768;
 
     // All packs in the ball of the given radius around `center`, for a sphere at `point`. False where they
     // are too many: nothing is then remembered, and the tree itself must be asked. Packs up to `soon` from
@@ -58,7 +58,7 @@ public:
               WorkBudget& work);
 
 private:
-    static constexpr std::size_t known_capacity = 128;
+    static constexpr std::size_t known_capacity = 256;
 
     struct Remembered {
         std::uint32_t pack;
@@ -116,7 +116,7 @@ private:
     double radius_ = -1.0;
 
     // Of the last gathering, by pack: what was learnt then is still true.
-    static constexpr std::size_t table_size = 256;  // a power of two, twice known_capacity
+    static constexpr std::size_t table_size = 512;  // a power of two, twice known_capacity
     struct Entry {
         std::uint32_t pack;
         std::int32_t known;

@@ -23,6 +23,13 @@ double TriangleTree::float_slack(const Vec3& relative) const {
     return 1.75 * 0x1p-24 * (2.0 * largest + extent_);
 }
 
+// The dot product with a slab's normal: the point's rounding, that of three products and of two sums, 2^-24
+// of the largest term each.
+double TriangleTree::slab_slack(const Vec3& relative) const {
+    const double largest = std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)});
+    return 8.0 * 0x1p-24 * (largest + extent_);
+}
+
 FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const Vec3& point,
                                       std::span<FoundPack> out) const {
     FoundPacks found;
@@ -31,19 +38,24 @@ FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const V
     const FloatPoint at = to_float_point(point - origin_);
     const float limit = square_up(radius + slack);
     const float rounding = static_cast<float>(slack * (1.0 + 1e-6));
+    const auto slab_rounding =
+        static_cast<float>(std::max(slab_slack(center - origin_), slab_slack(point - origin_)));
 
     std::uint32_t stack[stack_size];
     int depth = 0;
     stack[depth++] = 0;
     while (depth > 0) {
-        const BoxNode& node = nodes_[stack[--depth]];
-        const FloatLanes squared = squared_distance_to_boxes(node, at);
-        for (unsigned near = lanes_up_to(squared_distance_to_boxes(node, middle), limit); near != 0;
-             near &= near - 1) {
+        const std::uint32_t place = stack[--depth];
+        const BoxNode& node = nodes_[place];
+        const SlabNode& slabs = slabs_[place];
+        const FloatLanes squared = squared_distance(node, slabs, at, slab_rounding);
+        for (unsigned near = lanes_up_to(squared_distance(node, slabs, middle, slab_rounding), limit);
+             near != 0; near &= near - 1) {
             const int i = std::countr_zero(near);
             const std::uint32_t child = node.child[i];
             if (!(child & BoxNode::leaf_bit)) {
                 fetch_early(&nodes_[child], sizeof(BoxNode));
+                fetch_early(&slabs_[child], sizeof(SlabNode));
                 stack[depth++] = child;
             } else if (found.count < out.size()) {
                 const float distance = std::sqrt(squared[i]) * (1.0f - 1e-6f) - rounding;
@@ -105,12 +117,16 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
     const FloatWay boxes{to_float_point(start),      to_float_point(end),
                          to_float_point(way.motion), static_cast<float>(reach * (1.0 + 1e-6)),
                          static_cast<float>(blur),   static_cast<float>(limit)};
+    const auto slab_rounding = static_cast<float>(std::max(slab_slack(start), slab_slack(end)));
     Hit hit;
     hit.t = limit;
-    const auto round_up = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
-    float bound = round_up(limit);
+    const auto a_little_more = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
+    float bound = a_little_more(limit);
     const float left_out = visit_best_first(
-        bound, work, [&](const BoxNode& node) { return earliest_meeting(node, boxes); },
+        bound, work,
+        [&](const BoxNode& node, const SlabNode& slabs) {
+            return earliest_meeting(node, slabs, boxes, slab_rounding);
+        },
         [&](std::uint32_t pack) {
             const PackHit met = sweep_to_triangles(packs_[pack], way, hit.t);
             work.spend(met.looks * cost::pack_look);
@@ -118,7 +134,7 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
                 hit.t = met.t;
                 hit.found = true;
                 hit.triangle = pack * lane_count + static_cast<std::uint32_t>(met.lane);
-                bound = round_up(hit.t);
+                bound = a_little_more(hit.t);
             }
         });
     const double known = static_cast<double>(left_out) * (1.0 - 1e-6);
@@ -132,7 +148,8 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
 }
 
 std::size_t TriangleTree::bytes() const {
-    return nodes_.size() * sizeof(BoxNode) + labels_.size() * (sizeof(TrianglePack) + sizeof(PackLabels));
+    return nodes_.size() * (sizeof(BoxNode) + sizeof(SlabNode)) +
+           labels_.size() * (sizeof(TrianglePack) + sizeof(PackLabels));
 }
 
 }  // namespace tactus

@@ -14,10 +14,10 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/box_node.hpp"
 #include "core/geometry/inside_test.hpp"
 #include "core/geometry/pack_labels.hpp"
 #include "core/geometry/parallel.hpp"
+#include "core/geometry/slab_node.hpp"
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
 #include "core/geometry/work.hpp"
@@ -115,6 +115,7 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
+    double slab_slack(const Vec3& relative) const;
     bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
     NearestTriangle search(const Vec3& point, double far, double share, double& least,
                            WorkBudget& work) const;
@@ -124,8 +125,11 @@ private:
     void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
     void forget_sides(const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
+    void fit_slabs(const ParallelRunner& run);
+    std::size_t packs_below(std::uint32_t child, std::span<std::uint32_t> out) const;
 
     std::vector<BoxNode> nodes_;             // parents before children
+    std::vector<SlabNode> slabs_;            // one a node
     std::unique_ptr<TrianglePack[]> packs_;  // as many as labels_
     std::vector<PackLabels> labels_;
     Vec3 origin_{0.0};
@@ -139,7 +143,7 @@ private:
     friend class TriangleTreeBuilder;
 };
 
-// A queue of nodes and packs, least key first. What does not fit is left out, and its key remembered.
+// A queue of nodes, least key first. What does not fit is left out, and its key remembered.
 class VisitQueue {
 public:
     struct Entry {
@@ -177,13 +181,14 @@ public:
     }
 
 private:
-    static constexpr std::size_t capacity = 768;
+    static constexpr std::size_t capacity = 512;
     std::array<Entry, capacity> entries_;
     std::size_t count_ = 0;
 };
 
 // Opens nodes in the order of their keys, so that whatever the budget leaves over lies beyond everything that
-// was seen. Returns a lower bound of the keys of all packs that were not visited.
+// was seen. Packs are visited as soon as their node is open, least key first: they lower the limit before any
+// other node is. Returns a lower bound of the keys of all packs that were not visited.
 template <class Keys, class Visit>
 float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const {
     VisitQueue queue;
@@ -196,25 +201,36 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
             left_out = std::min(left_out, entry.key);
             break;
         }
-        if (entry.node & BoxNode::leaf_bit) {
-            visit(entry.node & ~BoxNode::leaf_bit);
-            continue;
-        }
         work.spend(cost::box_node);
         const BoxNode& node = nodes_[entry.node];
-        const FloatLanes key = keys(node);
+        const FloatLanes key = keys(node, slabs_[entry.node]);
         const auto within = key <= splat_float(limit);
         beyond = within ? beyond : box_detail::least(beyond, key);
+        VisitQueue::Entry packs[node_width];
+        int count = 0;
         for (unsigned bits = lanes_up_to(key, limit); bits != 0; bits &= bits - 1) {
             const int i = std::countr_zero(bits);
-            const std::uint32_t child = node.child[i];
-            if (child & BoxNode::leaf_bit) {
-                fetch_pack(child & ~BoxNode::leaf_bit);
+            const VisitQueue::Entry child{key[i], node.child[i]};
+            if (child.node & BoxNode::leaf_bit) {
+                fetch_pack(child.node & ~BoxNode::leaf_bit);
+                int place = count++;
+                for (; place > 0 && child.key < packs[place - 1].key; --place) {
+                    packs[place] = packs[place - 1];
+                }
+                packs[place] = child;
             } else {
-                fetch_early(&nodes_[child], sizeof(BoxNode));
+                fetch_early(&nodes_[child.node], sizeof(BoxNode));
+                fetch_early(&slabs_[child.node], sizeof(SlabNode));
+                if (!queue.push(child)) {
+                    left_out = std::min(left_out, child.key);
+                }
             }
-            if (!queue.push({key[i], child})) {
-                left_out = std::min(left_out, key[i]);
+        }
+        for (int i = 0; i < count; ++i) {
+            if (packs[i].key <= limit) {
+                visit(packs[i].node & ~BoxNode::leaf_bit);
+            } else {
+                left_out = std::min(left_out, packs[i].key);
             }
         }
     }
@@ -230,9 +246,13 @@ double TriangleTree::visit_near(const Vec3& point, const double& limit, WorkBudg
     const Vec3 relative = point - origin_;
     const double slack = float_slack(relative);
     const FloatPoint at = to_float_point(relative);
+    const auto rounding = static_cast<float>(slab_slack(relative));
     float bound = square_up(limit + slack);
     const float left_out = visit_best_first(
-        bound, work, [&](const BoxNode& node) { return squared_distance_to_boxes(node, at); },
+        bound, work,
+        [&](const BoxNode& node, const SlabNode& slabs) {
+            return squared_distance(node, slabs, at, rounding);
+        },
         [&](std::uint32_t pack) {
             visit(pack);
             bound = square_up(limit + slack);

@@ -21,17 +21,6 @@ void grow(Bounds& bounds, const LanesVec3& corners) {
     }
 }
 
-// The largest float not above, and the smallest not below.
-float round_down(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest > value ? std::nextafterf(nearest, -std::numeric_limits<float>::infinity()) : nearest;
-}
-
-float round_up(double value) {
-    const auto nearest = static_cast<float>(value);
-    return nearest < value ? std::nextafterf(nearest, std::numeric_limits<float>::infinity()) : nearest;
-}
-
 void set_box(BoxNode& node, int slot, const Vec3& low, const Vec3& high) {
     for (int axis = 0; axis < 3; ++axis) {
         node.low[axis][slot] = round_down(low[axis]);
@@ -128,6 +117,7 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
     extent_ = std::max({largest.x, largest.y, largest.z});
     radius_ = std::sqrt(all.squared_radius);
     magnitude_ = all.magnitude;
+    fit_slabs(run);
 }
 
 TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {

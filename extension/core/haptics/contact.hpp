@@ -22,7 +22,8 @@ struct FeatureId {
 
 enum class ContactState : std::uint8_t {
     seen,     // as the search found it: good enough to tell which contacts hold the sphere back
-    exact,    // looked at closely
+    exact,    // looked at closely: an edge, a corner, or a shape in closed form
+    face,     // looked at closely: flat
     covered,  // an edge or corner for which a nearer or earlier contact stands
 };
 
@@ -40,9 +41,10 @@ struct ContactList {
     int count = 0;
 
     void clear() { count = 0; }
+    bool is_full() const { return count == capacity; }
     // Where there is no room the farthest goes. Sweeps still see it, and name it if it stops them.
     void add(const Contact& contact) {
-        if (count < capacity) {
+        if (!is_full()) {
             items[static_cast<std::size_t>(count++)] = contact;
             return;
         }
@@ -51,6 +53,8 @@ struct ContactList {
             farthest = contact;
         }
     }
+    // No contact with a larger gap finds room (unit: meters).
+    double max_gap() const { return std::ranges::max_element(all(), {}, &Contact::gap)->gap; }
     Contact& operator[](int index) { return items[static_cast<std::size_t>(index)]; }
     const Contact& operator[](int index) const { return items[static_cast<std::size_t>(index)]; }
     std::span<const Contact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }

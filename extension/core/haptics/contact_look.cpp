@@ -23,8 +23,9 @@ SurfacePoint ContactLook::at(const FeatureId& feature) const {
 
 Contact ContactLook::exact_contact(const FeatureId& feature) const {
     const SurfacePoint nearest = at(feature);
+    const bool is_face = placed(feature).part->tree() && nearest.kind == TriangleFeature::face;
     return {direction_to_parent(placed(feature).pose, nearest.normal), nearest.distance - rest_, feature,
-            ContactState::exact};
+            is_face ? ContactState::face : ContactState::exact};
 }
 
 void ContactLook::look_closely(ContactList& contacts, int index) const {
@@ -32,7 +33,11 @@ void ContactLook::look_closely(ContactList& contacts, int index) const {
     const SurfacePoint nearest = at(contact.feature);
     contact.normal = direction_to_parent(placed(contact.feature).pose, nearest.normal);
     contact.gap = nearest.distance - rest_;
-    contact.state = is_covered(contacts, index, nearest) ? ContactState::covered : ContactState::exact;
+    if (nearest.kind == TriangleFeature::face) {
+        contact.state = ContactState::face;
+    } else {
+        contact.state = is_covered(contacts, index, nearest) ? ContactState::covered : ContactState::exact;
+    }
 }
 
 bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoint& candidate) const {
@@ -104,6 +109,7 @@ void ContactLook::add_ends(const ContactList& contacts, const FeatureId& feature
     const ScenePart& part = placed(feature);
     const TriangleTree& tree = *part.part->tree();
     const Vec3 offset = nearest.normal * nearest.distance;
+    const Vec3 point = to_parent(part.pose, nearest.point);
     const double squared_same = same_point * same_point * same_ * same_;
     const auto add = [&](const Vec3& direction) {
         const double room = std::max(0.0, -glm::dot(offset, direction));
@@ -114,7 +120,7 @@ void ContactLook::add_ends(const ContactList& contacts, const FeatureId& feature
             std::abs(other.gap + rest_ - nearest.distance) > same_point * same_) {
             continue;
         }
-        const Vec3 apart = at(other.feature).point - nearest.point;
+        const Vec3 apart = center_ - other.normal * (other.gap + rest_) - point;
         if (glm::dot(apart, apart) > squared_same) {
             continue;
         }

@@ -83,7 +83,9 @@ void PassedBodies::update(const TouchScene& scene, const Vec3& center, double ro
         if (!clear) {
             const Insides insides =
                 passed.reason == PassedBecause::broken ? Insides::of_one_sided : Insides::of_all;
-            const Overlap at = overlap_with(*body.shape, body.pose, center, 2.0 * room, insides, work);
+            // As it was when the tick began: the way of a body that is held on to again is swept.
+            const TouchShape& shape = body.former ? *body.former : *body.shape;
+            const Overlap at = overlap_with(shape, body.previous, center, 2.0 * room, insides, work);
             passed.entered = passed.entered || at.inside || at.distance < room * (1.0 - 1e-6);
             clear = !at.inside && at.known && at.distance >= (passed.entered ? room : 1.5 * room);
         }

@@ -10,13 +10,6 @@
 
 namespace tactus {
 
-namespace {
-
-// No stride of a way is shorter than this share of the radius.
-constexpr double least_stride = 0.02;
-
-}  // namespace
-
 Proxy::Proxy(std::size_t max_parts, const ProxySettings& settings)
     : settings_(settings), surroundings_(max_parts) {}
 
@@ -62,14 +55,14 @@ Hit Proxy::advance(const Vec3& motion, FeatureId& stopped_by, int except) {
     const Vec3 origin = position_;
     const double length = glm::length(motion);
     Hit hit;
+    double stride = surroundings_.first_stride();
     for (double gone = 0.0; gone < 1.0 && hit.is_free();) {
-        const double share = stride_ / std::max(length, 1e-300);
+        const double share = stride / std::max(length, 1e-300);
         const double end = gone + share > 0.99 ? 1.0 : gone + share;
         hit = surroundings_.sweep(position_, motion * (end - gone), stopped_by, except);
         const double free_share = (end - gone) * (hit.is_free() ? 1.0 : hit.t);
         gone = hit.is_free() ? end : gone + free_share;
-        stride_ = std::max(least_stride * settings_.radius,
-                           hit.is_free() ? 4.0 * stride_ : 2.0 * free_share * length);
+        stride = surroundings_.next_stride(free_share * length, hit.is_free());
         position_ = origin + motion * gone;
         surroundings_.travelled(free_share * length);
     }
@@ -187,10 +180,11 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
 }
 
 // Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
-// Friction has no say in that. False where there is nothing to lift.
+// Friction has no say in that. False where there is nothing to lift: what a sweep has stopped at is half a
+// skin below rest, and the next step rises by that much on its way.
 bool Proxy::lift() {
-    const auto below_rest = [&](const Contact& contact) { return contact.gap < -0.25 * tolerances().skin; };
-    if (!std::ranges::any_of(contacts_.all(), below_rest)) {
+    const auto below_stop = [&](const Contact& contact) { return contact.gap < -0.625 * tolerances().skin; };
+    if (!std::ranges::any_of(contacts_.all(), below_stop)) {
         return false;
     }
     const Vec3 motion = lift_to_rest(contacts_, tolerances().same, surroundings_.work());
@@ -243,24 +237,27 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     WorkBudget& work = surroundings_.work();
     const ContactLook look = surroundings_.look_from(position_);
     ConstrainedStep step;
-    for (bool seen = true; seen;) {
+    for (bool again = true; again;) {
         step = flat_step(pull, contacts_, tolerances().same, work);
-        seen = false;
+        again = false;
         for (int i = 0; i < step.pressing_count && !work.is_gone(); ++i) {
             if (contacts_[step.pressing[i]].state == ContactState::seen) {
                 look.look_closely(contacts_, step.pressing[i]);
-                seen = true;
+                again = true;
             }
         }
     }
+    bool is_flat = true;
     for (int i = 0; i < step.pressing_count; ++i) {
-        surroundings_.keep_in_mind(contacts_[step.pressing[i]].feature);
+        const Contact& contact = contacts_[step.pressing[i]];
+        surroundings_.keep_in_mind(contact.feature);
+        is_flat = is_flat && contact.state == ContactState::face;
     }
     if (step.pressing_count == 0) {
         return step;
     }
     doubt(step, pull, descent);
-    if (step.pressing_count == TouchList::capacity) {
+    if (is_flat || step.pressing_count == TouchList::capacity) {
         return step;
     }
     std::array<Curvature, TouchList::capacity - 1> curvatures;
@@ -316,11 +313,14 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         contacts_hold_ = false;
         if (hit.found) {
             surroundings_.keep_in_mind(stopped_by);
+        } else {
+            surroundings_.clear_mind();
         }
         descent.beyond = drop_after(glm::distance(before, position_));
         descent.dropped = step.pressing_count > 0 ? descent.beyond : 0.0;
         descent.last_bent = step.bent ? glm::distance(before, position_) : 0.0;
         if (hit.is_free() && step.pressing_count == 0) {
+            position_ = hand;
             ++tick.steps;
             tick.residual = 0.0;
             break;

@@ -21,7 +21,7 @@ struct ProxySettings {
     double radius = 0.01;               // (unit: meters), > 0
     std::uint32_t mask = 0xffff'ffffu;  // layers it touches
     int max_steps = 64;                 // a tick; what is missing then is made up in the next
-    std::int64_t max_work = 40'000;     // a tick (see WorkBudget): below 0.3 ms
+    std::int64_t max_work = 20'000;     // a tick (see WorkBudget): below 0.3 ms
 };
 
 enum ProxyStatus : std::uint32_t {
@@ -138,8 +138,7 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Vec3 hand_{0.0};       // the last that was a place
-    double stride_ = 0.0;  // how far the last ways were free (unit: meters)
+    Vec3 hand_{0.0};  // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     // What the last move has seen.

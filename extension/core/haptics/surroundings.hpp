@@ -43,6 +43,7 @@ public:
     // as far above it as the sphere may be: in a groove it is the other wall. What stops the sphere at once,
     // although no contact does, counts until the sphere has moved; false where it did so already.
     void keep_in_mind(const FeatureId& feature);
+    void clear_mind() { in_mind_count_ = 0; }
     bool insist_on(const FeatureId& feature, const Vec3& center);
 
     // The next part near the sphere, counting from `from`, that has run into it since the last tick; false
@@ -61,10 +62,20 @@ public:
     // False where a surface is nearer to the centre than `room`, or the centre is inside a solid.
     bool has_room(const Vec3& center, double room);
 
+    // How far a sweep had best ask: about as far as the last ways were free (unit: meters).
+    double first_stride() {
+        return stride_ = std::clamp(stride_, least_stride * radius_, first_stride_max * radius_);
+    }
+    double next_stride(double length, bool free) { return stride_ = free ? 4.0 * stride_ : 2.0 * length; }
+
     WorkBudget& work() { return work_; }
     const Tolerances& tolerances() const { return broad_phase_.tolerances(); }
 
 private:
+    // Of the radius. Every sweep looks at what is near where it begins, and at what a disc as wide as its way
+    // holds: at a fifth of the radius the two cost about the same over fine meshes.
+    static constexpr double least_stride = 0.02;
+    static constexpr double first_stride_max = 0.2;
     static constexpr std::size_t max_memories = 12;  // meshes near one sphere whose triangles it remembers
     static constexpr std::size_t max_insisted = 16;
     static constexpr std::size_t max_in_mind = 6;
@@ -75,22 +86,26 @@ private:
         std::uint32_t stamp = 0;     // of the part, when it was asked; another: the memory is void
         std::uint64_t used_at = 0;   // tick
         double crowded_until = 0.0;  // reading before which no ball is worth gathering
+        double crowd = 0.0;          // how long that was put off last, twice as long each time (unit: meters)
         double share = 1.0;          // of the ticks to remember: what fits
     };
 
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
     std::size_t owner_of(std::uint32_t part);
-    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way);
+    double wanted_margin() const;
+    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way, bool may_gather = true);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
-    void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, double beyond, double& limit,
+                            ContactList& out);
     void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);
     void add_insisted(const Vec3& center, ContactList& out);
-    void add_seen(const Contact& contact, ContactList& out) const;
+    void add_seen(const Contact& contact, double& limit, ContactList& out);
 
     const TouchScene* scene_ = nullptr;
     double radius_ = 0.0;
+    double stride_ = 0.0;
     BroadPhase broad_phase_;
     WorkBudget work_{0};
     std::uint64_t ticks_ = 0;

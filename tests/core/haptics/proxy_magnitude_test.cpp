@@ -32,7 +32,8 @@ TEST_P(ProxyOnAPlanet, RestsStillAndSlides) {
         ASSERT_EQ(place, rest) << i;
     }
     const Vec3 slid = rig.draw({0.0, 0.02, 0.0}, {0.1, 0.02, 0.0}, 100).position;
-    EXPECT_NEAR(slid.x, 0.1, 1e-13 * planet + 1e-6);
+    const Vec3 hand(0.1, 0.02 + planet, 0.0);
+    EXPECT_NEAR(slid.x, (hand * ((planet + radius) / glm::length(hand))).x, 1e-13 * planet + 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ProxyOnAPlanet, ::testing::Values(1.0, 1e3, 6.4e6, 1e9));

@@ -1,0 +1,178 @@
+// The contacts of Surroundings: which are found, which are kept in mind.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/haptics/surroundings.hpp"
+
+namespace tactus {
+
+namespace {
+
+// What is within reach of the nearest surface, or of rest where that is higher.
+double limit_from(double nearest, double rest, double reach, double limit) {
+    return std::min(limit, std::max(rest, nearest) + reach);
+}
+
+}  // namespace
+
+void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
+    out.clear();
+    broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center);
+    double limit = rest() + tolerances().reach + beyond;
+    for (const std::uint32_t part : broad_phase_.near()) {
+        if (!counts(part, beyond, -1)) {
+            continue;
+        }
+        const ScenePart& placed = scene_->parts()[part];
+        const Vec3 local = to_local(placed.pose, center);
+        if (placed.part->tree()) {
+            find_tree_contacts(part, local, beyond, limit, out);
+        } else {
+            find_solid_contact(part, local, limit, out);
+        }
+    }
+    // What was taken in before something nearer was found.
+    const auto kept = std::remove_if(
+        out.items.begin(), out.items.begin() + out.count,
+        [&](const Contact& contact) { return contact.gap > limit - rest() + tolerances().same; });
+    out.count = static_cast<int>(kept - out.items.begin());
+    add_in_mind(center, tolerances().reach + beyond, out);
+    add_insisted(center, out);
+}
+
+void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, double& limit,
+                                      ContactList& out) {
+    const ScenePart& placed = scene_->parts()[index];
+    const SolidDistance at = distance_to_solid(placed.part->solid(), local);
+    work_.spend(cost::solid_look);
+    broad_phase_.set_clear(index, at.distance - rest() - tolerances().reach);
+    if (at.distance <= limit) {
+        out.add({direction_to_parent(placed.pose, at.normal),
+                 at.distance - rest(),
+                 {index},
+                 ContactState::exact});
+        limit = limit_from(at.distance, rest(), tolerances().reach, limit);
+    }
+}
+
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double beyond, double& limit,
+                                      ContactList& out) {
+    const ScenePart& placed = scene_->parts()[index];
+    const TriangleTree& tree = *placed.part->tree();
+    const int first_count = out.count;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t last_id = Hit::no_triangle;
+    const auto take = [&](std::uint32_t pack, const PackBound& tangents, const Lanes& distances) {
+        const double least = smallest(distances);
+        nearest = std::min(nearest, least);
+        limit = limit_from(least, rest(), tolerances().reach, limit);
+        for (int k = 0; k < lane_count; ++k) {
+            const std::uint32_t slot = pack * lane_count + static_cast<std::uint32_t>(k);
+            const std::uint32_t id = tree.triangle_at(slot);
+            if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
+                last_id = id;
+                const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
+                add_seen({normal, distances[k] - rest(), {index, slot}, ContactState::seen}, limit, out);
+            }
+        }
+    };
+    double others = 0.0;
+    bool is_known = false;
+    // Above a surface a ball around the sphere ends before the surface begins.
+    if (PackMemory* const memory = memory_around(index, local, 0.0, beyond <= wanted_margin())) {
+        others = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
+        // What is remembered ends somewhere: in free space before the surface begins.
+        const double covered = memory->covered_around(local);
+        if (std::min(others, nearest) > covered) {
+            others = std::max(covered, tree.least_distance(local));
+        }
+        is_known = limit <= std::max(covered, others);
+    }
+    if (!is_known) {
+        out.count = first_count;
+        const LanesVec3 center = splat(local);
+        others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
+            work_.spend(cost::pack_look);
+            const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
+            take(pack, tangents, least_distances(tangents, center));
+        });
+    }
+    broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
+}
+
+// An edge or corner is found once with every triangle that shares it: the first stands for all. Once the list
+// is full, only what is nearer by more than rounding is let in: each time the list is looked through.
+void Surroundings::add_seen(const Contact& contact, double& limit, ContactList& out) {
+    work_.spend(1 + out.count / 8);
+    Contact added = contact;
+    const double same = tolerances().same;
+    for (int i = 0; i < out.count && added.state == ContactState::seen; ++i) {
+        const Contact& other = out[i];
+        if (std::abs(other.gap - contact.gap) <= same && other.feature.part == contact.feature.part &&
+            glm::length(other.normal - contact.normal) * (rest() + contact.gap) <= same_point * same) {
+            added.state = ContactState::covered;
+        }
+    }
+    out.add(added);
+    if (out.is_full()) {
+        limit = std::min(limit, out.max_gap() + rest() - same);
+    }
+}
+
+void Surroundings::keep_in_mind(const FeatureId& feature) {
+    const auto end = in_mind_.begin() + static_cast<std::ptrdiff_t>(in_mind_count_);
+    if (std::find(in_mind_.begin(), end, feature) != end) {
+        return;
+    }
+    if (in_mind_count_ == max_in_mind) {
+        std::shift_left(in_mind_.begin(), in_mind_.end(), 1);
+        --in_mind_count_;
+    }
+    in_mind_[in_mind_count_++] = feature;
+}
+
+// What is within the limit was found already; what is covered does not count, whatever the distance.
+void Surroundings::add_in_mind(const Vec3& center, double max_gap, ContactList& out) {
+    const ContactLook look = look_from(center);
+    for (std::size_t i = 0; i < in_mind_count_; ++i) {
+        const auto is_it = [&](const Contact& other) { return other.feature == in_mind_[i]; };
+        if (in_mind_[i].triangle == Hit::no_triangle || std::ranges::any_of(out.all(), is_it)) {
+            continue;
+        }
+        const Contact contact = look.exact_contact(in_mind_[i]);
+        if (contact.gap <= max_gap && !look.is_covered_by_any(contact)) {
+            out.add(contact);
+        }
+    }
+}
+
+bool Surroundings::insist_on(const FeatureId& feature, const Vec3& center) {
+    if (center != insisted_at_) {
+        insisted_count_ = 0;
+        insisted_at_ = center;
+    }
+    const auto end = insisted_.begin() + static_cast<std::ptrdiff_t>(insisted_count_);
+    if (insisted_count_ == max_insisted || std::find(insisted_.begin(), end, feature) != end) {
+        return false;
+    }
+    insisted_[insisted_count_++] = feature;
+    return true;
+}
+
+void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
+    for (std::size_t i = 0; i < insisted_count_ && center == insisted_at_; ++i) {
+        const Contact contact = look_from(center).exact_contact(insisted_[i]);
+        const auto end = out.items.begin() + out.count;
+        const auto same = std::find_if(
+            out.items.begin(), end, [&](const Contact& other) { return other.feature == contact.feature; });
+        if (same != end) {
+            *same = contact;
+        } else {
+            out.count = std::min(out.count, ContactList::capacity - 1);
+            out.add(contact);
+        }
+    }
+}
+
+}  // namespace tactus
