@@ -141,7 +141,7 @@ void OperatorSide::lean_on_pressing(Pointer& pointer, const SessionLoop::ProxySl
         return;
     }
     Vec3 along = pointer.offset;
-    for (const Contact& contact : pressing.touching()) {
+    for (const Touch& contact : pressing.touching()) {
         along -= contact.normal * glm::dot(along, contact.normal);
     }
     pointer.felt.proxy->recall(pressing.memory());

@@ -339,7 +339,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     state.residual = tick.residual;
     state.status = tick.status;
     state.contact_count = 0;
-    for (const Contact& contact : slot.proxy->touching()) {
+    for (const Touch& contact : slot.proxy->touching()) {
         if (state.contact_count == HandForce::most_contacts) {
             break;
         }

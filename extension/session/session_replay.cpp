@@ -29,7 +29,7 @@ void SessionLoop::accelerate(SessionHandle handle, const Vec3& acceleration) {
 
 bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
     const int slot = bodies_[handle].slot;
-    return std::ranges::any_of(proxy.touching(), [slot](const Contact& c) { return c.body == slot; });
+    return std::ranges::any_of(proxy.touching(), [slot](const Touch& c) { return c.body == slot; });
 }
 
 void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,

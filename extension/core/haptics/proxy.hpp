@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <span>
 
 #include "core/haptics/constrained_step.hpp"
@@ -18,14 +19,15 @@ namespace tactus {
 struct ProxySettings {
     double radius = 0.01;               // (unit: meters), > 0
     std::uint32_t mask = 0xffff'ffffu;  // layers it touches
-    int most_steps = 64;                // a tick; what is missing then is made up in the next
+    int max_steps = 64;                 // a tick; what is missing then is made up in the next
+    std::int64_t max_work = 40'000;     // a tick (see WorkBudget): below 0.3 ms
 };
 
 enum ProxyStatus : std::uint32_t {
     proxy_absent = 1u << 0,      // the hand is inside a body since the start: no touch until it is out
     proxy_touching = 1u << 1,    // at least one contact holds it back
     proxy_sliding = 1u << 2,     // dynamic friction applies
-    proxy_unfinished = 1u << 3,  // the steps of this tick did not suffice: residual is not small
+    proxy_unfinished = 1u << 3,  // this tick's steps or work did not suffice: residual is not small
     proxy_squeezed = 1u << 4,    // moving bodies leave it no room
 };
 
@@ -43,12 +45,12 @@ struct ProxyMemory {
     bool present = false;
     bool sliding = false;
     Vec3 hand{0.0};  // in the world (unit: meters)
-    ContactList touching;
+    TouchList touching;
 };
 
 class Proxy {
 public:
-    Proxy(std::size_t most_parts, const ProxySettings& settings);
+    Proxy(std::size_t max_parts, const ProxySettings& settings);
 
     void set_settings(const ProxySettings& settings) { settings_ = settings; }
     const ProxySettings& settings() const { return settings_; }
@@ -57,7 +59,7 @@ public:
     ProxyTick move(const TouchScene& scene, const Vec3& hand);
 
     // The contacts that hold the proxy back after the last move, with their pressure.
-    std::span<const Contact> touching() const { return touching_.all(); }
+    std::span<const Touch> touching() const { return touching_.all(); }
     const Vec3& position() const { return position_; }
 
     // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
@@ -91,17 +93,31 @@ public:
     }
 
 private:
+    // What steers the steps of one tick.
+    struct Descent {
+        double beyond = 0.0;   // how far above a surface the last step may have ended (unit: meters)
+        double dropped = 0.0;  // the same, where it led along one
+        double trust = std::numeric_limits<double>::infinity();  // see bend_step (unit: meters)
+        double last_bent = 0.0;  // length of the last bent step (unit: meters)
+        double nearest =
+            std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
+        bool slid = false;
+    };
+
     bool appear();
     void ride_along(ProxyTick& tick);
-    void advance(const Vec3& motion, bool& free, int except = -1);
+    Hit advance(const Vec3& motion, FeatureId& stopped_by, int except = -1);
     int carrier() const;
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, ProxyTick& tick);
+    ConstrainedStep plan(const Vec3& pull, Descent& descent);
+    void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     bool lift();
     void brake(ConstrainedStep& step, double dropped);
     double drop_after(double length) const;
     double friction_limit(const ConstrainedStep& step, double dropped) const;
     void keep_touching(const ConstrainedStep& step);
+    const Tolerances& tolerances() const { return surroundings_.tolerances(); }
 
     ProxySettings settings_;
     Surroundings surroundings_;
@@ -109,10 +125,11 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Vec3 hand_{0.0};  // the last that was a place
+    Vec3 hand_{0.0};       // the last that was a place
+    double stride_ = 0.0;  // how far the last ways were free (unit: meters)
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
-    ContactList touching_;
+    TouchList touching_;
 };
 
 }  // namespace tactus
