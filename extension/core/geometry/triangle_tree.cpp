@@ -16,8 +16,8 @@ constexpr int stack_size = 24 * (node_width - 1) + 1;
 
 }  // namespace
 
-// A query point is rounded to float by at most 2^-24 of itself, its difference to a box side by 2^-24 of both;
-// sqrt(3) for three axes. What is relative to the distance is taken off where distances are compared.
+// A query point is rounded to float by at most 2^-24 of itself, its difference to a box side by 2^-24 of
+// both; sqrt(3) for three axes. What is relative to the distance is taken off where distances are compared.
 double TriangleTree::float_slack(const Vec3& relative) const {
     const double largest = std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)});
     return 1.75 * 0x1p-24 * (2.0 * largest + extent_);
@@ -132,7 +132,7 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
 }
 
 std::size_t TriangleTree::bytes() const {
-    return nodes_.size() * sizeof(BoxNode) + labels_.size() * (sizeof(TrianglePack) + sizeof(PackLabels));
+    return nodes_.size() * sizeof(BoxNode) + labels_.size() * (packs_.bytes_each() + sizeof(PackLabels));
 }
 
 }  // namespace tactus
