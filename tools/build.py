@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 from setup import cache
+from setup.progress import Progress
 from setup.steps import Step
 
 
@@ -17,8 +18,22 @@ def step(target: str) -> Step:
 
 
 def build(target: str, *what: str) -> None:
-    command = [cache.venv_bin("scons"), "-s", f"-j{os.cpu_count() or 1}", f"target={target}", *what]
-    done = subprocess.run(command, cwd=cache.clone(), text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    if done.returncode != 0:
-        print(done.stdout, file=sys.stderr)
+    """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
+    options = ["-s", f"-j{os.cpu_count() or 1}", f"target={target}", "progress=yes"]
+    progress, printed = Progress(), []
+    with subprocess.Popen(
+        [cache.venv_bin("scons"), *options, *what],
+        cwd=cache.clone(),
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    ) as scons:
+        for line in scons.stdout or []:
+            if line.startswith("@ "):
+                progress.show(line.removeprefix("@ ").strip() + " files")
+            else:
+                printed.append(line)
+    progress.end()
+    if scons.returncode != 0:
+        print("".join(printed), file=sys.stderr)
         raise RuntimeError(f"the build of {target} failed")

@@ -21,9 +21,23 @@ needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
 
 [ ${#missing[@]} -gt 0 ] || exit 0
+# What the same is called elsewhere. Godot itself is fetched on Debian only: there, one of version 4.4 or later must be on
+# the PATH or in GODOT.
+if ! command -v apt-get >/dev/null; then
+    echo "Missing on this system (names of Debian's packages): ${missing[*]}." >&2
+    if command -v dnf >/dev/null; then
+        echo "  sudo dnf install gcc-c++ libstdc++-static cargo python3 glm-devel libsodium-devel libsodium-static gtest-devel bullet-devel xorg-x11-server-Xvfb" >&2
+    elif command -v zypper >/dev/null; then
+        echo "  sudo zypper install gcc-c++ cargo python3 glm-devel libsodium-devel gtest libbullet-devel xorg-x11-server-Xvfb" >&2
+    elif command -v pacman >/dev/null; then
+        echo "  sudo pacman -S --needed gcc rust python glm libsodium gtest bullet xorg-server-xvfb" >&2
+    fi
+    echo "and a Godot of version 4.4 or later on the PATH or named in GODOT." >&2
+    exit 2
+fi
 install="apt-get install --yes --no-install-recommends ${missing[*]}"
-if [ "$(id -u)" -ne 0 ] || ! command -v apt-get >/dev/null; then
-    echo "Missing on this system: ${missing[*]}. On Debian:" >&2
+if [ "$(id -u)" -ne 0 ]; then
+    echo "Missing on this system: ${missing[*]}" >&2
     echo "  sudo $install" >&2
     exit 2
 fi

@@ -34,7 +34,19 @@ inline godot::String name_of(const godot::Object& object) {
 inline void refuse(const godot::Object& who, const char* property, const godot::Variant& value,
                    const char* wanted) {
     godot::UtilityFunctions::push_error(name_of(who), ": ", property, " = ", value,
-                                        " was refused, the old value stays: it must be ", wanted, ".");
+                                        " was refused, the old value stays: it must be ",
+                                        godot::String::utf8(wanted), ".");
+}
+
+// Whether the value is one of an enum's, counted from 0 to `last`; says why not.
+template <class Enum>
+bool is_one_of(const godot::Object& who, const char* property, Enum value, Enum last, const char* constants) {
+    const auto number = static_cast<int64_t>(value);
+    if (number >= 0 && number <= static_cast<int64_t>(last)) {
+        return true;
+    }
+    refuse(who, property, number, (std::string("one of the constants ") + constants + "_…").c_str());
+    return false;
 }
 
 // Says each text once.

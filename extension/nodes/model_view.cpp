@@ -84,13 +84,24 @@ struct Draw {
 
 }  // namespace
 
-void ModelView::hold_still(const std::vector<CollisionObject3D*>& bodies) {
-    for (CollisionObject3D* body : bodies) {
-        if (is_rigid(*body)) {
+void ModelView::scene_changed(const Node& node) {
+    is_scene_new_ |= is_solid_body(&node);
+}
+
+void ModelView::hold_still() {
+    if (std::exchange(is_scene_new_, false)) {
+        hold_still(world_);
+    }
+}
+
+void ModelView::hold_still(const Node& node) {
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (const auto* body = Object::cast_to<RigidBody3D>(node.get_child(i))) {
             PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(),
                                                             PhysicsServer3D::BODY_MODE_STATIC);
             held_.insert(body->get_instance_id());
         }
+        hold_still(*node.get_child(i));
     }
 }
 

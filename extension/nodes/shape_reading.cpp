@@ -166,7 +166,7 @@ std::shared_ptr<MeshSource> source_of(const godot::ConcavePolygonShape3D& concav
 
 ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling,
                     const Pose& pose) {
-    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, {}}}, {}};
+    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, false, {}}}, {}};
 }
 
 bool is_finite(const godot::Transform3D& transform) {
@@ -195,7 +195,7 @@ bool same(const ConvexHullShape& a, const ConvexHullShape& b) {
     return same(a.hull, b.hull);
 }
 bool same(const MeshShape& a, const MeshShape& b) {
-    return a.smooth_below == b.smooth_below && same(a.mesh, b.mesh);
+    return a.smooth_below == b.smooth_below && a.one_sided == b.one_sided && same(a.mesh, b.mesh);
 }
 bool same(const HeightFieldShape& a, const HeightFieldShape& b) {
     return a.columns == b.columns && a.rows == b.rows && a.scale == b.scale && *a.heights == *b.heights;
@@ -260,7 +260,7 @@ bool same_meshes(const std::vector<MeshDraft>& a, const std::vector<MeshDraft>& 
     return std::ranges::equal(a, b, [](const MeshDraft& left, const MeshDraft& right) {
         return left.source == right.source && left.scaling == right.scaling &&
                left.pose.position == right.pose.position && left.pose.rotation == right.pose.rotation &&
-               left.smooth_below == right.smooth_below;
+               left.smooth_below == right.smooth_below && left.one_sided == right.one_sided;
     });
 }
 

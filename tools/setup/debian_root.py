@@ -15,21 +15,20 @@ class AptError(RuntimeError):
     pass
 
 
-def mirror() -> str:
-    """The address of the machine's own Debian archive, from its apt sources."""
+def mirrors() -> list[str]:
+    """The addresses of the machine's own Debian archives, from its apt sources, each once."""
     etc = Path("/etc/apt")
-    paths = [etc / "sources.list", *sorted(etc.glob("sources.list.d/*"))]
-    for path in paths:
-        address = archive_address(path.suffix, path.read_text()) if path.is_file() else None
-        if address:
-            return address
-    raise AptError("no Debian archive in /etc/apt/sources.list or /etc/apt/sources.list.d")
+    paths = [path for path in [etc / "sources.list", *sorted(etc.glob("sources.list.d/*"))] if path.is_file()]
+    found = [address for path in paths for address in archive_addresses(path.suffix, path.read_text())]
+    if not found:
+        raise AptError("no Debian archive in /etc/apt/sources.list or /etc/apt/sources.list.d")
+    return list(dict.fromkeys(found))
 
 
-def archive_address(suffix: str, text: str) -> str | None:
-    """The first Debian archive named: stanzas in .sources files, lines in .list files."""
+def archive_addresses(suffix: str, text: str) -> list[str]:
+    """The Debian archives named: stanzas in .sources files, lines in .list files."""
     addresses = _of_stanzas(text) if suffix == ".sources" else _of_lines(text)
-    return next((address for address in addresses if re.search(r"/debian/?$", address)), None)
+    return [address for address in addresses if re.search(r"/debian/?$", address)]
 
 
 def _of_stanzas(text: str) -> list[str]:
@@ -46,9 +45,10 @@ def _of_lines(text: str) -> list[str]:
 
 
 class DebianRoot:
-    def __init__(self, folder: Path, suite: str):
+    def __init__(self, folder: Path, suite: str, address: str):
         self.apt = folder
         self.suite = suite
+        self.address = address
 
     def candidate(self, package: str) -> str:
         """The version the suite has, e.g. 4.6.3+ds-2."""
@@ -62,7 +62,7 @@ class DebianRoot:
         for folder in ("state/lists/partial", "cache/archives/partial", "empty"):
             (self.apt / folder).mkdir(parents=True, exist_ok=True)
         (self.apt / "status").write_text("")
-        (self.apt / "sources.list").write_text(f"deb [signed-by={KEYRING}] {mirror()} {self.suite} main\n")
+        (self.apt / "sources.list").write_text(f"deb [signed-by={KEYRING}] {self.address} {self.suite} main\n")
         (self.apt / "apt.conf").write_text(self._configuration())
         self._run("apt-get", "update")
 
@@ -71,6 +71,11 @@ class DebianRoot:
         options = ["--download-only", "--yes", "--no-install-recommends"]
         self._run("apt-get", "install", *options, *packages)
         return sorted((self.apt / "cache/archives").glob("*.deb"))
+
+    def fetched(self) -> str:
+        """How much of it is there."""
+        files = [path for path in (self.apt / "cache/archives").rglob("*") if path.is_file()]
+        return f"{sum(path.stat().st_size for path in files) / 1e6:.0f} MB"
 
     def unpack(self, archives: list[Path], target: Path) -> None:
         with ThreadPoolExecutor(os.cpu_count() or 1) as pool:

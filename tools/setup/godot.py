@@ -6,12 +6,13 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from . import cache
-from .debian_root import LIBRARY_FOLDER, DebianRoot
+from . import cache, progress
+from .debian_root import LIBRARY_FOLDER, AptError, DebianRoot, mirrors
 
 OLDEST = (4, 4)
-SUITE = "forky"
-PINNED = "4.6.3"
+TESTED = "4.6.3"
+# Where a Godot is looked for, one after the other: a suite gets a newer one, and is put away one day.
+SUITES = ["forky", "testing", "unstable"]
 LAYOUT = "1"  # raised when what is done to the unpacked packages changes
 PACKAGES = ["godot", "godot-template-release"]
 SOFTWARE_GRAPHICS = [
@@ -24,8 +25,8 @@ def version(command: str) -> tuple[int, ...] | None:
         text = subprocess.run([command, "--version"], text=True, capture_output=True, timeout=60).stdout
     except (OSError, subprocess.TimeoutExpired):
         return None
-    found = re.search(r"^(\d+)\.(\d+)(?:\.(\d+))?\.", text, re.M)
-    return tuple(int(part or 0) for part in found.groups()) if found else None
+    found = re.search(r"^\d+\.\d+(\.\d+)?\.", text, re.M)
+    return _numbers(found[0]) if found else None
 
 
 def installed() -> str | None:
@@ -43,43 +44,72 @@ def installed() -> str | None:
     return None
 
 
-def private_folder() -> Path:
-    return cache.root() / f"godot-{PINNED}"
+def private_folders() -> list[Path]:
+    """Those that are ready; the tested version first, then the newest. An older one is a kept copy."""
+    found = [folder for folder in cache.root().glob("godot-*") if cache.is_done(folder, _key(folder))]
+    return sorted(found, key=lambda folder: (folder.name == f"godot-{TESTED}", _numbers(folder.name)), reverse=True)
 
 
 def command() -> str | None:
     """What to start, if it is ready."""
-    return installed() or (str(private_folder() / "godot") if is_private_ready() else None)
+    own = installed()
+    if own:
+        return own
+    return next((str(folder / "godot") for folder in private_folders()), None)
 
 
 def is_private_ready() -> bool:
+    return bool(private_folders())
+
+
+def _key(folder: Path) -> str:
     # The patched paths are absolute: a cache that was moved is not ready.
-    return cache.is_done(private_folder(), _key())
+    return cache.digest(LAYOUT, folder.name.removeprefix("godot-"), str(folder), *PACKAGES, *SOFTWARE_GRAPHICS)
 
 
-def _key() -> str:
-    return cache.digest(LAYOUT, PINNED, str(private_folder()), *PACKAGES, *SOFTWARE_GRAPHICS)
+def _numbers(text: str) -> tuple[int, ...]:
+    """Of a version, the first three."""
+    found = re.search(r"(\d+)\.(\d+)(?:\.(\d+))?", text)
+    return tuple(int(part or 0) for part in found.groups()) if found else (0,)
 
 
 def fetch() -> str:
-    folder = private_folder()
-    packages = DebianRoot(cache.root() / "downloads" / f"debian-{SUITE}", SUITE)
-    packages.update()
-    found = packages.candidate("godot")
-    if not found.startswith(PINNED):
-        raise RuntimeError(
-            f"Debian's {SUITE} has Godot {found}; Tactus is tested with {PINNED}."
-            " Install a Godot of at least version 4.4 and name it in GODOT."
-        )
-    archives = packages.fetch(PACKAGES + SOFTWARE_GRAPHICS)
+    packages, found = _first_suite_with_godot()
+    name = ".".join(map(str, _numbers(found)))
+    if name != TESTED:
+        print(f"{name} from {packages.suite} (tested with {TESTED}) … ", end="", flush=True)
+    folder = cache.root() / f"godot-{name}"
+    with progress.watching(packages.fetched):
+        archives = packages.fetch(PACKAGES + SOFTWARE_GRAPHICS)
     packages.unpack(archives, cache.emptied(folder) / "root")
     _make_self_contained(folder / "root")
     _write_wrapper(folder)
     if version(str(folder / "godot")) is None:
         raise RuntimeError(f"{folder}/godot does not start")
     packages.forget_downloads()
-    cache.mark_done(folder, _key())
+    cache.mark_done(folder, _key(folder))
     return str(folder / "godot")
+
+
+def _first_suite_with_godot() -> tuple[DebianRoot, str]:
+    """A suite that has one that is new enough, and its version. Every archive of the machine's apt sources is asked."""
+    troubles = []
+    for suite in SUITES:
+        for address in mirrors():
+            packages = DebianRoot(cache.root() / "downloads" / f"debian-{suite}", suite, address)
+            try:
+                packages.update()
+                found = packages.candidate("godot")
+            except AptError as error:
+                troubles.append(f"{suite}: {error}")
+                continue
+            if _numbers(found) >= OLDEST:
+                return packages, found
+            troubles.append(f"{suite} has Godot {found}: too old")
+    raise RuntimeError(
+        "no Debian archive of this machine's apt sources has a Godot of at least version 4.4. Install one and name it in"
+        " GODOT.\n" + "\n".join(troubles)
+    )
 
 
 def _make_self_contained(root: Path) -> None:
@@ -162,7 +192,7 @@ def is_template_ready(godot: str) -> bool:
 def install_template(godot: str) -> None:
     if installed() is not None:
         raise RuntimeError(f"install the export templates of {godot} from its editor: {template_path(godot)} is missing")
-    source = private_folder() / "root/usr/bin/godot-template-release"
+    source = Path(godot).parent / "root/usr/bin/godot-template-release"
     target = template_path(godot)
     target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_suffix(".partial")

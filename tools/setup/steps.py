@@ -23,7 +23,7 @@ class Step:
 def dependencies() -> list[Step]:
     steps = [Step("Python tools", python_tools.is_done, python_tools.install)]
     if godot.installed() is None:
-        steps.append(Step(f"Godot {godot.PINNED}", godot.is_private_ready, godot.fetch))
+        steps.append(Step("Godot", godot.is_private_ready, godot.fetch))
     steps.append(Step("Godot's API", _is_api_ready, lambda: godot.dump_api(_godot())))
     steps.append(Step(f"Jolt {jolt.VERSION}", lambda: jolt.ready() is not None, jolt.fetch_and_build, alone=True))
     return steps

@@ -40,12 +40,13 @@ struct ConvexHullShape {
     std::shared_ptr<const TriangleMesh> hull;  // closed surface of the hull
 };
 
-// Any triangles: closed or open, touched from both sides.
+// Any triangles: closed or open, touched from both sides, or, where they are closed, from outside only.
 struct MeshShape {
     std::shared_ptr<const TriangleMesh> mesh;
     // Force shading: facets that meet at less than this give the force one smoothly turning direction (unit:
     // radians, 0 to pi); 0: the force is that of the facets.
     double smooth_below = 0.0;
+    bool one_sided = false;
 };
 
 // Heights over a grid in x-z, centred on the origin, z-major: heights[row * columns + column].

@@ -47,7 +47,13 @@ struct Check {
         if (!(m.smooth_below >= 0.0 && m.smooth_below <= 3.1416)) {
             return "the angle below which facets are smoothed is not between 0 and 180 degrees: set it so";
         }
-        return m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
+        std::string error = m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
+        if (error.empty() && m.one_sided && !is_closed(*m.mesh)) {
+            error =
+                "the mesh is to be touched from outside only, but it has no inside: close its holes and "
+                "turn all its triangles alike, or let it be touched from both sides";
+        }
+        return error;
     }
     std::string operator()(const HeightFieldShape& f) const {
         const bool sized = f.columns >= 2 && f.rows >= 2 && f.heights &&
@@ -73,7 +79,8 @@ TouchPart with_tree(const Pose& pose, const TriangleMesh& mesh, const ParallelRu
     auto tree = std::make_shared<TriangleTree>(TriangleTree::build(mesh, run));
     const Vec3 center = tree->center();
     const double radius = tree->radius();
-    return {pose, std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius, nullptr};
+    return {pose,           std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius, nullptr,
+            is_closed(mesh)};
 }
 
 struct Compile {
@@ -83,6 +90,7 @@ struct Compile {
     TouchPart operator()(const ConvexHullShape& h) const { return with_tree(pose, *h.hull, run); }
     TouchPart operator()(const MeshShape& m) const {
         TouchPart part = with_tree(pose, *m.mesh, run);
+        part.one_sided = m.one_sided && part.closed;
         if (m.smooth_below > 0.0) {
             part.smooth_normals =
                 std::make_shared<const std::vector<CornerNormals>>(smooth_normals(*m.mesh, m.smooth_below));
@@ -106,6 +114,13 @@ bool is_sound(const Pose& pose) {
 }
 
 }  // namespace
+
+bool is_deformation(const TouchShape& from, const TouchShape& to) {
+    return std::ranges::equal(from.parts, to.parts, [](const TouchPart& p, const TouchPart& q) {
+        return p.tree() && q.tree() && q.tree()->is_refit_of(*p.tree()) &&
+               p.pose.position == q.pose.position && p.pose.rotation == q.pose.rotation;
+    });
+}
 
 TriangleMesh height_field_mesh(const HeightFieldShape& field) {
     TriangleMesh mesh;

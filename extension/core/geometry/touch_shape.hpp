@@ -21,7 +21,9 @@ struct TouchPart {
     Vec3 center{0.0};     // of a ball that holds the part, in the part's frame (unit: meters)
     double radius = 0.0;  // of that ball; infinite for a half-space (unit: meters)
     std::shared_ptr<const std::vector<CornerNormals>>
-        smooth_normals;  // by triangle of the mesh; null: facets
+        smooth_normals;      // by triangle of the mesh; null: facets
+    bool closed = false;     // a mesh that bounds a solid (see is_closed)
+    bool one_sided = false;  // of closed meshes: touched from outside only; what is inside is let out
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);
@@ -36,6 +38,10 @@ struct TouchShape {
     // most (unit: meters). Infinite with a half-space.
     double reach = 0.0;
 };
+
+// True where both are made of the same meshes at the same places and only corners have moved: what touches
+// the one can be swept against the way to the other (see DeformSweep).
+bool is_deformation(const TouchShape& from, const TouchShape& to);
 
 struct TouchShapeResult {
     std::shared_ptr<const TouchShape> shape;  // null where there is an error

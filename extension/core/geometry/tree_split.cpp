@@ -8,8 +8,8 @@ namespace tactus {
 namespace {
 
 constexpr int bin_count = 16;
-constexpr std::size_t median_below = 24;  // at or below, a median that fills packs beats the heuristic
-constexpr std::size_t halves_above = 2048;
+constexpr std::size_t median_below = 64;  // at or below, medians that fill packs and nodes beat the heuristic
+constexpr std::size_t halves_above = 512;
 
 struct Bins {
     std::array<std::array<Box, bin_count>, 3> box;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/geometry/box_node.hpp"
+#include "core/geometry/inside_test.hpp"
 #include "core/geometry/pack_labels.hpp"
 #include "core/geometry/pack_store.hpp"
 #include "core/geometry/parallel.hpp"
@@ -65,6 +66,10 @@ public:
     // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's
     // shape.
     void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
+    // The same as another tree: this one may be touched meanwhile.
+    TriangleTree refitted(const TriangleMesh& moved, const ParallelRunner& run = run_serially) const;
+    // True where both hold the same triangles at the same places of the tree, one as it is refitted.
+    bool is_refit_of(const TriangleTree& other) const { return lineage_ == other.lineage_; }
 
     // Every pack with a triangle in the ball around `center`, by its box: cheap, and with some that have
     // none. Their distances are those from `point`.
@@ -92,6 +97,10 @@ public:
     // The first triangle that stops the sphere at t <= limit. See sweep_to_triangles.
     Hit sweep(const SphereWay& way, double limit, WorkBudget& work) const;
 
+    // How often the surface winds around the point: of use for closed meshes only (see is_closed). Costs
+    // what a ray costs; nothing is allocated. Where `work` is used up, nothing is known.
+    Winding winding(const Vec3& point, WorkBudget& work) const;
+
     TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
     void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
@@ -116,6 +125,7 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
+    bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
     NearestTriangle search(const Vec3& point, double far, double share, double& least,
                            WorkBudget& work) const;
     template <class Keys, class Visit>
@@ -134,6 +144,9 @@ private:
     double extent_ = 0.0;  // largest distance of a box side from the origin along an axis
     double magnitude_ = 0.0;
     std::size_t triangle_count_ = 0;
+    std::uint64_t lineage_ = 0;  // another one for each build
+
+    friend class DeformSweep;
 };
 
 // A queue of nodes and packs, least key first. What does not fit is left out, and its key remembered.

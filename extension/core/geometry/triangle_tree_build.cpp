@@ -3,6 +3,7 @@
 // whatever the number of threads.
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "core/geometry/mesh_features.hpp"
 #include "core/geometry/tree_cells.hpp"
@@ -177,6 +178,7 @@ void TriangleTree::place_features(const TriangleMesh& mesh, const ParallelRunner
 }
 
 TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner& run) {
+    static std::atomic<std::uint64_t> last_lineage{0};
     const CornerExtent extent = corner_extent(mesh, run);
     TriangleTree tree;
     tree.triangle_count_ = mesh.triangles.size();
@@ -185,6 +187,7 @@ TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner&
     tree.place_features(mesh, run);
     tree.place_triangles(mesh, extent.is_single, run);
     tree.fit_boxes(run);
+    tree.lineage_ = ++last_lineage;
     return tree;
 }
 

@@ -1,5 +1,6 @@
 // Boxes from the leaves up: the last step of a build, and all of it when a mesh deforms.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -63,6 +64,15 @@ constexpr std::size_t packs_a_task = 16384;
 
 }  // namespace
 
+// By its bits, which no compiler rounds away. Numbers that single precision holds with fewer digits do not
+// count.
+bool is_single(double value) {
+    const double size = std::abs(value);
+    const bool in_range =
+        size >= std::numeric_limits<float>::min() && size <= std::numeric_limits<float>::max();
+    return size == 0.0 || (in_range && (std::bit_cast<std::uint64_t>(value) & 0x1fff'ffffu) == 0);
+}
+
 // Of the corners, not of all vertices: one that no triangle uses may be anywhere.
 CornerExtent corner_extent(const TriangleMesh& mesh, const ParallelRunner& run) {
     const std::size_t count = mesh.triangles.size();
@@ -74,7 +84,7 @@ CornerExtent corner_extent(const TriangleMesh& mesh, const ParallelRunner& run) 
                 const Vec3& place = mesh.vertices[corner];
                 extent.low = glm::min(extent.low, place);
                 extent.high = glm::max(extent.high, place);
-                extent.is_single &= Vec3(glm::vec3(place)) == place;
+                extent.is_single &= is_single(place.x) && is_single(place.y) && is_single(place.z);
             }
         }
         partial[part] = extent;
@@ -153,6 +163,17 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
     extent_ = std::max({largest.x, largest.y, largest.z});
     radius_ = std::sqrt(all.squared_radius);
     magnitude_ = all.magnitude;
+}
+
+TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {
+    TriangleTree tree;
+    tree.nodes_ = nodes_;
+    tree.labels_ = labels_;
+    tree.origin_ = origin_;
+    tree.triangle_count_ = triangle_count_;
+    tree.lineage_ = lineage_;
+    tree.refit(moved, run);
+    return tree;
 }
 
 void TriangleTree::forget_sides(const ParallelRunner& run) {

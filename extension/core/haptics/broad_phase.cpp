@@ -11,8 +11,21 @@ namespace tactus {
 
 namespace {
 
-double largest_length(const Vec3& center, double radius) {
-    return std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius});
+// A magnitude below this share of what the tolerances are good for, for so many ticks, makes them finer again.
+constexpr double much_smaller = 1.0 / 16.0;
+constexpr std::uint32_t patience = 1'000;
+
+double largest_coordinate(const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+// The largest number that the distance between the sphere and a part is made of: its place, how far the
+// sphere is from there (as the part sees it, turned), and the corners of a mesh. The far sides of a solid have
+// no say: only the side that is near does, and that is no farther than the sphere.
+double magnitude_of(const ScenePart& placed, const Vec3& center) {
+    const double corners = placed.part->tree() ? placed.part->tree()->magnitude() : 0.0;
+    return std::max({corners, largest_coordinate(placed.pose.position),
+                     glm::length(center - placed.pose.position)});
 }
 
 }  // namespace
@@ -36,34 +49,48 @@ bool BroadPhase::begin_tick(const TouchScene& scene, const Vec3& center, double 
 
 bool BroadPhase::take_in_changes(const TouchScene& scene, const Vec3& center, double radius,
                                  std::uint32_t mask) {
-    const double farthest = largest_length(center, radius);
     // Bodies may have gone anywhere in ticks without this proxy.
     const bool missed = scene.ticks() > ticks_ + 1;
     ticks_ = scene.ticks();
-    const bool other =
-        scene_ != &scene || mask_ != mask || radius_ != radius || farthest > magnitude_ || missed;
-    if (!other && revision_ == scene.revision()) {
+    const bool other = scene_ != &scene || mask_ != mask || radius_ != radius || missed;
+    const double magnitude = scene_ == &scene ? magnitude_near(center, radius) : 0.0;
+    const bool rescaled = needs_other_tolerances(magnitude);
+    if (!other && !rescaled && revision_ == scene.revision()) {
         return false;
     }
     scene_ = &scene;
     mask_ = mask;
     radius_ = radius;
-    if (other || scene.revision() - revision_ > TouchScene::remembered_changes) {
+    if (other || rescaled || scene.revision() - revision_ > TouchScene::remembered_changes) {
+        magnitude_ = 1.1 * std::max({magnitude, largest_coordinate(center), radius});
+        smaller_ticks_ = 0;
         forget_all(center);
     } else {
-        const double good_for = magnitude_;
         for (std::uint64_t revision = revision_ + 1; revision <= scene.revision(); ++revision) {
             const TouchScene::Change& change = scene.change(revision);
             for (std::uint32_t i = 0; i < change.part_count; ++i) {
                 forget(change.first_part + i, center);
             }
         }
-        if (magnitude_ > good_for) {
-            forget_all(center);
-        }
     }
     revision_ = scene.revision();
     return true;
+}
+
+double BroadPhase::magnitude_near(const Vec3& center, double radius) const {
+    double magnitude = std::max(largest_coordinate(center), radius);
+    for (const std::uint32_t part : near_) {
+        const ScenePart& placed = scene_->parts()[part];
+        magnitude = placed.part ? std::max(magnitude, magnitude_of(placed, center)) : magnitude;
+    }
+    return magnitude;
+}
+
+// Coarser at once, where rounding would show; finer again after a while, because all that is known goes with
+// it.
+bool BroadPhase::needs_other_tolerances(double magnitude) {
+    smaller_ticks_ = magnitude < much_smaller * magnitude_ ? smaller_ticks_ + 1 : 0;
+    return magnitude > magnitude_ || smaller_ticks_ > patience;
 }
 
 // What moves comes nearer by as much. A far part has been given some way to move before that matters.
@@ -88,13 +115,6 @@ void BroadPhase::follow_moved_bodies() {
 void BroadPhase::forget_all(const Vec3& center) {
     far_.clear();
     near_.clear();
-    const double farthest = largest_length(center, radius_);
-    magnitude_ = 1.1 * farthest;
-    for (const ScenePart& placed : scene_->parts()) {
-        if (placed.part && placed.part->tree()) {
-            magnitude_ = std::max(magnitude_, placed.part->tree()->magnitude());
-        }
-    }
     tolerances_ = make_tolerances(radius_, magnitude_);
     for (std::size_t i = 0; i < scene_->parts().size(); ++i) {
         records_[i] = {0.0, 0.0, 0.0, Place::absent, records_[i].stamp};
@@ -109,9 +129,6 @@ void BroadPhase::forget(std::uint32_t part, const Vec3& center) {
     const ScenePart& placed = scene_->parts()[part];
     if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
         return;
-    }
-    if (const TriangleTree* tree = placed.part->tree()) {
-        magnitude_ = std::max(magnitude_, tree->magnitude());
     }
     send_far(part, std::max(0.0, distance_to_ball(part, center)));
 }

@@ -73,6 +73,8 @@ private:
     };
 
     bool take_in_changes(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
+    double magnitude_near(const Vec3& center, double radius) const;
+    bool needs_other_tolerances(double magnitude);
     void forget_all(const Vec3& center);
     void forget(std::uint32_t part, const Vec3& center);
     void follow_moved_bodies();
@@ -94,6 +96,7 @@ private:
     double radius_ = 0.0;
     Tolerances tolerances_{};
     double magnitude_ = 0.0;  // largest coordinate that the tolerances are good for (unit: meters)
+    std::uint32_t smaller_ticks_ = 0;  // since it was needed
     double odometer_ = 0.0;   // s (unit: meters)
     double odometer_at_tick_ = 0.0;
     double pace_ = 0.0;

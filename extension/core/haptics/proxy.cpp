@@ -1,9 +1,12 @@
 #include "core/haptics/proxy.hpp"
 
+#include "core/haptics/deform_ride.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
@@ -22,9 +25,34 @@ Proxy::Proxy(std::size_t max_parts, const ProxySettings& settings)
 // enough: the first step lifts the sphere off by the thousandth of its radius that may be missing.
 bool Proxy::appear() {
     const double room = settings_.radius * (1.0 - 1e-3);
-    present_ = surroundings_.has_room(position_, room);
+    present_ = surroundings_.has_room(position_, room) &&
+               !is_inside_one_sided(*scene_, position_, settings_.mask, surroundings_.work());
     contacts_hold_ = false;
     return present_;
+}
+
+// Whether the force may change although neither hand nor bodies have moved.
+bool Proxy::take_in_jumps() {
+    const bool missed = scene_->ticks() > std::exchange(scene_ticks_, scene_->ticks()) + 1;
+    const bool other_sphere =
+        settings_.radius != settled_.radius || settings_.mask != settled_.mask || missed;
+    const std::uint64_t since = std::exchange(revision_, scene_->revision());
+    const bool other_material =
+        std::exchange(material_changes_, scene_->material_changes()) != scene_->material_changes();
+    settled_ = settings_;
+    if (!other_sphere && since == revision_) {
+        return other_material;
+    }
+    if (present_) {
+        let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(), surroundings_.work()));
+    }
+    return true;
+}
+
+// Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.
+void Proxy::let_go(bool every) {
+    present_ = present_ && every;
+    contacts_hold_ = false;
 }
 
 // Straight on as far as the way is known to be free. A long way over a rough surface mostly ends early, and
@@ -61,9 +89,49 @@ int Proxy::carrier() const {
     return body;
 }
 
+// The body's triangles on their way since the last tick, where the body was then. False where they leave the
+// proxy no room.
+bool Proxy::ride_deformation(int index) {
+    const TouchBody& body = scene_->body(index);
+    const bool rests = std::ranges::any_of(touching(), [&](const Touch& c) { return c.body == index; });
+    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+        const TouchPart& from = body.former->parts[i];
+        const TouchPart& to = body.shape->parts[i];
+        const Pose placed = compose(body.previous, to.pose);
+        const Vec3 local = to_local(placed, position_);
+        if (glm::length(local - to.center) > std::max(from.radius, to.radius) + 1.1 * settings_.radius) {
+            continue;
+        }
+        const DeformSweep sweep(*from.tree(), *to.tree());
+        const auto advanced = [&](const Vec3& motion) {
+            const Vec3 before = position_;
+            FeatureId stopped_by;
+            advance(direction_to_parent(placed, motion), stopped_by, index);
+            return direction_to_local(placed, position_ - before);
+        };
+        if (!ride({sweep, settings_.radius, rests}, local, surroundings_.work(), advanced)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void Proxy::ride_deformations(ProxyTick& tick) {
+    for (const int index : scene_->deformed_bodies()) {
+        const TouchBody& body = scene_->body(index);
+        PassedBodies& passed = surroundings_.passed();
+        if ((body.layer & settings_.mask) != 0 && !passed.contains(index) &&
+            is_deformation(*body.former, *body.shape) && !ride_deformation(index)) {
+            tick.status |= proxy_squeezed;
+            let_go(passed.pass(index, PassedBecause::squeezes));
+        }
+    }
+}
+
 // A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
 // leads through anything but the body that causes it, which stands at its new place already.
 void Proxy::ride_along(ProxyTick& tick) {
+    ride_deformations(tick);
     if (scene_->moved_bodies().empty()) {
         return;
     }
@@ -83,6 +151,9 @@ void Proxy::ride_along(ProxyTick& tick) {
     }
     if (squeezed) {
         tick.status |= proxy_squeezed;
+        const std::size_t before = surroundings_.passed().count();
+        let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work()));
+        tick.jumped = tick.jumped || surroundings_.passed().count() != before;
     }
 }
 
@@ -282,13 +353,21 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask,
                                                   WorkBudget(settings_.max_work, settings_.max_work / 8));
     contacts_hold_ = contacts_hold_ && !changed;
+    const bool was_present = present_;
+    tick.jumped = take_in_jumps();
+    if (present_) {
+        ride_along(tick);
+    }
+    if (was_present && !present_) {
+        displace(hand - position_);
+        tick.jumped = true;
+    }
     if (!present_ && !appear()) {
         touching_.clear();
         tick.position = hand;
-        tick.status = proxy_absent;
+        tick.status |= proxy_absent;
         return tick;
     }
-    ride_along(tick);
     touching_.clear();
     if (!fly(hand)) {
         descend(hand, tick);
@@ -296,6 +375,12 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     tick.position = position_;
     tick.status |= touching_.count > 0 ? static_cast<std::uint32_t>(proxy_touching) : 0u;
     tick.status |= sliding_ ? static_cast<std::uint32_t>(proxy_sliding) : 0u;
+    const PassedBodies& passed = surroundings_.passed();
+    if (passed.any(PassedBecause::squeezes)) {
+        tick.status |= static_cast<std::uint32_t>(proxy_squeezed) | proxy_letting_out;
+    } else if (passed.any(PassedBecause::overlaps)) {
+        tick.status |= proxy_letting_out;
+    }
     return tick;
 }
 

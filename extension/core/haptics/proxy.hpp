@@ -12,6 +12,7 @@
 #include <span>
 
 #include "core/haptics/constrained_step.hpp"
+#include "core/haptics/letting_out.hpp"
 #include "core/haptics/surroundings.hpp"
 
 namespace tactus {
@@ -29,6 +30,9 @@ enum ProxyStatus : std::uint32_t {
     proxy_sliding = 1u << 2,     // dynamic friction applies
     proxy_unfinished = 1u << 3,  // this tick's steps or work did not suffice: residual is not small
     proxy_squeezed = 1u << 4,    // moving bodies leave it no room
+    // A body has come to stand where the proxy is, or has squeezed it: it is not touched until the proxy is
+    // out of it.
+    proxy_letting_out = 1u << 5,
 };
 
 struct ProxyTick {
@@ -37,6 +41,9 @@ struct ProxyTick {
     double residual = 0.0;  // length of the step that would come next (unit: meters)
     std::uint32_t status = 0;
     int steps = 0;
+    // Something else than the motion of the hand and of bodies has changed what is touched since the last
+    // tick: the force may jump (see FadingForce).
+    bool jumped = false;
 };
 
 // Everything of a proxy that its next move depends on, besides the scene.
@@ -80,9 +87,10 @@ public:
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
+    // False where it goes through too many bodies already.
     bool pass_through(int body) {
         contacts_hold_ = false;
-        return surroundings_.pass_through(body);
+        return surroundings_.passed().pass(body, PassedBecause::broken);
     }
 
     // As if just started: present again as soon as the hand is in a free place.
@@ -105,7 +113,12 @@ private:
     };
 
     bool appear();
+    TouchingSphere sphere() const { return {position_, settings_.radius, settings_.mask, touching()}; }
+    bool take_in_jumps();
+    void let_go(bool every);
     void ride_along(ProxyTick& tick);
+    void ride_deformations(ProxyTick& tick);
+    bool ride_deformation(int body);
     Hit advance(const Vec3& motion, FeatureId& stopped_by, int except = -1);
     int carrier() const;
     bool fly(const Vec3& hand);
@@ -129,6 +142,11 @@ private:
     double stride_ = 0.0;  // how far the last ways were free (unit: meters)
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
+    // What the last move has seen.
+    std::uint64_t scene_ticks_ = 0;
+    std::uint64_t revision_ = 0;
+    std::uint64_t material_changes_ = 0;
+    ProxySettings settled_{0.0, 0, 0};
     TouchList touching_;
 };
 

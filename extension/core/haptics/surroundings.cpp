@@ -35,47 +35,19 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     in_mind_count_ = 0;
     ++ticks_;
     const bool changed = broad_phase_.begin_tick(scene, center, radius, mask);
-    return_passed(center);
-    return changed || passed_count_ > 0;
-}
-
-bool Surroundings::pass_through(int body) {
-    if (passed_count_ == max_passed) {
-        return false;
+    const bool passes = !passed_.empty();
+    if (changed || passes) {
+        insisted_count_ = 0;
     }
-    passed_[passed_count_++] = {body, false};
-    return true;
-}
-
-bool Surroundings::is_passed(std::uint32_t body) const {
-    for (std::size_t i = 0; i < passed_count_; ++i) {
-        if (passed_[i].body == static_cast<int>(body)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it.
-void Surroundings::return_passed(const Vec3& center) {
-    for (std::size_t i = 0; i < passed_count_;) {
-        Passed& passed = passed_[i];
-        const bool gone = !scene_->body(passed.body).shape;
-        const double distance =
-            gone ? 0.0 : nearest_surface(*scene_, passed.body, center, 2.0 * rest(), work_).distance;
-        passed.entered = passed.entered || distance < radius_;
-        if (gone || distance >= (passed.entered ? rest() : 1.5 * rest())) {
-            passed = passed_[--passed_count_];
-        } else {
-            ++i;
-        }
-    }
+    passed_.update(scene, center, rest(), work_);
+    return changed || passes;
 }
 
 // Whether a part may be met within `length` of the sphere.
 bool Surroundings::counts(std::uint32_t part, double length, int except) const {
     const std::uint32_t body = scene_->parts()[part].body;
-    return static_cast<int>(body) != except && !broad_phase_.is_clear(part, length) && !is_passed(body);
+    return static_cast<int>(body) != except && !broad_phase_.is_clear(part, length) &&
+           !passed_.contains(static_cast<int>(body));
 }
 
 // The memory of a part: its own, or the one that was least recently used.

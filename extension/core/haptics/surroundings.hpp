@@ -10,6 +10,7 @@
 #include "core/geometry/pack_memory.hpp"
 #include "core/haptics/broad_phase.hpp"
 #include "core/haptics/contact_look.hpp"
+#include "core/haptics/passed_bodies.hpp"
 
 namespace tactus {
 
@@ -53,9 +54,9 @@ public:
     };
     bool next_push(std::size_t& from, const Vec3& center, int carrier, Push& push);
 
-    // The body is no longer in the way, until the sphere has gone through its surface and is clear of it
-    // again. At most four at a time; false where there are four already.
-    bool pass_through(int body);
+    // Bodies that are not in the way for now.
+    PassedBodies& passed() { return passed_; }
+    const PassedBodies& passed() const { return passed_; }
 
     // False where a surface is nearer to the centre than `room`, or the centre is inside a solid.
     bool has_room(const Vec3& center, double room);
@@ -64,15 +65,9 @@ public:
     const Tolerances& tolerances() const { return broad_phase_.tolerances(); }
 
 private:
-    static constexpr std::size_t max_passed = 4;
     static constexpr std::size_t max_memories = 12;  // meshes near one sphere whose triangles it remembers
     static constexpr std::size_t max_insisted = 16;
     static constexpr std::size_t max_in_mind = 6;
-
-    struct Passed {
-        int body;
-        bool entered;  // the sphere has been within its surface since
-    };
 
     // Whose triangles a PackMemory holds.
     struct Owner {
@@ -83,8 +78,6 @@ private:
         double share = 1.0;          // of the ticks to remember: what fits
     };
 
-    bool is_passed(std::uint32_t body) const;
-    void return_passed(const Vec3& center);
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
     std::size_t owner_of(std::uint32_t part);
@@ -101,8 +94,7 @@ private:
     BroadPhase broad_phase_;
     WorkBudget work_{0};
     std::uint64_t ticks_ = 0;
-    std::array<Passed, max_passed> passed_{};
-    std::size_t passed_count_ = 0;
+    PassedBodies passed_;
     std::array<FeatureId, max_in_mind> in_mind_{};
     std::size_t in_mind_count_ = 0;
     std::array<FeatureId, max_insisted> insisted_{};

@@ -51,7 +51,8 @@ TEST(ProxyBudget, OnARoughMeshOfAMillionTrianglesItIsNeverFrozen) {
     for (int i = 0; i < 4'000; ++i) {
         const double angle = 0.001 * i;
         const double depth = 0.03 + 0.06 * std::sin(0.004 * i);
-        const Vec3 hand = (0.5 + radius - depth) * Vec3(std::cos(angle), 0.3 * std::sin(3.0 * angle), std::sin(angle));
+        const Vec3 hand =
+            (0.5 + radius - depth) * Vec3(std::cos(angle), 0.3 * std::sin(3.0 * angle), std::sin(angle));
         const ProxyTick tick = rig.tick(hand);
         watch.look(tick, hand, radius);
         if (i % 50 == 0) {
