@@ -140,6 +140,13 @@ struct Session::Impl {
         }
     }
 
+    // For a twin. Not where the body was prepared, on some other thread: a side may have been attached since.
+    void make_second(ReadyBody& ready) const {
+        if (ready.body.ready() && has_twin) {
+            ready.same_body = duplicate(ready.body);
+        }
+    }
+
     // Loop side. A command whose remains might find no room waits. True where the tick had no time for more.
     bool take_commands(std::uint32_t most) {
         std::uint32_t taken = 0;
@@ -219,10 +226,7 @@ AddResult Session::add_body(ReadyBody&& body) {
     if (!body.error.empty()) {
         return {no_handle, std::move(body.error)};
     }
-    // Here and not where it was prepared, on some other thread: a side may have been attached since.
-    if (body.body.ready() && impl_->has_twin) {
-        body.same_body = duplicate(body.body);
-    }
+    impl_->make_second(body);
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
         return {no_handle, "the world already holds its limit of " +
@@ -243,6 +247,7 @@ void Session::remove_body(SessionHandle body) {
 
 std::string Session::deform_body(SessionHandle body, ReadyBody&& form) {
     if (form.error.empty() && impl_->bodies.in_use(body)) {
+        impl_->make_second(form);
         impl_->send(command::DeformBody{body, std::move(form.body), std::move(form.same_body),
                                         std::move(form.touch)});
     }

@@ -13,7 +13,7 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t part_size = std::size_t{1} << 15;  // triangles or vertices a task looks at
-constexpr std::size_t range_count = 4;                   // ranges of vertices that are sorted side by side
+constexpr std::size_t range_count = 2;                   // ranges of vertices that are sorted side by side
 
 constexpr int next_of(int k) {
     return k == 2 ? 0 : k + 1;
@@ -65,12 +65,17 @@ CornersByVertex sort_corners(const std::vector<Corners>& triangles, std::size_t 
 class FeatureFinder {
 public:
     FeatureFinder(const TriangleMesh& mesh, const ParallelRunner& run)
-        : mesh_(mesh), run_(run), triangles_(mesh.triangles.size()), found_(mesh.triangles.size()) {
+        : mesh_(mesh),
+          run_(run),
+          triangles_(mesh.triangles.size()),
+          is_needle_(mesh.triangles.size()),
+          found_(mesh.triangles.size()) {
         const std::vector<std::uint32_t> same = same_places(mesh.vertices, run);
         for_triangles([&](std::uint32_t t) {
             for (std::size_t k = 0; k < 3; ++k) {
                 triangles_[t][k] = same[mesh.triangles[t][k]];
             }
+            is_needle_[t] = is_needle(t);
         });
         corners_ = sort_corners(triangles_, mesh.vertices.size(), run);
     }
@@ -162,8 +167,8 @@ private:
             }
             const EdgeLink one = leaving[i].edge;
             const EdgeLink other = leaving[end - 1].edge;
-            if (end - i == 2 && one.triangle() != other.triangle() && !is_needle(one.triangle()) &&
-                !is_needle(other.triangle())) {
+            if (end - i == 2 && one.triangle() != other.triangle() && !is_needle_[one.triangle()] &&
+                !is_needle_[other.triangle()]) {
                 found_[one.triangle()].neighbour[one.edge()] = other;
                 found_[other.triangle()].neighbour[other.edge()] = one;
             }
@@ -182,16 +187,21 @@ private:
         const Vec3 normal = glm::cross(edge, place(t, before(k)) - start);
         const Vec3 beyond = place(other.triangle(), before(other.edge())) - start;
         const Vec3 turned = glm::cross(beyond, edge);  // the other's normal where both wind alike
-        const double lengths = std::sqrt(glm::dot(normal, normal) * glm::dot(turned, turned));
-        const double cosine = glm::dot(normal, turned) / lengths;
-        const double sine = glm::dot(normal, beyond) * glm::length(edge) / lengths;
+        // Cosine and sine of the angle between the faces, times the lengths of both.
+        const double lengths_squared = glm::dot(normal, normal) * glm::dot(turned, turned);
+        const double cosine = glm::dot(normal, turned);
+        const double height = glm::dot(normal, beyond);
+        const double sine_squared = height * height * glm::dot(edge, edge);
         const bool same_winding = triangles_[t][static_cast<std::size_t>(k)] !=
                                   triangles_[other.triangle()][static_cast<std::size_t>(other.edge())];
-        if (!same_winding || !(cosine > 1e-3)) {  // seen from the other triangle, the side may be another
+        if (!same_winding || !(cosine > 0.0) ||
+            !(cosine * cosine >
+              1e-6 * lengths_squared)) {  // seen from the other triangle, the side may be another
             return {};
         }
-        const unsigned sides = sine < -flat ? front_side : (sine > flat ? back_side : 0u);
-        return {static_cast<std::uint8_t>(sides), cosine > gentle};
+        const bool is_flat = !(sine_squared > flat * flat * lengths_squared);
+        const unsigned sides = is_flat ? 0u : (height < 0.0 ? front_side : back_side);
+        return {static_cast<std::uint8_t>(sides), cosine * cosine > gentle * gentle * lengths_squared};
     }
 
     // Of the triangle that owns it.
@@ -266,6 +276,7 @@ private:
     const TriangleMesh& mesh_;
     const ParallelRunner& run_;
     std::vector<Corners> triangles_;  // their corners as places: vertices that stand for all at theirs
+    std::vector<std::uint8_t> is_needle_;
     CornersByVertex corners_;
     std::vector<TriangleFeatures> found_;
     std::vector<std::array<Bend, 3>> bends_;  // by edge, of the triangle that owns it

@@ -10,12 +10,13 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <memory>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/geometry/inside_test.hpp"
 #include "core/geometry/pack_labels.hpp"
+#include "core/geometry/pack_store.hpp"
 #include "core/geometry/parallel.hpp"
 #include "core/geometry/slab_node.hpp"
 #include "core/geometry/triangle_mesh.hpp"
@@ -47,6 +48,15 @@ struct NearestTriangle {
     std::uint32_t pack = 0;  // the pack that holds it; meaningless where nothing is nearer
     bool complete = true;    // false: the budget was gone before everything nearer was looked at
 };
+
+// Where the corners of a mesh's triangles are, and whether single precision holds them exactly.
+struct CornerExtent {
+    Vec3 low{std::numeric_limits<double>::infinity()};
+    Vec3 high{-std::numeric_limits<double>::infinity()};
+    bool is_single = true;
+};
+
+CornerExtent corner_extent(const TriangleMesh& mesh, const ParallelRunner& run);
 
 class TriangleTree {
 public:
@@ -91,8 +101,8 @@ public:
     // what a ray costs; nothing is allocated. Where `work` is used up, nothing is known.
     Winding winding(const Vec3& point, WorkBudget& work) const;
 
-    const TrianglePack& pack(std::uint32_t index) const { return packs_[index]; }
-    void fetch_pack(std::uint32_t index) const { fetch_early(&packs_[index], sizeof(TrianglePack)); }
+    TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
+    void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
     std::uint32_t triangle_at(std::uint32_t slot) const {
         return labels_[slot / lane_count].triangle[slot % lane_count];
@@ -121,16 +131,17 @@ private:
                            WorkBudget& work) const;
     template <class Keys, class Visit>
     float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;
+    void place_nodes(const TriangleMesh& mesh, const CornerExtent& extent, const ParallelRunner& run);
     void place_features(const TriangleMesh& mesh, const ParallelRunner& run);
-    void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
+    void place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run);
     void forget_sides(const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
     void fit_slabs(const ParallelRunner& run);
     std::size_t packs_below(std::uint32_t child, std::span<std::uint32_t> out) const;
 
-    std::vector<BoxNode> nodes_;             // parents before children
-    std::vector<SlabNode> slabs_;            // one a node
-    std::unique_ptr<TrianglePack[]> packs_;  // as many as labels_
+    std::vector<BoxNode> nodes_;   // parents before children
+    std::vector<SlabNode> slabs_;  // one a node
+    PackStore packs_;              // as many as labels_
     std::vector<PackLabels> labels_;
     Vec3 origin_{0.0};
     double radius_ = 0.0;
@@ -140,7 +151,6 @@ private:
     std::uint64_t lineage_ = 0;  // another one for each build
 
     friend class DeformSweep;
-    friend class TriangleTreeBuilder;
 };
 
 // A queue of nodes, least key first. What does not fit is left out, and its key remembered.

@@ -1,5 +1,6 @@
 // Boxes from the leaves up: the last step of a build, and all of it when a mesh deforms.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -46,19 +47,52 @@ struct Extremes {
     double magnitude = 0.0;
 };
 
+constexpr std::size_t triangles_a_task = std::size_t{1} << 16;
 constexpr std::size_t nodes_a_task = 4096;
 constexpr std::size_t packs_a_task = 16384;
 
 }  // namespace
 
-void TriangleTree::place_triangles(const TriangleMesh& mesh, const ParallelRunner& run) {
-    const std::size_t count = labels_.size();
-    if (!packs_) {
-        packs_ = std::make_unique_for_overwrite<TrianglePack[]>(count);
+// By its bits, which no compiler rounds away. Numbers that single precision holds with fewer digits do not
+// count.
+bool is_single(double value) {
+    const double size = std::abs(value);
+    const bool in_range =
+        size >= std::numeric_limits<float>::min() && size <= std::numeric_limits<float>::max();
+    return size == 0.0 || (in_range && (std::bit_cast<std::uint64_t>(value) & 0x1fff'ffffu) == 0);
+}
+
+// Of the corners, not of all vertices: one that no triangle uses may be anywhere.
+CornerExtent corner_extent(const TriangleMesh& mesh, const ParallelRunner& run) {
+    const std::size_t count = mesh.triangles.size();
+    std::vector<CornerExtent> partial((count + triangles_a_task - 1) / triangles_a_task);
+    run_in_parts(run, count, triangles_a_task, [&](std::size_t part, std::size_t i, std::size_t end) {
+        CornerExtent extent;
+        for (; i < end; ++i) {
+            for (const std::uint32_t corner : mesh.triangles[i]) {
+                const Vec3& place = mesh.vertices[corner];
+                extent.low = glm::min(extent.low, place);
+                extent.high = glm::max(extent.high, place);
+                extent.is_single &= is_single(place.x) && is_single(place.y) && is_single(place.z);
+            }
+        }
+        partial[part] = extent;
+    });
+    CornerExtent all;
+    for (const CornerExtent& part : partial) {
+        all.low = glm::min(all.low, part.low);
+        all.high = glm::max(all.high, part.high);
+        all.is_single &= part.is_single;
     }
-    run_in_parts(run, count, packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
+    return all;
+}
+
+void TriangleTree::place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run) {
+    packs_.reset(labels_.size(), single);
+    run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
         for (; p < end; ++p) {
-            LanesVec3* const corners[3] = {&packs_[p].a, &packs_[p].b, &packs_[p].c};
+            TrianglePack pack;
+            LanesVec3* const corners[3] = {&pack.a, &pack.b, &pack.c};
             for (std::size_t i = 0; i < lane_count; ++i) {
                 const auto& triangle = mesh.triangles[labels_[p].triangle[i]];
                 for (std::size_t k = 0; k < 3; ++k) {
@@ -68,6 +102,7 @@ void TriangleTree::place_triangles(const TriangleMesh& mesh, const ParallelRunne
                     corners[k]->z[i] = corner.z;
                 }
             }
+            packs_.set(p, pack);
         }
     });
 }
@@ -84,7 +119,7 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
                 if (child == BoxNode::unused || !(child & BoxNode::leaf_bit)) {
                     continue;
                 }
-                const TrianglePack& triangles = packs_[child & ~BoxNode::leaf_bit];
+                const TrianglePack triangles = packs_[child & ~BoxNode::leaf_bit];
                 Bounds bounds;
                 grow(bounds, triangles.a);
                 grow(bounds, triangles.b);
@@ -149,7 +184,7 @@ void TriangleTree::forget_sides(const ParallelRunner& run) {
 
 void TriangleTree::refit(const TriangleMesh& moved, const ParallelRunner& run) {
     forget_sides(run);
-    place_triangles(moved, run);
+    place_triangles(moved, corner_extent(moved, run).is_single, run);
     fit_boxes(run);
 }
 

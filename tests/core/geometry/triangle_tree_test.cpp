@@ -324,11 +324,70 @@ TEST(TriangleTree, BallHoldsEveryTriangleAlsoAfterRefit) {
     expect_held();
 }
 
-TEST(TriangleTree, StaysBelowOneHundredAndFiftyBytesATriangle) {
-    const TriangleMesh mesh = shared::terrain(128, 10.0, 1.0);
-    const TriangleTree tree = TriangleTree::build(mesh);
-    EXPECT_EQ(tree.triangle_count(), mesh.triangles.size());
-    EXPECT_LE(static_cast<double>(tree.bytes()) / static_cast<double>(mesh.triangles.size()), 150.0);
+// To single precision, in a way that no compiler takes for nothing.
+TriangleMesh in_single_precision(TriangleMesh mesh) {
+    for (Vec3& v : mesh.vertices) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const volatile auto rounded = static_cast<float>(v[axis]);
+            v[axis] = rounded;
+        }
+    }
+    return mesh;
+}
+
+TEST(TriangleTree, TakesLittleMemoryMostOfAllForMeshesInSinglePrecision) {
+    const TriangleMesh terrain = shared::terrain(128, 10.0, 1.0);
+    const auto bytes_each = [](const TriangleMesh& mesh) {
+        const TriangleTree tree = TriangleTree::build(mesh);
+        EXPECT_EQ(tree.triangle_count(), mesh.triangles.size());
+        return static_cast<double>(tree.bytes()) / static_cast<double>(mesh.triangles.size());
+    };
+    EXPECT_LE(bytes_each(terrain), 110.0);
+    EXPECT_LE(bytes_each(in_single_precision(terrain)), 75.0);
+    EXPECT_LE(bytes_each(in_single_precision(shared::icosphere(5, 1.0))), 75.0);
+}
+
+// One corner far away that is not in single precision: the same triangles, kept in double.
+TEST(TriangleTree, SinglePrecisionKeepsEveryBit) {
+    RandomValues random(50);
+    TriangleMesh mesh = in_single_precision(shared::terrain(40, 10.0, 1.0));
+    const TriangleTree single = TriangleTree::build(mesh);
+    mesh.vertices.push_back(Vec3(0.1, 40.0, 0.3));
+    mesh.triangles.push_back({0, 1, static_cast<std::uint32_t>(mesh.vertices.size() - 1)});
+    const TriangleTree exact = TriangleTree::build(mesh);
+    EXPECT_GT(exact.bytes(), single.bytes() * 4 / 3);
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 p(random.between(-4.0, 5.0), random.between(-1.0, 1.0), random.between(-4.0, 5.0));
+        ASSERT_EQ(single.nearest(p, 1.0).distance, exact.nearest(p, 1.0).distance);
+    }
+    for (Vec3& v : mesh.vertices) {
+        v.y += 1e-9;
+    }
+    TriangleMesh part = mesh;
+    part.triangles.pop_back();
+    TriangleTree moved = TriangleTree::build(in_single_precision(part));
+    moved.refit(part);
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 p(random.between(-4.0, 5.0), random.between(-1.0, 1.0), random.between(-4.0, 5.0));
+        ASSERT_NEAR(moved.nearest(p, 1.0).distance, static_cast<double>(shared::slow_distance(p, part)),
+                    1e-14);
+    }
+}
+
+// Every triangle stands in one pack, and the same one again only where a pack is filled up.
+TEST(TriangleTree, HoldsEveryTriangleOfLargeMeshes) {
+    for (const TriangleMesh& mesh :
+         {shared::terrain(260, 10.0, 1.0), fading_heights(140, 60.0), shared::soup(20'000, 1.0, 3)}) {
+        const TriangleTree tree = TriangleTree::build(mesh);
+        std::vector<int> seen(mesh.triangles.size());
+        for (std::uint32_t pack = 0; pack < tree.pack_count(); ++pack) {
+            const auto ids = tree.triangle_ids(pack);
+            for (std::size_t i = 0; i < ids.size(); ++i) {
+                seen[ids[i]] += i == 0 || ids[i] != ids[i - 1];
+            }
+        }
+        EXPECT_EQ(std::ranges::count(seen, 1), static_cast<std::ptrdiff_t>(seen.size()));
+    }
 }
 
 }  // namespace

@@ -1,0 +1,68 @@
+// The packs of a tree. Meshes mostly come in single precision: where every corner is exactly that, packs are
+// kept so, at half the memory, and widened when they are looked at. Nothing is lost: all answers are the
+// same.
+#pragma once
+
+#include <memory>
+
+#include "core/geometry/box_node.hpp"
+#include "core/geometry/triangle_pack.hpp"
+
+namespace tactus {
+
+class PackStore {
+public:
+    // Room for `count` packs, in single precision or not; what was kept is gone.
+    void reset(std::size_t count, bool single) {
+        exact_.reset();
+        single_.reset();
+        if (single) {
+            single_ = std::make_unique_for_overwrite<SinglePack[]>(count);
+        } else {
+            exact_ = std::make_unique_for_overwrite<TrianglePack[]>(count);
+        }
+    }
+
+    TrianglePack operator[](std::size_t index) const {
+        return single_ ? widened(single_[index]) : exact_[index];
+    }
+    void set(std::size_t index, const TrianglePack& pack) {
+        if (single_) {
+            single_[index] = {narrowed(pack.a), narrowed(pack.b), narrowed(pack.c)};
+        } else {
+            exact_[index] = pack;
+        }
+    }
+    void fetch(std::size_t index) const {
+        single_ ? fetch_early(&single_[index], sizeof(SinglePack))
+                : fetch_early(&exact_[index], sizeof(TrianglePack));
+    }
+    std::size_t bytes_each() const { return single_ ? sizeof(SinglePack) : sizeof(TrianglePack); }
+
+private:
+    using SingleLanes = float __attribute__((vector_size(16)));
+    struct SingleCorner {
+        SingleLanes x, y, z;
+    };
+    struct SinglePack {
+        SingleCorner a, b, c;
+    };
+
+    static LanesVec3 widened(const SingleCorner& corner) {
+        return {__builtin_convertvector(corner.x, Lanes), __builtin_convertvector(corner.y, Lanes),
+                __builtin_convertvector(corner.z, Lanes)};
+    }
+    static TrianglePack widened(const SinglePack& pack) {
+        return {widened(pack.a), widened(pack.b), widened(pack.c)};
+    }
+    static SingleCorner narrowed(const LanesVec3& corner) {
+        return {__builtin_convertvector(corner.x, SingleLanes),
+                __builtin_convertvector(corner.y, SingleLanes),
+                __builtin_convertvector(corner.z, SingleLanes)};
+    }
+
+    std::unique_ptr<TrianglePack[]> exact_;
+    std::unique_ptr<SinglePack[]> single_;
+};
+
+}  // namespace tactus
