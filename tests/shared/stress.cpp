@@ -10,6 +10,9 @@
 #include <optional>
 
 #include "core/haptics/force_law.hpp"
+#if __has_include("shared/deforms.hpp")
+#include "shared/deforms.hpp"
+#endif
 #include "shared/meshes.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/stress_judge.hpp"
@@ -167,7 +170,7 @@ private:
         kind.friction = random_.flip();
         const int events = random_.below(8);
         kind.moving = events < 2;
-        kind.deforming = events == 2;
+        kind.deforming = options_.deforming && events == 2;
         kind.visited = events == 3;
         kind.pressed = !kind.dense && events == 4;
         return kind;
@@ -234,8 +237,9 @@ bool StressCase::add_body() {
 void StressCase::deform_body(StressCounts* counts) {
     deform(setting_, random_, radius() * random_.magnitude(0.01, 10.0));
     auto moved = std::make_shared<TriangleMesh>(*setting_.mesh);
-    const PlacedShape placed{MeshShape{moved}, {}};
-    forms_.push_back(make_touch_shape({&placed, 1}).shape);
+#if __has_include("shared/deforms.hpp")
+    forms_.push_back(refitted(*forms_.back(), *moved));
+#endif
     own_tree_->moved();
     main_->changed();
     if (counts) {
