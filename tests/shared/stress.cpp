@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/haptics/force_law.hpp"
+#include "shared/deforms.hpp"
 #include "shared/meshes.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/stress_judge.hpp"
@@ -28,20 +29,6 @@ double processor_time() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
-}
-
-// The body takes another form of the same triangles; false where a scene knows no such thing.
-template <class Scene>
-bool change_form(Scene& scene, int body, const TouchShape& form) {
-    if constexpr (requires { scene.deform(body, form); }) {
-        return scene.deform(body, form);
-    }
-    return false;
-}
-
-template <class Scene>
-constexpr bool can_deform(const Scene&) {
-    return requires(Scene& scene, const TouchShape& form) { scene.deform(0, form); };
 }
 
 // A second body that appears where the proxy is, jumps and vanishes.
@@ -167,7 +154,7 @@ private:
         kind.friction = random_.flip();
         const int events = random_.below(8);
         kind.moving = events < 2;
-        kind.deforming = events == 2;
+        kind.deforming = options_.deforming && events == 2;
         kind.visited = events == 3;
         kind.pressed = !kind.dense && events == 4;
         return kind;
@@ -217,7 +204,7 @@ bool StressCase::add_body() {
     }
     tree_ = setting_.tree ? setting_.tree : &*own_tree_;
     forms_.push_back(setting_.shape);
-    kind_.deforming = kind_.deforming && setting_.deforms && own_tree_ && can_deform(rig_.scene);
+    kind_.deforming = kind_.deforming && setting_.deforms && own_tree_;
     main_ = BodyJudge::of_mesh(*tree_);
     reference_.emplace(*tree_, radius());
     body_ = rig_.scene.add(*setting_.shape, {}, material_, 1);
@@ -233,9 +220,7 @@ bool StressCase::add_body() {
 
 void StressCase::deform_body(StressCounts* counts) {
     deform(setting_, random_, radius() * random_.magnitude(0.01, 10.0));
-    auto moved = std::make_shared<TriangleMesh>(*setting_.mesh);
-    const PlacedShape placed{MeshShape{moved}, {}};
-    forms_.push_back(make_touch_shape({&placed, 1}).shape);
+    forms_.push_back(refitted(*forms_.back(), *setting_.mesh));
     own_tree_->moved();
     main_->changed();
     if (counts) {
@@ -282,7 +267,6 @@ void StressCase::judge_end(int tick, const Vec3& hand, const Vec3& before, const
 
 void StressCase::judge(int tick, const Vec3& hand, const Vec3& before, const ProxyTick& at,
                        StressCounts& counts) {
-    constexpr std::uint32_t letting_out = 1u << 5;
     const Vec3& p = at.position;
     ++counts.ticks;
     counts.friction_ticks += kind_.friction;
@@ -298,7 +282,7 @@ void StressCase::judge(int tick, const Vec3& hand, const Vec3& before, const Pro
         return;
     }
     counts.contact_ticks += (at.status & proxy_touching) != 0;
-    const bool excused = (at.status & (proxy_squeezed | letting_out)) != 0;
+    const bool excused = (at.status & (proxy_squeezed | proxy_letting_out)) != 0;
     if (excused && !kind_.may_excuse()) {
         ++counts.false_excuses;
         fail("excuse", tick, hand, at, 0.0, counts);
@@ -369,7 +353,7 @@ std::vector<double> StressCase::play(StressCounts* counts) {
             main_->place(pose_);
         }
         if (deforms) {
-            change_form(rig_.scene, body_, *forms_.back());
+            rig_.scene.deform(body_, *forms_.back());
         }
         if (press_) {
             press_->act(rig_.scene, tick);

@@ -43,6 +43,7 @@ struct StressOptions {
     int ticks = 2'000;   // a case
     bool dense = false;  // with the large meshes, which take seconds to make
     bool timed = false;
+    bool deforming = true;
 };
 
 // The same seed and options give the same case on every machine.

@@ -74,14 +74,15 @@ void measure_kernels(const shared::SpanClock& clock, int rounds, shared::Report&
             {start, 0.002 * random.direction() - 1e-3 * direction, tree.nearest(start, 2.0 * radius).pack});
     }
     const auto way = [&](int i) -> const Way& { return ways[static_cast<std::size_t>(i)]; };
+    const auto sphere = [&](int i) { return SphereWay{way(i).start, way(i).motion, radius, 1e-9}; };
+    constexpr std::int64_t plenty = 1'000'000;
     const Kernels kernels{clock, rounds, report};
 
     kernels.measure("pack_distance", [&](int i) {
         return smallest(offset_from_triangles(tree.pack(way(i).pack), splat(way(i).start)).squared);
     });
-    kernels.measure("pack_sweep", [&](int i) {
-        return sweep_to_triangles(tree.pack(way(i).pack), way(i).start, way(i).motion, radius, 1e-9, 1.0);
-    });
+    kernels.measure("pack_sweep",
+                    [&](int i) { return sweep_to_triangles(tree.pack(way(i).pack), sphere(i), 1.0).t; });
     kernels.measure("tree_nearest", [&](int i) { return tree.nearest(way(i).start, 2.0 * radius).distance; });
     kernels.measure("tree_least_distance", [&](int i) { return tree.least_distance(1.5 * way(i).start); });
     kernels.measure("tree_gather", [&](int i) {
@@ -89,26 +90,28 @@ void measure_kernels(const shared::SpanClock& clock, int rounds, shared::Report&
         return static_cast<double>(tree.packs_within(way(i).start, 1.02 * radius, packs).count);
     });
     kernels.measure("tree_sweep", [&](int i) {
-        Work work = 1'000'000;
-        return tree.sweep(way(i).start, way(i).motion, radius, 1e-9, 1.0, work);
+        WorkBudget work(plenty);
+        return tree.sweep(sphere(i), 1.0, work).t;
     });
     for (const int count : {3, 16, 128}) {
         const std::vector<HalfSpace> planes = planes_of(count);
         const std::string name = "solver_" + std::to_string(count);
         kernels.measure(name.c_str(), [&](int i) {
-            return nearest_in_halfspaces(radius * way(i).motion - Vec3(0.0, 0.01, 0.0), planes, 1e-14)
+            WorkBudget work(plenty);
+            return nearest_in_halfspaces(radius * way(i).motion - Vec3(0.0, 0.01, 0.0), planes, 1e-14, work)
                 .point.y;
         });
         ContactList contacts;
         for (const HalfSpace& plane : planes) {
             Contact contact;
-            contact.normal = contact.force_direction = plane.normal;
+            contact.normal = plane.normal;
             contact.gap = -plane.offset;
             contacts.add(contact);
         }
         const std::string step = "constrained_step_" + std::to_string(count);
         kernels.measure(step.c_str(), [&](int i) {
-            return constrained_step(radius * way(i).motion - Vec3(0.0, 0.01, 0.0), contacts, 1e-14).motion.y;
+            WorkBudget work(plenty);
+            return flat_step(radius * way(i).motion - Vec3(0.0, 0.01, 0.0), contacts, 1e-14, work).motion.y;
         });
     }
 }
