@@ -157,6 +157,7 @@ void shape_fields(auto& s, auto& shape, const ConvexHullShape&) {
 }
 void shape_fields(auto& s, auto& shape, const MeshShape&) {
     s.real(shape.smooth_below, 0.0, 3.2);
+    s.flag(shape.one_sided);
     shared(s, shape.mesh, [](auto& stream, auto& mesh) { mesh_fields(stream, mesh); });
 }
 void shape_fields(auto& s, auto& shape, const HeightFieldShape&) {

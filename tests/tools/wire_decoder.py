@@ -430,7 +430,7 @@ SHAPES: list[tuple[str, Callable[[Reader], Fields]]] = [
     ("cylinder", lambda r: {"radius": r.positive(), "half_height": r.positive()}),
     ("half-space", _half_space),
     ("convex hull", _mesh),
-    ("mesh", lambda r: {"smooth_below": r.real(0.0, 3.2)} | _mesh(r)),
+    ("mesh", lambda r: {"smooth_below": r.real(0.0, 3.2), "one_sided": r.flag()} | _mesh(r)),
     ("height field", _height_field),
 ]
 
