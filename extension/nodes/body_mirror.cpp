@@ -282,7 +282,8 @@ bool BodyMirror::follow(Session& session, const MirrorContext& context, double s
 
 // Moving the node may call a script, which may let it go.
 void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
-    if (!place_problem_.empty() || state.changed_at == shown_change_ || values_.motion != Motion::Dynamic || tick < shown_from_) {
+    if (!place_problem_.empty() || state.changed_at == shown_change_ || values_.motion != Motion::Dynamic ||
+        tick < shown_from_) {
         return;
     }
     auto* rigid = Object::cast_to<RigidBody3D>(body());

@@ -19,7 +19,7 @@ const FLOATS: Array[float] = [
 	0.0, -0.0, 1.0, -1.0, 0.01, 0.5, 3.0, 100.0, 1e-9, 1e6, 1e20, 1e300, -1e300, INF, -INF, NAN
 ]
 const INTEGERS: Array[int] = [
-	0, 1, 2, 3, 5, 7, 50, 99, 500, 1000, 65535, 65536, -1, -2, -3, 0xffffffff, 0x7fffffff, 1 << 40, -(1 << 62)
+	0, 1, 2, 3, 5, 7, 50, 99, 500, 1000, 4096, 70000, -1, -2, -3, 0xffffffff, 0x7fffffff, 1 << 40, -(1 << 62)
 ]
 const STRINGS: Array[String] = [
 	"",
@@ -32,7 +32,7 @@ const STRINGS: Array[String] = [
 	"bunny",
 	"127.0.0.1",
 	"::1",
-	"no such host.invalid",
+	"fe80::zz",
 	"short",
 	"a long enough key",
 	"\n\t\"'\\"
@@ -89,7 +89,8 @@ func _value(type: int, name: String, kind: String) -> Variant:
 			# A step longer than this only takes long.
 			return _any(FLOATS) if name != "seconds" else _any([0.0, 0.001, 0.01, -1.0, NAN, 1e300])
 		TYPE_STRING:
-			return _any(STRINGS)
+			# Others are looked up in the network, for as long as that takes.
+			return _any(STRINGS) if not name.ends_with("address") else _any(["127.0.0.1", "::1", ""])
 		TYPE_STRING_NAME:
 			return StringName(_any(STRINGS))
 		TYPE_NODE_PATH:
