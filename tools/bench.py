@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 import build
-from setup import cache, godot
+from setup import cache, godot, jolt
 
 
 def names() -> list[str]:
@@ -35,6 +35,9 @@ def main(arguments: list[str]) -> int:
     if unknown or (passed_on and len(chosen) != 1):
         print(f"./run bench [NAME] [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
         return 2
+    if "proxy" in (chosen or names()) and jolt.installed() is None and jolt.ready(fast=True) is None:
+        print("Building Jolt without its deterministic mode, once, to hold beside it …", flush=True)
+        jolt.fetch_and_build(fast=True)
     build.build("template_release", "benches")
     output = cache.clone() / "build/bench"
     output.mkdir(parents=True, exist_ok=True)

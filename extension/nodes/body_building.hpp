@@ -17,7 +17,6 @@ struct BodyPlan {
     godot::Vector3 linear_velocity;
     godot::Vector3 angular_velocity;
     bool may_move = false;
-    bool twice = false;  // see Session::needs_bodies_twice()
 };
 
 struct BuiltBody {

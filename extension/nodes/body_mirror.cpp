@@ -98,7 +98,7 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     job->plan = {shapes_,          read_values(node, context.defaults),
                  makings_,         place_,
                  linear_velocity_, angular_velocity_,
-                 is_rigid(node),   session.needs_bodies_twice()};
+                 is_rigid(node)};
     job_ = job;
     if (shapes_.touchable) {
         hold_still_in_godot(node);
@@ -124,8 +124,11 @@ void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
     }
     const std::shared_ptr<Job> job = std::move(job_);
     job_.reset();
-    remove(session);
     problems_ = std::move(job->built.problems);
+    if (deform(session, *job)) {
+        return;
+    }
+    remove(session);
     if (!job->built.buildable) {
         return;
     }
@@ -138,8 +141,23 @@ void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
     shown_from_ = context.takes_effect;
     values_ = job->plan.values;
     addition_ = std::move(job->built.addition);
+    made_of_ = job->plan.makings;
     revision_ = next_revision();
     catch_up(session, job->plan);
+}
+
+// Where only corners of its meshes have moved, the twin stays and takes the new form: whoever touches it is
+// taken along.
+bool BodyMirror::deform(Session& session, Job& job) {
+    const BodyAddition& now = job.built.addition;
+    if (handle_ == no_handle || !job.built.buildable || !job.built.body.error.empty() ||
+        !(job.plan.makings == made_of_) || !is_deformation(*addition_.touch, *now.touch)) {
+        return false;
+    }
+    session.deform_body(handle_, std::move(job.built.body));
+    addition_ = std::move(job.built.addition);
+    revision_ = next_revision();
+    return true;
 }
 
 // What has changed while the twin was built.

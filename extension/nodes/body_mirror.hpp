@@ -78,6 +78,7 @@ private:
 
     void plan(Session& session, const MirrorContext& context);
     void remove(Session& session);
+    bool deform(Session& session, Job& job);
     void catch_up(Session& session, const BodyPlan& plan);
     bool needs_a_new_twin(godot::CollisionObject3D& body, bool shapes_changed);
     void listen(const MirrorContext& context);
@@ -94,6 +95,7 @@ private:
     ShapeKey key_;
     std::uint64_t mesh_changes_ = 0;
     BodyMakings makings_;
+    BodyMakings made_of_;  // the makings of the session's body
     BodyValues values_;
     BodyReading shapes_;        // as they were when the newest twin was planned
     std::shared_ptr<Job> job_;  // null: nothing is being built

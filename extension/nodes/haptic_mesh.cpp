@@ -75,6 +75,13 @@ void HapticMesh::set_smoothing_angle(double angle) {
     }
 }
 
+void HapticMesh::set_one_sided(bool one_sided) {
+    if (one_sided_ != one_sided) {
+        one_sided_ = one_sided;
+        ++change_count;
+    }
+}
+
 void HapticMesh::set_use_library_mass(bool use) {
     use_library_mass_ = use;
     update_configuration_warnings();
@@ -95,12 +102,12 @@ double HapticMesh::library_mass(const Basis& body_scale) const {
 // Each mesh is read by the first node that asks; when it changes, by the first that asks again.
 std::shared_ptr<MeshSource> HapticMesh::source() const {
     static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> by_mesh;
-    static std::unordered_map<std::uint32_t, std::weak_ptr<MeshSource>> by_name;
+    static std::unordered_map<std::string, std::weak_ptr<MeshSource>> by_name;
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
     std::weak_ptr<MeshSource>& known =
-        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[library_mesh_.hash()];
+        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[from_godot(library_mesh_)];
     source_ = known.lock();
     if (source_ != nullptr && source_ != former_) {
         former_.reset();
@@ -136,8 +143,12 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
     } else if (local.basis.determinant() == 0) {
         reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
     } else {
-        reading.meshes.push_back(
-            {triangles, without_rounding(scaling_of(local.basis)), pose_of(local), smoothing_angle_, {}});
+        reading.meshes.push_back({triangles,
+                                  without_rounding(scaling_of(local.basis)),
+                                  pose_of(local),
+                                  smoothing_angle_,
+                                  one_sided_,
+                                  {}});
     }
     return reading;
 }

@@ -105,11 +105,13 @@ private:
     const std::atomic<Nanoseconds>* ahead_;
     HapticWorld& world_;
     Vec3 gravity_;  // as passed on
+    Pose frame_;    // of the world's node when the link began
     TeleopSettings settings_;
     std::shared_ptr<TeleopPort> port_;
     LinkRoute route_;
     std::unique_ptr<ModelView> view_;            // operator
     std::unique_ptr<ModelBuilder> builder_;      // operator
+    bool builds_elsewhere_ = false;              // in real time it does not hold frames up
     std::unique_ptr<EnvironmentTeller> teller_;  // far side
     std::unordered_map<SessionHandle, Telling> tellings_;
 

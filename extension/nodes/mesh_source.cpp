@@ -16,8 +16,9 @@ using namespace godot;
 
 namespace {
 
-// The tree that is touched now and the one before: more would only be kept for nothing.
-constexpr std::size_t most_former_trees = 2;
+// The tree that is touched now, the one before, on the way from which the loop may still be, and one that it
+// has let go of: more would only be kept for nothing.
+constexpr std::size_t most_former_trees = 3;
 
 bool is_of_triangles(const Ref<Mesh>& mesh) {
     if (Object::cast_to<PrimitiveMesh>(mesh.ptr()) != nullptr) {
@@ -107,16 +108,22 @@ const MeshSource::Checked& MeshSource::triangles() {
     return checked_;
 }
 
-// A tree that only we hold is of no body any more; where the corners alone have moved, it serves again.
+// Where the corners alone have moved, the tree keeps its form. One that only we hold is of no body any more
+// and serves again; else a new one is made beside it, and bodies are swept along the way from one to the
+// other.
 std::shared_ptr<TriangleTree> MeshSource::refitted(const Basis& scaling, const TriangleMesh& mesh,
                                                    const ParallelRunner& run) {
-    const auto free = std::ranges::find_if(former_, [&](const Former& former) {
-        return former.tree.use_count() == 1 && former.scaling == scaling &&
-               former.mesh->vertices.size() == mesh.vertices.size() &&
-               former.mesh->triangles == mesh.triangles;
+    std::erase_if(former_, [&](const Former& former) {
+        return former.scaling == scaling && (former.mesh->vertices.size() != mesh.vertices.size() ||
+                                             former.mesh->triangles != mesh.triangles);
     });
+    const auto is_like = [&](const Former& former) { return former.scaling == scaling; };
+    const auto free = std::ranges::find_if(
+        former_, [&](const Former& former) { return is_like(former) && former.tree.use_count() == 1; });
     if (free == former_.end()) {
-        return nullptr;
+        const auto touched = std::ranges::find_if(former_, is_like);
+        return touched == former_.end() ? nullptr
+                                        : std::make_shared<TriangleTree>(touched->tree->refitted(mesh, run));
     }
     std::atomic_thread_fence(std::memory_order_acquire);  // use_count() is relaxed
     std::shared_ptr<TriangleTree> tree = std::move(free->tree);

@@ -115,8 +115,15 @@ void MMTLink::set_remote_port(int64_t port) {
     way_changed();
 }
 
-void MMTLink::set_key(const String& key) {
-    key_ = key;
+void MMTLink::set_key_file(const String& path) {
+    const String file = path.strip_edges();
+    if (!file.is_empty() && !file.begins_with("/")) {
+        refuse(
+            *this, "key_file", file,
+            "the absolute path of a file outside of the project, since a scene is shared and a key is not");
+        return;
+    }
+    key_file_ = file;
     way_changed();
 }
 
@@ -130,7 +137,7 @@ void MMTLink::set_control_scheme(int64_t scheme) {
 }
 
 void MMTLink::set_correction_scheme(int64_t scheme) {
-    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::stealthy_direction),
+    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::stealthy_turn),
                    "CORRECTION")) {
         return;
     }
@@ -219,7 +226,6 @@ NetworkSettings MMTLink::network_settings() const {
     settings.udp.local_port = static_cast<std::uint16_t>(local_port_ > 0 ? local_port_ : own);
     settings.udp.remote_address = from_godot(remote_address_);
     settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_ > 0 ? remote_port_ : other);
-    settings.key = from_godot(key_);
     settings.conditions = conditions();
     settings.seed = seed_;
     return settings;
@@ -333,11 +339,6 @@ String MMTLink::way_problem() const {
     if (partner_.is_empty()) {
         if (remote_address_.is_empty()) {
             return "the far side has no address: set 'remote_address'";
-        }
-        if (const CharString key = key_.utf8(); key.length() > 0 && key.length() < 8) {
-            return "the key is too short: give 64 hexadecimal digits or at least 8 characters, the same on "
-                   "both "
-                   "sides";
         }
         const NetworkSettings settings = network_settings();
         const bool loops = remote_address_ == String("127.0.0.1") || remote_address_ == String("localhost") ||

@@ -72,8 +72,8 @@ public:
     godot::String get_remote_address() const { return remote_address_; }
     void set_remote_port(int64_t port);
     int get_remote_port() const { return remote_port_; }
-    void set_key(const godot::String& key);
-    godot::String get_key() const { return key_; }
+    void set_key_file(const godot::String& path);
+    godot::String get_key_file() const { return key_file_; }
     void set_control_scheme(int64_t scheme);
     int get_control_scheme() const { return static_cast<int>(control_); }
     void set_correction_scheme(int64_t scheme);
@@ -141,7 +141,7 @@ private:
     int local_port_ = 0;
     godot::String remote_address_ = "127.0.0.1";
     int remote_port_ = 0;
-    godot::String key_;
+    godot::String key_file_;
     ControlScheme control_ = ControlScheme::spring;
     Correction correction_ = Correction::stealthy_direction;
     godot::Ref<NetworkConditions> conditions_;

@@ -125,6 +125,13 @@ bool ProxyPointer::is_present() const {
     return state_.handle != no_handle && (state_.status & proxy_absent) == 0;
 }
 
+bool ProxyPointer::is_being_let_out() const {
+    return (state_.status & proxy_letting_out) != 0;
+}
+bool ProxyPointer::is_squeezed() const {
+    return (state_.status & proxy_squeezed) != 0;
+}
+
 TypedArray<Dictionary> ProxyPointer::get_contacts() const {
     TypedArray<Dictionary> contacts;
     for (std::size_t i = 0; i < static_cast<std::size_t>(state_.contact_count); ++i) {
@@ -218,6 +225,9 @@ String ProxyPointer::get_state_text() const {
     }
     if (!is_present()) {
         return "the hand began inside a body: move it out once";
+    }
+    if (is_being_let_out()) {
+        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
     }
     return is_touching() ? "touching" : "free";
 }

@@ -49,6 +49,8 @@ public:
     godot::Vector3 get_proxy_position() const;
     bool is_touching() const;
     bool is_present() const;
+    bool is_being_let_out() const;
+    bool is_squeezed() const;
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     godot::TypedArray<godot::Dictionary> get_contacts() const;

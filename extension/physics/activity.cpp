@@ -83,7 +83,7 @@ void WakeJournal::restart(std::uint64_t serial) {
 void ActivityListener::OnBodyActivated(const JPH::BodyID& id, JPH::uint64 body) {
     if (far_.exchanging())
         return;
-    auto& woken = *reinterpret_cast<JPH::Body*>(body);
+    auto& woken = *reinterpret_cast<const BodyRecord*>(body)->in_world;
     far_.release(woken, true);
     journal_.note(woken);
     trees_.may_differ(id);

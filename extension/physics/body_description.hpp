@@ -27,6 +27,13 @@ struct SurfaceMaterial {
     bool absorbent = false;
 };
 
+// What a body turned out to be, as factors of how it was described.
+struct BodyFactors {
+    double mass = 1.0;      // of its mass and inertia (dimensionless), > 0
+    double friction = 1.0;  // of the friction between it and any other body (dimensionless), >= 0
+    friend bool operator==(const BodyFactors&, const BodyFactors&) = default;
+};
+
 // A collides with B when A's mask holds a layer of B or B's mask a layer of A. A dynamic body whose own mask
 // does not hold the other's layers pushes it without being pushed, as in Godot.
 struct CollisionLayers {

@@ -20,6 +20,7 @@ struct BodyRecord {
     bool may_be_dynamic = false;          // its shape and mass are those of a body that forces can move
     JPH::MassProperties mass_properties;  // in Jolt's units
     double mass = 0.0;                    // (unit: kilograms); 0 for what cannot move
+    BodyFactors factors;
     CollisionLayers collision;
     std::size_t layer_pair = 0;    // index in the world's CollisionTable
     bool tree_may_differ = false;  // waits in the world's TreeKeeper

@@ -3,12 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/body_record.hpp"
+
 namespace tactus {
+
+namespace {
+
+// The world that holds a body has its record in the body's user data.
+float learnt_friction(const JPH::Body& body) {
+    return static_cast<float>(reinterpret_cast<const BodyRecord*>(body.GetUserData())->factors.friction);
+}
+
+}  // namespace
 
 // A rough body's coefficient is stored negative: the smaller number is then the rough one's.
 float combined_friction(const JPH::Body& a, const JPH::SubShapeID&, const JPH::Body& b,
                         const JPH::SubShapeID&) {
-    return std::abs(std::min(a.GetFriction(), b.GetFriction()));
+    return std::abs(std::min(a.GetFriction(), b.GetFriction())) * learnt_friction(a) * learnt_friction(b);
 }
 
 // An absorbent body's is stored negative: it subtracts.

@@ -34,6 +34,18 @@ bool is_sound(const SpringForce& spring) {
            limits::is_number(spring.hand_velocity) && spring.damping >= 0.0;
 }
 
+void apply_mass(JPH::Body& body, const BodyRecord& record) {
+    JPH::MotionProperties* const motion = body.GetMotionPropertiesUnchecked();
+    if (motion == nullptr || !record.may_be_dynamic)
+        return;
+    JPH::MassProperties scaled = record.mass_properties;
+    const auto factor = static_cast<float>(record.factors.mass);
+    scaled.mMass *= factor;
+    scaled.mInertia *= factor;
+    scaled.mInertia(3, 3) = 1.0f;
+    motion->SetMassProperties(motion->GetAllowedDOFs(), scaled);
+}
+
 Pose pose_of(const JPH::Body& body) {
     return {units::position(body.GetPosition()), units::rotation(body.GetRotation())};
 }
@@ -68,7 +80,7 @@ BodyId PhysicsWorld::add(PreparedBody& body) {
     ++impl_->body_count;
     ++impl_->structure;
     impl_->listen_if_needed();
-    added.SetUserData(reinterpret_cast<JPH::uint64>(&added));
+    added.SetUserData(reinterpret_cast<JPH::uint64>(&record));
     impl_->bodies().SetObjectLayer(
         id, object_layer(pair, added.CanBeKinematicOrDynamic() ? Tree::Awake : Tree::Still));
     impl_->bodies().AddBody(id, JPH::EActivation::Activate);
@@ -88,6 +100,7 @@ PreparedBody PhysicsWorld::remove(BodyId id) {
     impl_->bodies().RemoveBody(jolt_id);
     impl_->trees.forget(jolt_id);
     impl_->forget_pushes(*body);
+    set_factors(id, {});
     body->SetCollisionGroup({});
     impl_->bodies().UnassignBodyID(jolt_id);
     PreparedBody removed(
@@ -120,8 +133,7 @@ bool PhysicsWorld::reshape(BodyId id, PreparedBody& other) {
     spare.body->SetShapeInternal(old_shape, false);
     std::swap(record.mass, spare.mass);
     std::swap(record.mass_properties, spare.mass_properties);
-    if (JPH::MotionProperties* motion = body->GetMotionPropertiesUnchecked())
-        motion->SetMassProperties(motion->GetAllowedDOFs(), record.mass_properties);
+    apply_mass(*body, record);
     impl_->wake_around(*body);
     return true;
 }
@@ -230,6 +242,17 @@ void PhysicsWorld::set_material(BodyId id, const SurfaceMaterial& material) {
         body->SetFriction(stored_friction(material));
         body->SetRestitution(stored_restitution(material));
     }
+}
+
+void PhysicsWorld::set_factors(BodyId id, const BodyFactors& factors) {
+    JPH::Body* body = impl_->find(id);
+    if (body == nullptr || !(factors.mass > 0.0) || !(factors.friction >= 0.0))
+        return;
+    BodyRecord& record = impl_->record(*body);
+    const bool other_mass = factors.mass != record.factors.mass;
+    record.factors = factors;
+    if (other_mass)
+        apply_mass(*body, record);
 }
 
 void PhysicsWorld::set_damping(BodyId id, double linear, double angular) {
@@ -410,7 +433,7 @@ Vec3 PhysicsWorld::velocity_at(BodyId id, const Vec3& world_point) const {
 
 double PhysicsWorld::mass(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
-    return body != nullptr ? impl_->record(*body).mass : 0.0;
+    return body != nullptr ? impl_->record(*body).mass * impl_->record(*body).factors.mass : 0.0;
 }
 
 Motion PhysicsWorld::motion(BodyId id) const {

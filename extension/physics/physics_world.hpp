@@ -116,6 +116,8 @@ public:
                       const Vec3& angular);     // of the centre of mass, in the world
     bool set_motion(BodyId id, Motion motion);  // false: a static body made without may_move stays so
     void set_material(BodyId id, const SurfaceMaterial& material);
+    // From the next step on; wakes nothing.
+    void set_factors(BodyId id, const BodyFactors& factors);
     void set_damping(BodyId id, double linear, double angular);
     void set_gravity_scale(BodyId id, double scale);
     void set_collision(BodyId id, const CollisionLayers& collision);

@@ -1,14 +1,23 @@
 #include "session/environment_teller.hpp"
 
+#include "core/teleop/body_motion.hpp"
+
 namespace tactus {
 
 namespace {
 
-PreparedDiscovery prepared(SessionHandle body, const std::string& name, const BodyAddition& addition) {
+PreparedDiscovery prepared(SessionHandle body, const std::string& name, const BodyAddition& addition,
+                           const Pose& frame) {
     ObjectDescription description;
     description.object = body;
     description.name = name;
     description.body = addition.description;
+    const BodyMotion motion =
+        to_local(frame, BodyMotion{description.body.pose, description.body.linear_velocity,
+                                   description.body.angular_velocity});
+    description.body.pose = motion.pose;
+    description.body.linear_velocity = motion.linear_velocity;
+    description.body.angular_velocity = motion.angular_velocity;
     description.touch_shapes = addition.touch_shapes;
     description.touch = addition.touch_material;
     description.texture = addition.texture;
@@ -19,7 +28,7 @@ PreparedDiscovery prepared(SessionHandle body, const std::string& name, const Bo
 
 std::string EnvironmentTeller::tell(SessionHandle body, const std::string& name,
                                     const BodyAddition& addition) {
-    if (!prepared(body, name, addition)) {
+    if (!prepared(body, name, addition, frame_)) {
         return "\"" + name + "\" cannot be described to the far side: it has more than " +
                std::to_string(most_description_bytes >> 20) + " MiB of shapes, or a value out of range";
     }
@@ -60,7 +69,7 @@ void EnvironmentTeller::update(const SessionSnapshot& snapshot, std::uint64_t pe
 }
 
 void EnvironmentTeller::announce(SessionHandle body, const Told& told) {
-    waiting_.push_back(prepared(body, told.name, told.addition));
+    waiting_.push_back(prepared(body, told.name, told.addition, frame_));
     send_on();
 }
 

@@ -18,6 +18,9 @@ class EnvironmentTeller {
 public:
     explicit EnvironmentTeller(std::shared_ptr<TeleopPort> port) : port_(std::move(port)) {}
 
+    // Where this side's world stands in its scene (TeleopSettings::frame). Before anything is told.
+    void set_frame(const Pose& frame) { frame_ = frame; }
+
     // Describes a body of the session, or one that has been described, anew. `name`: how the operator finds
     // its picture, the node's path below its HapticWorld. Empty text, or why it cannot be described.
     std::string tell(SessionHandle body, const std::string& name, const BodyAddition& addition);
@@ -43,6 +46,7 @@ private:
     // In the order in which it was said; empty content: withdrawn.
     std::deque<PreparedDiscovery> waiting_;
     std::uint64_t peer_epoch_ = 0;
+    Pose frame_;
 };
 
 }  // namespace tactus

@@ -1,14 +1,23 @@
 #include "session/model_builder.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "core/teleop/body_motion.hpp"
 
 namespace tactus {
 
 namespace {
 
-BodyAddition addition_of(const ObjectDescription& description) {
+BodyAddition addition_of(const ObjectDescription& description, const Pose& frame) {
     BodyAddition addition;
     addition.description = description.body;
+    const BodyMotion motion =
+        to_parent(frame, BodyMotion{description.body.pose, description.body.linear_velocity,
+                                    description.body.angular_velocity});
+    addition.description.pose = motion.pose;
+    addition.description.linear_velocity = motion.linear_velocity;
+    addition.description.angular_velocity = motion.angular_velocity;
     addition.touch_shapes = description.touch_shapes;
     addition.touch_material = description.touch;
     addition.texture = description.texture;
@@ -17,45 +26,128 @@ BodyAddition addition_of(const ObjectDescription& description) {
 
 }  // namespace
 
+void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
+    port_->discovery.set_run(run);
+    run_ = std::move(run);
+}
+
 bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
-    if (link.peer_epoch != 0 && (!gravity_known_ || link.peer_hello.gravity != gravity_)) {
-        gravity_known_ = true;
-        gravity_ = link.peer_hello.gravity;
-        session_.set_gravity(gravity_);
+    if (link.peer_epoch != 0) {
+        follow_gravity(now, link.peer_hello.gravity);
     }
-    bool changed = false;
-    for (int built = 0; built < most_built_at_once; ++built) {
-        std::optional<DiscoveryEvent> event = port_->discovery.next(now);
+    bool changed = add_prepared();
+    for (std::size_t taken = 0; taken < most_built_at_once && preparing_.size() < most_built_at_once;
+         ++taken) {
+        std::optional<DiscoveryEvent> event = port_->discovery.next();
         if (!event) {
             break;
         }
+        take(*event, now);
         changed = true;
-        switch (event->kind) {
-            case DiscoveryEvent::Kind::described:
-                build(event->description);
-                break;
-            case DiscoveryEvent::Kind::removed:
-                remove(event->object);
-                break;
-            case DiscoveryEvent::Kind::restarted:
-                clear();
-                break;
-        }
+        add_prepared();
+    }
+    if (any_outdated_ && (now - outdated_at_ >= patience || all_described(now, link))) {
+        remove_outdated();
+        changed = true;
     }
     send_on();
     return changed;
 }
 
-void ModelBuilder::build(ObjectDescription& description) {
+// At once before there is anything that falls; later no faster than a hand that holds something can follow.
+void ModelBuilder::follow_gravity(Nanoseconds now, const Vec3& wanted) {
+    constexpr double most_a_second = 50.0;  // (unit: meters per second cubed)
+    constexpr double longest_frame = 0.1;   // (unit: seconds)
+    const double seconds = std::min(to_seconds(now - gravity_at_), longest_frame);
+    const bool at_once = !gravity_known_ || objects_.empty();
+    const Vec3 way = wanted - gravity_;
+    const double distance = glm::length(way);
+    gravity_at_ = now;
+    if (!gravity_known_ || distance > 0.0) {
+        const bool arrives = at_once || distance <= most_a_second * seconds;
+        gravity_ = arrives ? wanted : gravity_ + way * (most_a_second * seconds / distance);
+        gravity_known_ = true;
+        session_.set_gravity(direction_to_parent(frame_, gravity_));
+    }
+}
+
+void ModelBuilder::take(DiscoveryEvent& event, Nanoseconds now) {
+    switch (event.kind) {
+        case DiscoveryEvent::Kind::described:
+            prepare(event.description);
+            break;
+        case DiscoveryEvent::Kind::removed:
+            remove(event.object);
+            break;
+        case DiscoveryEvent::Kind::restarted:
+            outdate(now);
+            break;
+    }
+}
+
+void ModelBuilder::outdate(Nanoseconds now) {
+    preparing_.clear();
+    for (ModelObject& object : objects_) {
+        bind(object.object, no_handle);
+        object.outdated = true;
+    }
+    any_outdated_ = !objects_.empty();
+    outdated_at_ = now;
+}
+
+// As many as the far side says that it has, and no more have come lately.
+bool ModelBuilder::all_described(Nanoseconds now, const LinkStatistics& link) const {
+    const auto current = std::ranges::count(objects_, false, &ModelObject::outdated);
+    return now - outdated_at_ >= settling && link.peer_hello.object_count > 0 &&
+           static_cast<std::uint64_t>(current) >= link.peer_hello.object_count;
+}
+
+void ModelBuilder::remove_outdated() {
+    for (const ModelObject& object : objects_) {
+        if (object.outdated) {
+            take_out(object);
+        }
+    }
+    std::erase_if(objects_, [](const ModelObject& object) { return object.outdated; });
+    any_outdated_ = false;
+}
+
+void ModelBuilder::prepare(ObjectDescription& description) {
     if (distortion_) {
         distortion_(description);
     }
-    ModelObject made{description.object, description.name, no_handle, {}};
-    const auto before = find(description.object);
-    AddResult added = session_.add_body(addition_of(description));
+    forget_prepared(description.object);
+    auto preparing = std::make_shared<Preparing>();
+    preparing->object = description.object;
+    preparing->name = description.name;
+    preparing->addition = addition_of(description, frame_);
+    preparing_.push_back(preparing);
+    const auto job = [preparing, session = &session_] {
+        preparing->ready = session->prepare_body(preparing->addition);
+        preparing->done.store(true, std::memory_order_release);
+    };
+    run_ ? run_(job) : job();
+}
+
+// In the order in which they were described.
+bool ModelBuilder::add_prepared() {
+    bool added = false;
+    while (!preparing_.empty() && preparing_.front()->done.load(std::memory_order_acquire)) {
+        const std::shared_ptr<Preparing> prepared = std::move(preparing_.front());
+        preparing_.pop_front();
+        add(*prepared);
+        added = true;
+    }
+    return added;
+}
+
+void ModelBuilder::add(Preparing& prepared) {
+    ModelObject made{prepared.object, prepared.name, no_handle, {}};
+    const auto before = find_before(prepared.object, prepared.name);
+    AddResult added = session_.add_body(std::move(prepared.ready));
     made.body = added.handle;
     made.problem = std::move(added.error);
-    port_->discovery.answer(description.object,
+    port_->discovery.answer(prepared.object,
                             made.body == no_handle ? DiscoveryVerdict::refused : DiscoveryVerdict::known);
     if (before == objects_.end()) {
         objects_.push_back(std::move(made));
@@ -63,10 +155,16 @@ void ModelBuilder::build(ObjectDescription& description) {
         take_out(*before);
         *before = std::move(made);
     }
-    bind(description.object, find(description.object)->body);
+    bind(prepared.object, find(prepared.object)->body);
+}
+
+// What is still being prepared of an object is not wanted any more.
+void ModelBuilder::forget_prepared(ObjectId object) {
+    std::erase_if(preparing_, [object](const auto& preparing) { return preparing->object == object; });
 }
 
 void ModelBuilder::remove(ObjectId object) {
+    forget_prepared(object);
     if (const auto found = find(object); found != objects_.end()) {
         bind(object, no_handle);
         take_out(*found);
@@ -75,6 +173,7 @@ void ModelBuilder::remove(ObjectId object) {
 }
 
 void ModelBuilder::clear() {
+    preparing_.clear();
     for (const ModelObject& object : objects_) {
         bind(object.object, no_handle);
         take_out(object);
@@ -100,7 +199,18 @@ void ModelBuilder::send_on() {
 }
 
 std::vector<ModelObject>::iterator ModelBuilder::find(ObjectId object) {
-    return std::ranges::find(objects_, object, &ModelObject::object);
+    return std::ranges::find_if(
+        objects_, [object](const ModelObject& one) { return one.object == object && !one.outdated; });
+}
+
+// What the described object takes the place of: itself, or what had its name before the far side started
+// anew.
+std::vector<ModelObject>::iterator ModelBuilder::find_before(ObjectId object, const std::string& name) {
+    const auto itself = find(object);
+    return itself != objects_.end() ? itself
+                                    : std::ranges::find_if(objects_, [&name](const ModelObject& one) {
+                                          return one.outdated && one.name == name;
+                                      });
 }
 
 }  // namespace tactus

@@ -4,87 +4,76 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/haptics/nearest_surface.hpp"
-
 namespace tactus {
 
 OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& room,
                            const TeleopSettings& settings, Link& link, std::shared_ptr<TeleopPort> port,
                            const EndpointSettings& endpoint)
-    : settings_(settings),
-      room_(room),
-      link_(link, endpoint),
-      port_(std::move(port)),
+    : room_(room),
+      channel_(settings, link, std::move(port), endpoint),
+      samples_({std::max(1u, settings.repeats) - 1, most_proxies, session.period}),
       seconds_(to_seconds(session.period)),
-      history_(room.most_tracked, room.samples),
-      past_(room.samples),
-      truths_(room.most_tracked),
-      drags_(room.most_tracked),
+      truths_(session.most_bodies, room.most_tracked),
+      past_(room.most_tracked, room.samples),
+      resimulator_(session, room.samples, room.samples_a_memento, room.memento_bytes, room.replays),
+      estimates_(room.most_tracked, ParameterEstimate(settings.estimate)),
+      filters_(room.most_tracked),
       body_of_object_(session.most_bodies, no_handle),
       object_of_body_(session.most_bodies, no_object) {
-    targets_.reserve(room.most_tracked);
-    replay_truth_.reserve(room.most_tracked);
+    targets_.reserve(session.most_bodies);
+    hands_.reserve(most_proxies);
     for (std::size_t i = 0; i < std::min(room.pointers, pointers_.size()); ++i) {
-        pointers_[i].felt.proxy = std::make_unique<Proxy>(session.most_parts, ProxySettings{});
-    }
-    if (room.replays) {
-        SessionSettings alike = session;
-        alike.history.ticks = 0;
-        twin_ = std::make_unique<SessionLoop>(alike, nobody_looks_);
-        const std::size_t count = room.samples / std::max<std::size_t>(1, room.samples_a_memento);
-        mementos_.assign(count, LoopMemento(session.most_bodies, room.memento_bytes));
-        memento_of_.assign(count, no_sample);
+        pointers_[i].carried.take_room(session.most_parts);
     }
 }
 
-// --- receiving
-
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    take_settings(loop);
-    link_.begin_tick(now);
+    changed_ = loop.take_touch_change();
+    if (channel_.begin_tick(now)) {
+        take_settings(loop);
+    }
     ++sample_;
-    remember_hands(loop, now);
+    round_hands(loop);
+    past_.note_hands(loop, sample_, now);
+    hands_.clear();
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
+            hands_.push_back(slot.hand);
+        }
+    }
     receive(loop);
     statistics_.cost = {};
     targets_.clear();
-    if (settings_.traditional) {
+    corrected_ = false;
+    if (settings().traditional) {
         follow_far_side(loop);
-        return;
-    }
-    if (settings_.correction == Correction::none) {
-        return;
-    }
-    const bool resimulates = settings_.derivation == Derivation::resimulate && twin_;
-    if (!resimulates) {
-        replaying_ = false;
-    }
-    if (resimulates && (replaying_ || begin_replay(loop))) {
-        replay(loop);
-        if (replayed_ + 1 == sample_ && !lands(loop, now)) {
-            replaying_ = false;
-            find_replayed_targets(loop);
+    } else if (settings().correction != Correction::none) {
+        find_targets(loop, now);
+        if (!targets_.empty()) {
+            correct(loop, now);
         }
-    } else if (any_news(loop) && !lands(loop, now)) {
-        find_targets(loop, settings_.derivation);
     }
-    if (!targets_.empty()) {
-        correct(loop);
+}
+
+// What the far side is told of a hand is rounded (as_sent): the model is touched by the same hand.
+void OperatorSide::round_hands(SessionLoop& loop) const {
+    const Pose& frame = settings().frame;
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        if (SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
+            slot.hand = to_parent(frame, position_as_sent(to_local(frame, slot.hand)));
+            slot.hand_velocity =
+                direction_to_parent(frame, velocity_as_sent(direction_to_local(frame, slot.hand_velocity)));
+        }
     }
 }
 
 void OperatorSide::take_settings(SessionLoop& loop) {
-    if (!port_->settings.refresh()) {
-        return;
-    }
-    const TeleopSettings before = std::exchange(settings_, port_->settings.front());
-    link_.set_skew(settings_.skew);
-    link_.set_scenario(settings_.traditional ? 2 : 4);
-    if (settings_.leaving && !before.leaving) {
-        link_.leave();
-    }
-    if (before.traditional != settings_.traditional) {
+    samples_.set_max_repeats(std::max(1u, settings().repeats) - 1);
+    const bool was_traditional = channel_.before().traditional;
+    if (was_traditional != settings().traditional) {
+        changed_ = true;
         forget_past();
-        if (before.traditional) {
+        if (was_traditional) {
             begin_model(loop);
         }
     }
@@ -92,17 +81,12 @@ void OperatorSide::take_settings(SessionLoop& loop) {
 
 // What was modelled in the other scenario has nothing to do with this one.
 void OperatorSide::forget_past() {
-    for (std::size_t i = 0; i < truths_.size(); ++i) {
-        history_.forget(i);
-        drags_[i] = {};
+    resimulator_.forget();
+    for (std::uint32_t place = 0; place < truths_.places(); ++place) {
+        forget_place(place);
     }
-    std::ranges::fill(memento_of_, no_sample);
-    truth_at_ = no_sample;
-    replaying_ = false;
     for (Pointer& pointer : pointers_) {
-        pointer.active = pointer.apart = false;
-        pointer.offset = Vec3(0.0);
-        pointer.bridge = {};
+        pointer.carried.forget();
     }
 }
 
@@ -110,9 +94,9 @@ void OperatorSide::forget_past() {
 void OperatorSide::begin_model(SessionLoop& loop) {
     for (std::size_t i = 0; i < most_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
-        if (slot.proxy && pointers_[i].far_sample != no_sample) {
+        if (slot.proxy && traditional_.far(i).sample != no_sample) {
             ProxyMemory memory;
-            memory.position = pointers_[i].far_proxy;
+            memory.position = traditional_.far(i).proxy;
             memory.present = true;
             memory.hand = slot.hand;
             slot.proxy->recall(memory);
@@ -120,40 +104,52 @@ void OperatorSide::begin_model(SessionLoop& loop) {
     }
 }
 
-void OperatorSide::remember_hands(SessionLoop& loop, Nanoseconds now) {
-    Past& past = past_[sample_ % past_.size()];
-    past.time = now;
-    for (std::size_t i = 0; i < most_proxies; ++i) {
-        const SessionLoop::ProxySlot& slot = loop.proxy(i);
-        past.hands[i] = {slot.hand, slot.hand_velocity, slot.idle};
-    }
-}
+// --- receiving
 
 void OperatorSide::receive(SessionLoop& loop) {
-    notice_restart();
-    restart_waits_ = restart_waits_ && !port_->discovery.put_restart();
+    start_over_if_peer_has();
     ObjectBinding binding;
-    while (port_->bindings.try_pop(binding)) {
+    while (channel_.port().bindings.try_pop(binding)) {
         bind(binding);
     }
-    while (const Endpoint::Received* const received = link_.receive()) {
-        notice_restart();
-        restart_waits_ = restart_waits_ && !port_->discovery.put_restart();
-        const Message& message = received->packet.message;
-        if (const auto* const states = std::get_if<ObjectStates>(&message)) {
-            take(*states, loop);
-        } else if (const auto* const force = std::get_if<ForceSample>(&message)) {
-            take(*force);
-        } else if (const auto* const piece = std::get_if<DiscoveryFragment>(&message)) {
-            if (!restart_waits_) {
-                port_->discovery.put(*piece);
+    while (const Packet* const packet = channel_.receive()) {
+        const Message* const message = &packet->message;
+        start_over_if_peer_has();
+        DiscoveryReceiver& discovery = channel_.port().discovery;
+        if (const auto* const states = std::get_if<ObjectStates>(message)) {
+            take(*states, packet->header.sequence, loop);
+        } else if (const auto* const forces = std::get_if<ForceSamples>(message)) {
+            for (std::size_t i = 0; i < forces->count; ++i) {
+                take(forces->samples[i]);
             }
-        } else if (const auto* const removal = std::get_if<ObjectRemoval>(&message)) {
+        } else if (const auto* const piece = std::get_if<DiscoveryFragment>(message)) {
             if (!restart_waits_) {
-                port_->discovery.put(*removal);
+                discovery.put(*piece);
+            }
+        } else if (const auto* const removal = std::get_if<ObjectRemoval>(message)) {
+            if (!restart_waits_) {
+                discovery.put(*removal);
             }
         }
     }
+}
+
+void OperatorSide::start_over_if_peer_has() {
+    if (channel_.peer_has_started() && channel_.peer_has_restarted()) {
+        forget_far_side();
+    }
+    restart_waits_ = restart_waits_ && !channel_.port().discovery.put_restart();
+}
+
+// Another start of the far side: nothing that the last one said holds.
+void OperatorSide::forget_far_side() {
+    truths_.forget_all();
+    std::ranges::fill(body_of_object_, no_handle);
+    std::ranges::fill(object_of_body_, no_object);
+    traditional_.forget();
+    forget_past();
+    samples_.restart();
+    restart_waits_ = true;
 }
 
 void OperatorSide::bind(const ObjectBinding& binding) {
@@ -168,45 +164,43 @@ void OperatorSide::bind(const ObjectBinding& binding) {
         object_of_body_[binding.body] = binding.object;
     }
     for (const SessionHandle body : {before, binding.body}) {
-        if (body < truths_.size()) {
-            truths_[body] = {};
-            drags_[body] = {};
-            history_.forget(body);
+        if (truths_.knows(body)) {
+            forget_body(body);
         }
     }
 }
 
-void OperatorSide::notice_restart() {
-    const std::uint64_t epoch = link_.peer_epoch();
-    if (epoch != 0 && epoch != peer_epoch_ && std::exchange(peer_epoch_, epoch) != 0) {
-        forget_far_side();
+void OperatorSide::forget_body(SessionHandle body) {
+    if (const std::uint32_t place = truths_.place_of(body); place != TruthStore::no_place) {
+        forget_place(place);
     }
+    truths_.forget(body);
 }
 
-// Another start of the far side: nothing that the last one said holds.
-void OperatorSide::forget_far_side() {
-    std::ranges::fill(truths_, Truth{});
-    std::ranges::fill(body_of_object_, no_handle);
-    std::ranges::fill(object_of_body_, no_object);
-    for (Pointer& pointer : pointers_) {
-        pointer.far_force = Vec3(0.0);
-        pointer.far_sample = no_sample;
-    }
-    truth_at_ = no_sample;
-    replaying_ = false;
-    restart_waits_ = true;
+void OperatorSide::forget_place(std::uint32_t place) {
+    past_.forget(place);
+    estimates_[place].forget(settings().estimate);
+    filters_[place].forget();
 }
 
-void OperatorSide::acknowledge() {
-    constexpr int most_a_tick = 8;
-    DiscoveryAcknowledgement acknowledgement;
-    for (int i = 0; i < most_a_tick && port_->discovery.next_acknowledgement(acknowledgement); ++i) {
-        link_.send(acknowledgement);
+// Of a place that is seen only roughly, what the model's past makes of it.
+BodyMotion OperatorSide::believed(SessionHandle body, SampleSequence sample, const BodyMotion& received) {
+    const std::uint32_t place = truths_.place_of(body);
+    const BodyMotion* const expected = past_.motion(place, sample);
+    if (!expected || settings().derivation != Derivation::resimulate) {
+        return received;
     }
+    const SampleSequence before = truths_.of(body).sample;
+    const double seconds = sample > before ? static_cast<double>(sample - before) * seconds_ : 0.0;
+    return filters_[place].filter(settings().filter, received, *expected, seconds);
 }
 
-// Newest wins, for each object. A sample that has not been sent yet is none of ours.
-void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
+SessionHandle OperatorSide::body_of(ObjectId object) const {
+    return object < body_of_object_.size() ? body_of_object_[object] : no_handle;
+}
+
+// A sample that has not been sent yet is none of ours.
+void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop) {
     const SampleSequence sample = states.newest_operator_sample;
     if (sample >= sample_) {
         return;
@@ -216,23 +210,28 @@ void OperatorSide::take(const ObjectStates& states, SessionLoop& loop) {
     }
     for (std::size_t i = 0; i < states.count; ++i) {
         const ObjectState& state = states.states[i];
-        const SessionHandle body =
-            state.object < body_of_object_.size() ? body_of_object_[state.object] : no_handle;
-        if (body >= truths_.size() || !loop.body(body)) {
+        const SessionHandle body = body_of(state.object);
+        const SessionLoop::Body* const known = loop.body(body);
+        if (!known) {
             ++statistics_.unknown_objects;
             continue;
         }
-        Truth& truth = truths_[body];
-        if (truth.true_at != 0 && states.true_at <= truth.true_at) {
+        const BodyMotion motion = to_parent(
+            settings().frame, BodyMotion{state.pose, state.linear_velocity, state.angular_velocity});
+        if (!truths_.is_newer(body, packet) ||
+            !truths_.take(body, sample, packet, believed(body, sample, motion))) {
             ++statistics_.stale_states;
             continue;
         }
-        truth.sample_before = truth.sample;
-        truth.before = truth.motion;
-        truth.sample = sample;
-        truth.true_at = states.true_at;
-        truth.motion = {state.pose, state.linear_velocity, state.angular_velocity};
-        truth.fresh = true;
+        if (known->motion != Motion::Static) {
+            SessionHandle evicted = no_handle;
+            const bool had_none = truths_.place_of(body) == TruthStore::no_place;
+            const std::uint32_t place = truths_.give_place(body, hands_, evicted);
+            if (had_none && place != TruthStore::no_place) {
+                forget_place(place);
+            }
+            statistics_.without_past += place == TruthStore::no_place ? 1 : 0;
+        }
     }
 }
 
@@ -240,54 +239,54 @@ void OperatorSide::take(const ForceSample& force) {
     if (force.pointer >= most_proxies || force.newest_operator_sample > sample_) {
         return;
     }
-    Pointer& pointer = pointers_[force.pointer];
-    if (force.newest_operator_sample < pointer.far_sample) {
+
+    ForceSample here = force;
+    here.force = direction_to_parent(settings().frame, force.force);
+    here.proxy = to_parent(settings().frame, force.proxy);
+    if (!traditional_.take(here, body_of(force.object))) {
         ++statistics_.stale_states;
         return;
     }
-    pointer.far_sample = force.newest_operator_sample;
-    pointer.far_force = force.force;
-    pointer.far_proxy = force.proxy;
-    pointer.far_object = force.object;
     statistics_.round_trip = static_cast<double>(sample_ - force.newest_operator_sample) * seconds_;
 }
 
 // Traditional: bodies are shown where the far side last said.
 void OperatorSide::follow_far_side(SessionLoop& loop) {
-    for (std::size_t i = 0; i < truths_.size(); ++i) {
-        if (std::exchange(truths_[i].fresh, false) && loop.body(static_cast<SessionHandle>(i))) {
-            loop.put_right(static_cast<SessionHandle>(i), truths_[i].motion, true);
+    for (const SessionHandle body : truths_.fresh()) {
+        if (loop.body(body) && differs(truths_.of(body).motion, loop.motion(body), settings().threshold)) {
+            loop.put_right(body, truths_.of(body).motion, true);
         }
     }
+    truths_.settle();
 }
 
 // --- what is true now
 
-bool OperatorSide::tracks(SessionLoop& loop, std::size_t body) const {
-    return body < truths_.size() && loop.body(static_cast<SessionHandle>(body));
-}
-
 // Whether the far side said something that the model did not know.
-bool OperatorSide::is_news(SessionLoop& loop, std::size_t body) const {
-    const Truth& truth = truths_[body];
-    if (!truth.fresh || !tracks(loop, body)) {
+bool OperatorSide::is_news(SessionLoop& loop, SessionHandle body) const {
+    const Truth& truth = truths_.of(body);
+    const SessionLoop::Body* const known = loop.body(body);
+    if (!known) {
         return false;
     }
-    const bool moves = loop.body(static_cast<SessionHandle>(body))->motion == Motion::Dynamic;
     if (truth.sample == no_sample && !nothing_is_touched(loop)) {
         return false;  // from before the first sample of a hand that has been at work since
     }
-    if (settings_.derivation == Derivation::none || truth.sample == no_sample) {
-        return poses_differ(truth.motion.pose, loop.motion(static_cast<SessionHandle>(body)).pose,
-                            settings_.threshold);
+    const bool moves = known->motion != Motion::Static;
+    if (settings().derivation == Derivation::none || truth.sample == no_sample || !moves) {
+        return poses_differ(truth.motion.pose, loop.motion(body).pose, settings().threshold);
     }
-    const BodyMotion* const then = history_.at(body, truth.sample);
+    const std::uint32_t place = truths_.place_of(body);
+    if (place == TruthStore::no_place) {
+        return differs(truth.motion, loop.motion(body), settings().threshold);
+    }
+    const BodyMotion* const then = past_.motion(place, truth.sample);
     if (!then) {
         return false;
     }
-    return settings_.correction == Correction::pose || !moves
-               ? poses_differ(truth.motion.pose, then->pose, settings_.threshold)
-               : differs(truth.motion, *then, settings_.threshold);
+    return settings().correction == Correction::pose
+               ? poses_differ(truth.motion.pose, then->pose, settings().threshold)
+               : differs(truth.motion, *then, settings().threshold);
 }
 
 bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {
@@ -298,6 +297,41 @@ bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {
         }
     }
     return true;
+}
+
+bool OperatorSide::any_news(SessionLoop& loop) const {
+    return std::ranges::any_of(truths_.fresh(), [&](SessionHandle body) { return is_news(loop, body); });
+}
+
+void OperatorSide::find_targets(SessionLoop& loop, Nanoseconds now) {
+    if (settings().derivation != Derivation::resimulate || !resimulator_.exists()) {
+        resimulator_.stop();
+        if (any_news(loop)) {
+            if (!lands(loop, now)) {
+                derive_targets(loop, false);
+            }
+        } else {
+            truths_.settle();
+        }
+        return;
+    }
+    if (!resimulator_.running() && !truths_.fresh().empty()) {
+        if (!any_news(loop)) {
+            learn(loop);
+            truths_.settle();
+        } else if (resimulator_.begin(truths_, past_, sample_)) {
+            ++statistics_.replays;
+            learn(loop);
+            lands(loop, now);  // what would be felt, for those that are put right at once
+            derive_targets(loop, true);
+        } else if (!lands(loop, now)) {
+            derive_targets(loop, false);
+        }
+    }
+    if (resimulator_.running() && resimulator_.advance(truths_, past_, sample_, settings().replay_steps) &&
+        !lands(loop, now)) {
+        resimulator_.finish(loop, truths_, settings().threshold, targets_);
+    }
 }
 
 DerivationInput OperatorSide::derivation_input(const Truth& truth, const BodyMotion& then,
@@ -315,122 +349,84 @@ DerivationInput OperatorSide::derivation_input(const Truth& truth, const BodyMot
     return in;
 }
 
-bool OperatorSide::any_news(SessionLoop& loop) const {
-    for (std::size_t i = 0; i < truths_.size(); ++i) {
-        if (is_news(loop, i)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-void OperatorSide::find_targets(SessionLoop& loop, Derivation derivation) {
-    for (std::size_t i = 0; i < truths_.size(); ++i) {
-        const bool news = is_news(loop, i);
-        truths_[i].fresh = false;
-        if (!news) {
+// Where the past is not known, a body goes on as the far side last saw it move.
+void OperatorSide::derive_targets(SessionLoop& loop, bool only_without_past) {
+    for (const SessionHandle body : truths_.fresh()) {
+        const Truth& truth = truths_.of(body);
+        const std::uint32_t place = truths_.place_of(body);
+        if (!is_news(loop, body) || (only_without_past && place != TruthStore::no_place)) {
             continue;
         }
-        const auto handle = static_cast<SessionHandle>(i);
-        const BodyMotion now = loop.motion(handle);
-        const BodyMotion* const then = history_.at(i, truths_[i].sample);
-        const Derivation how = truths_[i].sample == no_sample ? Derivation::none : derivation;
-        Target target{handle, derive(how, derivation_input(truths_[i], then ? *then : now, now)), {}};
-        if (settings_.correction == Correction::pose) {
+        const BodyMotion now = loop.motion(body);
+        const BodyMotion* const then = past_.motion(place, truth.sample);
+        const bool moves = loop.body(body)->motion != Motion::Static;
+        const Derivation how = !moves || truth.sample == no_sample ? Derivation::none
+                               : then                              ? settings().derivation
+                                                                   : Derivation::velocity;
+        Target target{body, derive(how, derivation_input(truth, then ? *then : now, now)), false, {}};
+        if (settings().correction == Correction::pose) {
             target.motion.linear_velocity = now.linear_velocity;
             target.motion.angular_velocity = now.angular_velocity;
         }
-        history_.carry(i, truths_[i].sample, sample_ - 1, now, target.motion);
+        if (place != TruthStore::no_place && truth.sample != no_sample) {
+            past_.carry(place, truth.sample, sample_ - 1, now, target.motion);
+        }
         targets_.push_back(target);
+    }
+    truths_.settle();
+}
+
+// From one truth of a body to the next, the model's has come from nearly the same state.
+void OperatorSide::learn(SessionLoop& loop) {
+    if (!(settings().estimate.gain > 0.0)) {
+        return;
+    }
+    for (const SessionHandle body : truths_.fresh()) {
+        const Truth& truth = truths_.of(body);
+        const std::uint32_t place = truths_.place_of(body);
+        const BodyMotion* const start = past_.motion(place, truth.sample_before);
+        const BodyMotion* const end = past_.motion(place, truth.sample);
+        const SessionLoop::Body* const known = loop.body(body);
+        if (!known || known->motion != Motion::Dynamic || !start || !end ||
+            truth.sample <= truth.sample_before || truth.sample - truth.sample_before >= past_.samples()) {
+            continue;
+        }
+        const bool from_truth = resimulator_.goes_on_from(body) == truth.sample_before;
+        MotionLesson lesson;
+        lesson.truth_before = truth.before.linear_velocity;
+        lesson.truth = truth.motion.linear_velocity;
+        lesson.model_before = from_truth ? truth.before.linear_velocity : start->linear_velocity;
+        lesson.model = end->linear_velocity;
+        lesson.pushed = past_.pushed(place, truth.sample_before, truth.sample);
+        lesson.seconds = static_cast<double>(truth.sample - truth.sample_before) * seconds_;
+        lesson.fell = loop.gravity() * lesson.seconds;
+        ParameterEstimate& estimate = estimates_[place];
+        estimate.learn(settings().estimate, lesson);
+        const BodyFactors factors{estimate.mass_factor(), estimate.friction_factor()};
+        loop.set_factors(body, factors);
+        resimulator_.twin()->set_factors(body, factors);
     }
 }
 
-// --- sending
+// ---
 
 void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
-    if (!settings_.traditional) {
-        remember(loop);
+    if (!settings().traditional) {
+        past_.note_pushes(loop, truths_, sample_);
+        past_.note_motions(loop, truths_, sample_);
+        if (resimulator_.exists() && settings().derivation == Derivation::resimulate) {
+            resimulator_.remember(loop, sample_);
+        }
     }
     for (std::size_t i = 0; i < most_proxies; ++i) {
         if (loop.proxy(i).present()) {
             send_sample(loop, i, now);
         }
     }
+    samples_.end_tick(channel_.link(), now);
     acknowledge();
-    link_.end_tick();
     statistics_.sample = sample_;
-    statistics_.link = link_.statistics();
-    port_->statistics.publish(statistics_);
-}
-
-void OperatorSide::remember(SessionLoop& loop) {
-    for (std::size_t i = 0; i < truths_.size(); ++i) {
-        if (tracks(loop, i)) {
-            history_.set(i, sample_, loop.motion(static_cast<SessionHandle>(i)));
-        }
-    }
-    if (twin_ && settings_.derivation == Derivation::resimulate && sample_ % room_.samples_a_memento == 0) {
-        const std::size_t index = sample_ / room_.samples_a_memento % mementos_.size();
-        memento_of_[index] = loop.save(mementos_[index]) ? sample_ : no_sample;
-    }
-}
-
-// What the far side needs to do the same: the true hand, and what it presses bodies with.
-void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now) {
-    const SessionLoop::ProxySlot& slot = loop.proxy(index);
-    Pointer& pointer = pointers_[index];
-    const DeviceSample device = loop.device_sample(slot.description.device);
-    OperatorSample sample;
-    sample.sequence = sample_;
-    sample.time = link_.local_time(now);
-    sample.pointer = static_cast<std::uint16_t>(index);
-    sample.connected = device.connected;
-    sample.buttons = device.buttons;
-    sample.position = slot.hand;
-    sample.velocity = slot.hand_velocity;
-    sample.force = settings_.traditional ? Vec3(0.0) : slot.force;
-    if (settings_.deadband.enabled && pointer.sent_count > 0 &&
-        now - pointer.sent_at < settings_.deadband.longest_silence) {
-        const OperatorSample& last = pointer.sent[0];
-        const Vec3 guessed = guessed_position(last.position, last.velocity,
-                                              static_cast<double>(sample_ - last.sequence) * seconds_);
-        if (!position_needs_sending(settings_.deadband, guessed, sample.position, sample.velocity) &&
-            !(uses_force(settings_.control) &&
-              force_needs_sending(settings_.deadband, last.force, sample.force)) &&
-            sample.buttons == last.buttons) {
-            return;
-        }
-    }
-    if (!settings_.traditional && settings_.control == ControlScheme::position_force_relative) {
-        find_nearest(loop, slot, sample);
-    }
-    std::shift_right(pointer.sent.begin(), pointer.sent.end(), 1);
-    pointer.sent[0] = sample;
-    pointer.sent_count = std::min(pointer.sent_count + 1, pointer.sent.size());
-    pointer.sent_at = now;
-    OperatorSamples message;
-    message.count = static_cast<std::uint16_t>(
-        std::min<std::size_t>(pointer.sent_count, std::max(1u, settings_.repeats)));
-    std::copy_n(pointer.sent.begin(), message.count, message.samples.begin());
-    link_.send(message);
-}
-
-void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot,
-                                OperatorSample& sample) const {
-    double near = settings_.stand_in.near + slot.description.settings.radius;
-    for (std::size_t i = 0; i < truths_.size(); ++i) {
-        const SessionLoop::Body* const body = loop.body(static_cast<SessionHandle>(i));
-        if (!body || body->motion == Motion::Static || object_of_body_[i] == no_object) {
-            continue;
-        }
-        const NearestSurface nearest =
-            nearest_surface(loop.scene(), body->slot, slot.proxy->position(), near);
-        if (nearest.distance < near) {
-            near = nearest.distance;
-            sample.nearest_object = object_of_body_[i];
-            sample.position_in_object = to_local(loop.scene().body(body->slot).pose, slot.hand);
-        }
-    }
+    channel_.end_tick(statistics_);
 }
 
 }  // namespace tactus

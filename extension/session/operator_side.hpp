@@ -1,30 +1,32 @@
 // The operator's side: the hand is answered by the model of the far side's bodies (scenario 4), or by the far
-// side itself, one delay later (scenario 2).
+// side itself, one delay later (scenario 2, traditional_touch.hpp).
 //
-// States of the far side are compared with the model's past at the same sample of the operator, so that a
-// right model is never dragged back by the delay. What differs leads to the present state (derivation.hpp),
-// and that is brought in without being felt (stealth.hpp): bodies and the pointer that presses them are put
-// right at once; a second pointer, carried along, is the one that is felt.
+// States of the far side (truth_store.hpp) are compared with the model's past (model_past.hpp) at the same
+// sample of the operator, so that a right model is never dragged back by the delay. What differs leads to the
+// present state, by a formula (derivation.hpp) or by doing the past again (resimulator.hpp). The model is put
+// right at once; what the hand feels of it goes through one place (felt_pointer.hpp).
 //
-// operator_side.cpp hears, compares and sends, operator_replay.cpp goes back and does the past again,
-// operator_touch.cpp brings corrections in and gives the hand its force.
+// operator_side.cpp hears and compares, operator_touch.cpp puts right and gives the hand its force,
+// operator_sending.cpp tells the far side.
 #pragma once
 
-#include <memory>
-#include <optional>
-
-#include "core/teleop/state_history.hpp"
-#include "session/session_loop.hpp"
-#include "session/teleop_port.hpp"
+#include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/pose_filter.hpp"
+#include "network/sample_stream.hpp"
+#include "session/carried_pointer.hpp"
+#include "session/channel.hpp"
+#include "session/resimulator.hpp"
+#include "session/traditional_touch.hpp"
 
 namespace tactus {
 
 struct OperatorRoom {
-    std::size_t most_tracked = 32;      // bodies with handles below this are corrected
+    std::size_t most_tracked = 64;      // moving bodies that are compared with the past; others are put where
+                                        // the far side saw them
     std::size_t samples = 1024;         // of the past; more delay than this is not corrected
     std::size_t samples_a_memento = 8;  // a replay does up to so many ticks more
     std::size_t memento_bytes = 65536;  // of physics in each (see PhysicsWorld::save)
-    std::size_t pointers = 4;           // that can be carried along; others feel corrections
+    std::size_t pointers = 4;           // that can be carried along (stealthy_translate, stealthy_turn)
     bool replays = true;                // false: no twin, re-simulation is not available
 };
 
@@ -36,123 +38,92 @@ public:
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds now) override;
     void report(SessionLoop& loop, Nanoseconds now) override;
-    bool simulates() const override { return !settings_.traditional; }
-    SessionLoop* twin() override { return twin_.get(); }
+    const ForceLimits& limits() const override { return channel_.settings().limits; }
+    bool simulates() const override { return !settings().traditional; }
+    SessionLoop* twin() override { return resimulator_.twin(); }
 
 private:
-    // What the far side said about a body last.
-    struct Truth {
-        bool fresh = false;
-        SampleSequence sample = no_sample;
-        Nanoseconds true_at = 0;
-        BodyMotion motion;
-        SampleSequence sample_before = no_sample;  // of the state before that one, for accelerations
-        BodyMotion before;
-    };
-    struct Hand {
-        Vec3 position{0.0};
-        Vec3 velocity{0.0};
-        bool idle = false;
-    };
-    struct Past {
-        Nanoseconds time = 0;
-        std::array<Hand, most_proxies> hands;
-    };
+    using Target = Resimulator::Target;
+
     struct Pointer {
-        SessionLoop::ProxySlot felt;  // its proxy is carried along; `hand` is the hand with the offset
-        bool active = false;          // else what is modelled is felt
-        bool apart = false;           // `felt` is the one that is felt, else the one that presses
-        Vec3 offset{0.0};             // (unit: meters)
-        ForceBridge bridge;
-        DriftRate drift;
-        Vec3 force_before{0.0};  // felt in this tick if nothing were corrected (unit: newtons)
-        // Traditional: what came last.
-        Vec3 far_force{0.0};
-        Vec3 far_proxy{0.0};
-        ObjectId far_object = no_object;  // that is touched there
-        SampleSequence far_sample = no_sample;
+        FeltPointer felt;
+        CarriedPointer carried;
+        Vec3 uncorrected{0.0};      // force in this tick if nothing were corrected (unit: newtons)
+        Vec3 modelled{0.0};         // by the model, one tick ago (unit: newtons)
+        Vec3 modelled_before{0.0};  // two ticks ago, or the same where a change was in between
+        Vec3 hand{0.0};             // one tick ago (unit: meters)
+        Vec3 force{0.0};            // given to the hand, one tick ago (unit: newtons)
+        bool known = false;         // there was such a tick
+        bool answered = false;      // traditional: what the far side said last still held then
         // Sending.
-        std::array<OperatorSample, OperatorSamples::most> sent{};
-        std::size_t sent_count = 0;
+        OperatorSample sent;
+        bool has_sent = false;
         Nanoseconds sent_at = 0;
     };
-    struct Target {
-        SessionHandle body = no_handle;
-        BodyMotion motion;
-        std::optional<Pose> previous;  // one tick ago, where that is known
-    };
 
+    const TeleopSettings& settings() const { return channel_.settings(); }
+
+    // --- operator_side.cpp
     void take_settings(SessionLoop& loop);
-    void take(const ObjectStates& states, SessionLoop& loop);
-    void take(const ForceSample& force);
-    void receive(SessionLoop& loop);
-    void bind(const ObjectBinding& binding);
-    void notice_restart();
-    void acknowledge();
-    void forget_far_side();
-    void forget_past();
+    void round_hands(SessionLoop& loop) const;
     void begin_model(SessionLoop& loop);
-    bool nothing_is_touched(SessionLoop& loop) const;
-    void remember_hands(SessionLoop& loop, Nanoseconds now);
+    void forget_past();
+    void forget_far_side();
+    void receive(SessionLoop& loop);
+    void start_over_if_peer_has();
+    void bind(const ObjectBinding& binding);
+    void forget_body(SessionHandle body);
+    void forget_place(std::uint32_t place);
+    BodyMotion believed(SessionHandle body, SampleSequence sample, const BodyMotion& received);
+    SessionHandle body_of(ObjectId object) const;
+    void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
+    void take(const ForceSample& force);
     void follow_far_side(SessionLoop& loop);
-    bool tracks(SessionLoop& loop, std::size_t body) const;
-    bool is_news(SessionLoop& loop, std::size_t body) const;
+    bool nothing_is_touched(SessionLoop& loop) const;
+    bool is_news(SessionLoop& loop, SessionHandle body) const;
     bool any_news(SessionLoop& loop) const;
-    void find_targets(SessionLoop& loop, Derivation derivation);
+    void find_targets(SessionLoop& loop, Nanoseconds now);
+    void derive_targets(SessionLoop& loop, bool only_without_past);
     DerivationInput derivation_input(const Truth& truth, const BodyMotion& then, const BodyMotion& now) const;
-    bool begin_replay(SessionLoop& loop);
-    void learn_drags(SessionLoop& loop);
-    void apply_drags(SessionLoop& loop) const;
-    void replay(SessionLoop& loop);
-    void replay_tick(SessionLoop& loop);
-    void put_in_truth();
-    void find_replayed_targets(SessionLoop& loop);
+    void learn(SessionLoop& loop);
+
+    // --- operator_touch.cpp
     bool lands(SessionLoop& loop, Nanoseconds now);
-    void correct(SessionLoop& loop);
+    void correct(SessionLoop& loop, Nanoseconds now);
     Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
                            Nanoseconds now) const;
-    bool carry(SessionLoop& loop, const Target& target, const Pose& motion);
-    void part(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
-    void lean_on_pressing(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
-    bool presses_as_felt(const Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
-    Vec3 felt_apart(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
-    void feel_far_side(const Pointer& pointer, SessionLoop::ProxySlot& slot) const;
-    void feel(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
-    void hide_correction(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot,
-                         Nanoseconds now);
-    void fade(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot);
-    void note_drift(const SessionLoop& loop, Pointer& pointer, double way) const;
-    double stiffness_under(const SessionLoop& loop, const ProxyState& state) const;
-    void remember(SessionLoop& loop);
+    Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
+    void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
+                      bool changed);
+    void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
+    void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
+
+    // --- operator_sending.cpp
+    void acknowledge();
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);
     void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, OperatorSample& sample) const;
 
-    TeleopSettings settings_;
     OperatorRoom room_;
-    Endpoint link_;
-    std::shared_ptr<TeleopPort> port_;
+    Channel channel_;
+    SampleStream samples_;
     double seconds_;  // of a tick
     SampleSequence sample_ = no_sample;
-    StateHistory history_;
-    std::vector<Past> past_;  // by sample
-    std::vector<Truth> truths_;
-    std::vector<DragEstimate> drags_;
+    TruthStore truths_;
+    ModelPast past_;
+    Resimulator resimulator_;
+    TraditionalTouch traditional_;
+    std::vector<ParameterEstimate> estimates_;  // by place
+    std::vector<PoseFilter> filters_;           // by place
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
+    std::vector<Vec3> hands_;  // that are there
     std::array<Pointer, most_proxies> pointers_;
     std::vector<Target> targets_;  // of this tick
+    bool corrected_ = false;       // in this tick
+    bool changed_ = false;  // something else than a correction has changed what is touched in this tick
+    Vec3 gravity_{0.0};     // of the model (unit: meters per second squared)
     TeleopStatistics statistics_;
-
-    TripleBuffer<SessionSnapshot> nobody_looks_;  // the twin publishes nothing
-    std::unique_ptr<SessionLoop> twin_;
-    std::vector<LoopMemento> mementos_;
-    std::vector<SampleSequence> memento_of_;  // the sample after which it was taken; 0: none
-    bool replaying_ = false;
-    SampleSequence replayed_ = no_sample;  // the newest sample that the twin has applied
-    SampleSequence truth_at_ = no_sample;
-    std::vector<Target> replay_truth_;
-    std::uint64_t peer_epoch_ = 0;  // whose states are known
-    bool restart_waits_ = false;    // the owner has not been told yet
+    bool restart_waits_ = false;  // the owner has not been told yet
 };
 
 }  // namespace tactus

@@ -65,15 +65,17 @@ public:
     // -------------------------------------------------------------------------------------------------
 
     // Any thread, any time: builds the triangle tree and the rigid body, the tree with the help of `run`.
-    ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially) const;
-    // The same for a session that may be gone by then: `twice` is what this one says.
-    static ReadyBody prepare_body(const BodyAddition& addition, bool twice, const ParallelRunner& run);
-    bool needs_bodies_twice() const;
+    static ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially);
     // Hands it to the loop. Nothing is added on an error.
     AddResult add_body(ReadyBody&& body);
     AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
     void remove_body(SessionHandle body);
     // Where the body is from the next tick on, without a way there: nothing is pushed.
+    // The body takes another form where it is, of as many shapes as before; what it is else stays. Where only
+    // corners of its meshes have moved (see is_deformation), proxies that touch it are carried and pushed
+    // along their way, however far that is; else they are let out of it. Its former touch shape is kept
+    // until the next form. An error is that of the new body, and nothing happens.
+    std::string deform_body(SessionHandle body, ReadyBody&& form);
     void teleport_body(SessionHandle body, const Pose& pose);
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);
@@ -137,12 +139,6 @@ public:
     // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
     // that is elsewhere when they go on begins anew there, without a kick.
     void rest();
-
-    // Between two ticks: time travel, for a session that keeps a history (see SessionLoop::correct).
-    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth);
-    bool correcting() const;
-    std::uint64_t oldest_correctable_tick() const;
-    std::span<const CorrectedBody> corrected() const;
 
 private:
     struct Impl;

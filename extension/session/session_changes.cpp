@@ -1,13 +1,27 @@
 // How the loop carries out each command of the owner.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "session/session_loop.hpp"
 
 namespace tactus {
 
+namespace {
+
+// Whether what a pointer touches, or the pointer itself, may be another one afterwards.
+bool changes_touch(const Command& command) {
+    return std::holds_alternative<command::AddBody>(command) ||
+           std::holds_alternative<command::RemoveBody>(command) ||
+           std::holds_alternative<command::TeleportBody>(command) ||
+           std::holds_alternative<command::SetTouchMaterial>(command) ||
+           std::holds_alternative<command::SetBodyLayers>(command) ||
+           std::holds_alternative<command::SetProxy>(command);
+}
+
+}  // namespace
+
 bool SessionLoop::take(Command& command, Retired& retired) {
+    touch_changed_ = touch_changed_ || changes_touch(command);
     return std::visit([&](auto& c) { return carry_out(c, retired); }, command);
 }
 
@@ -15,7 +29,7 @@ void SessionLoop::follow(const SessionLoop& other, const Command& command) {
     if (const auto* const joint = std::get_if<command::AddJoint>(&command)) {
         for (const SessionHandle handle : {joint->first, joint->second}) {
             if (const Body* const joined = body(handle)) {
-                timeline_.take_state(joined->id, other.physics_);
+                physics_.take_state(joined->id, other.physics_);
             }
         }
     }
@@ -33,20 +47,20 @@ const SessionLoop::Body* SessionLoop::body(SessionHandle handle) const {
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body, c.handle, std::move(c.body),    std::move(c.same_body),
-                   std::move(c.shape),  nullptr,  std::move(c.texture), nullptr};
+        retired = {Retired::Kind::body,  c.handle, std::move(c.body), std::move(c.shape), nullptr,
+                   std::move(c.texture), nullptr};
         return true;
     };
-    const BodyId id = timeline_.add(c.body, c.same_body);
+    const BodyId id = physics_.add(c.body);
     if (!id.valid()) {
         return give_back();
     }
     const int slot = scene_.add(*c.shape, c.pose, c.material, c.layer);
     if (slot < 0) {
-        std::tie(c.body, c.same_body) = timeline_.remove(id);
+        c.body = physics_.remove(id);
         return give_back();
     }
-    bodies_[c.handle] = {id, slot, std::move(c.shape), std::move(c.texture), c.motion, {}, 0};
+    bodies_[c.handle] = {id, slot, std::move(c.shape), nullptr, false, std::move(c.texture), c.motion, {}, 0};
     note_magnet(c.handle);
     handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
     handle_of_id_[id.index()] = c.handle;
@@ -81,6 +95,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     end_travel(c.handle);
     std::erase(magnets_, c.handle);
     std::erase(pushed_, c.handle);
+    std::erase(forming_, c.handle);
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
     handle_of_id_[removed->id.index()] = no_handle;
@@ -94,23 +109,55 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
         }
         states_changed_at_ = tick_ + 1;
     }
-    auto [gone, same_gone] = timeline_.remove(removed->id);
     retired = {Retired::Kind::body,
                c.handle,
-               std::move(gone),
-               std::move(same_gone),
+               physics_.remove(removed->id),
                std::move(removed->shape),
                nullptr,
                std::move(removed->texture),
-               nullptr};
+               nullptr,
+               std::move(removed->former)};
     *removed = {};
     return true;
+}
+
+// The new form stands in the touch scene from the coming tick on, and there the way to it. A form that comes
+// before the last one has been touched takes its place.
+bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
+    Body* const deformed = body(c.handle);
+    const bool fits = deformed && c.shape->parts.size() == deformed->shape->parts.size();
+    retired.kind = Retired::Kind::form;
+    if (fits) {
+        timeline_.reshape(deformed->id, c.body, c.same_body);
+        if (deformed->takes_form) {
+            retired.shape = std::exchange(deformed->shape, std::move(c.shape));
+        } else {
+            retired.shape =
+                std::exchange(deformed->former, std::exchange(deformed->shape, std::move(c.shape)));
+            deformed->takes_form = true;
+            forming_.push_back(c.handle);
+        }
+    } else {
+        retired.shape = std::move(c.shape);
+    }
+    retired.body = std::move(c.body);
+    retired.same_body = std::move(c.same_body);
+    return true;
+}
+
+void SessionLoop::take_forms() {
+    for (const SessionHandle handle : forming_) {
+        Body& taking = bodies_[handle];
+        taking.takes_form = false;
+        scene_.deform(taking.slot, *taking.shape);
+    }
+    forming_.clear();
 }
 
 bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
     if (Body* const moved = body(c.handle)) {
         end_travel(c.handle);
-        timeline_.set_pose(moved->id, c.pose);
+        physics_.set_pose(moved->id, c.pose);
         place(c.handle, c.pose, true);
     }
     return false;
@@ -139,7 +186,7 @@ bool SessionLoop::carry_out(command::MoveBody& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        timeline_.set_velocity(changed->id, c.linear, c.angular);
+        physics_.set_velocity(changed->id, c.linear, c.angular);
     }
     return false;
 }
@@ -153,27 +200,27 @@ bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired& retired) {
     if (!c.texture) {
         return false;
     }
-    retired = {Retired::Kind::texture, no_handle, {}, {}, nullptr, nullptr, std::move(c.texture), nullptr};
+    retired = {Retired::Kind::texture, no_handle, {}, nullptr, nullptr, std::move(c.texture), nullptr};
     return true;
 }
 
 bool SessionLoop::carry_out(command::SetBodySurface& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        timeline_.set_material(changed->id, c.surface);
+        physics_.set_material(changed->id, c.surface);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyLayers& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        timeline_.set_collision(changed->id, c.layers);
+        physics_.set_collision(changed->id, c.layers);
         scene_.set_layer(changed->slot, c.layers.layer);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
-    if (Body* const changed = body(c.handle); changed && timeline_.set_motion(changed->id, c.motion)) {
+    if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
         end_travel(c.handle);
         changed->motion = c.motion;
         if (c.motion != Motion::Static && state_of_[c.handle] == no_handle) {
@@ -185,14 +232,14 @@ bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyGravityScale& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        timeline_.set_gravity_scale(changed->id, c.scale);
+        physics_.set_gravity_scale(changed->id, c.scale);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        timeline_.set_damping(changed->id, c.linear, c.angular);
+        physics_.set_damping(changed->id, c.linear, c.angular);
     }
     return false;
 }
@@ -233,20 +280,21 @@ bool SessionLoop::carry_out(command::AddJoint& c, Retired&) {
     JointDescription joint = c.joint;
     joint.frame = {to_parent(at, c.joint.frame.position), at.rotation * c.joint.frame.rotation};
     joints_[c.handle] =
-        timeline_.add_joint(joint, first ? first->id : BodyId{}, second ? second->id : BodyId{});
+        physics_.add_joint(joint, first ? first->id : BodyId{}, second ? second->id : BodyId{});
     status_ |= joints_[c.handle].valid() ? 0u : static_cast<TickStatus>(session_full);
     return false;
 }
 
 bool SessionLoop::carry_out(command::RemoveJoint& c, Retired& retired) {
-    timeline_.remove_joint(std::exchange(joints_[c.handle], JointId{}));
+    physics_.remove_joint(std::exchange(joints_[c.handle], JointId{}));
     retired.kind = Retired::Kind::joint;
     retired.handle = c.handle;
     return true;
 }
 
 bool SessionLoop::carry_out(command::SetGravity& c, Retired&) {
-    timeline_.set_gravity(c.gravity);
+    gravity_ = c.gravity;
+    physics_.set_gravity(c.gravity);
     return false;
 }
 
@@ -267,7 +315,7 @@ bool SessionLoop::carry_out(command::RemoveDevice& c, Retired& retired) {
         devices_[c.handle].device->write(time_, Vec3(0.0));
     }
     devices_[c.handle] = {};
-    retired = {Retired::Kind::device, c.handle, {}, {}, nullptr, nullptr, nullptr, nullptr};
+    retired = {Retired::Kind::device, c.handle, {}, nullptr, nullptr, nullptr, nullptr};
     return true;
 }
 
@@ -291,14 +339,8 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
-    retired = {Retired::Kind::proxy,
-               c.handle,
-               {},
-               {},
-               nullptr,
-               std::move(proxies_[c.handle].proxy),
-               nullptr,
-               nullptr};
+    retired = {
+        Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr, nullptr};
     proxies_[c.handle] = {};
     return true;
 }
@@ -315,7 +357,7 @@ bool SessionLoop::carry_out(command::Attach& c, Retired& retired) {
     if (!c.side) {
         return false;
     }
-    retired = {Retired::Kind::side, no_handle, {}, {}, nullptr, nullptr, nullptr, std::move(c.side)};
+    retired = {Retired::Kind::side, no_handle, {}, nullptr, nullptr, nullptr, std::move(c.side)};
     return true;
 }
 
@@ -327,6 +369,10 @@ struct Duplicate {
     bool operator()(command::AddBody& c) {
         same = command::AddBody{
             c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion};
+        return true;
+    }
+    bool operator()(command::DeformBody& c) {
+        same = command::DeformBody{c.handle, std::move(c.same_body), {}, c.shape};
         return true;
     }
     bool operator()(command::AddProxy& c) {

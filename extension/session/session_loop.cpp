@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 #include "core/haptics/nearest_surface.hpp"
 #include "physics/limits.hpp"
@@ -12,16 +13,16 @@ namespace tactus {
 
 namespace {
 
-TimelineSettings with_room(const SessionSettings& settings) {
-    TimelineSettings timeline;
-    timeline.physics = settings.physics;
-    timeline.physics.max_bodies = settings.most_bodies;
-    timeline.physics.full_rate_bodies = settings.history.ticks > 0 ? 0 : settings.full_rate_bodies;
-    timeline.ticks = settings.history.ticks;
-    timeline.ticks_a_snapshot = settings.history.ticks_a_snapshot;
-    timeline.snapshot_bytes = settings.history.snapshot_bytes;
-    return timeline;
+PhysicsSettings with_room(const SessionSettings& settings) {
+    PhysicsSettings physics = settings.physics;
+    physics.max_bodies = settings.most_bodies;
+    physics.full_rate_bodies = settings.full_rate_bodies;
+    return physics;
 }
+
+// Without a far side nothing comes over a link: a device's longest force is limit enough.
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr ForceLimits local_touch{no_limit, no_limit, no_limit};
 
 // The pose that is one of `ticks` equal parts of the way on.
 Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
@@ -41,18 +42,18 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       seconds_(to_seconds(settings.period)),
       snapshots_(snapshots),
       scene_(settings.most_bodies, settings.most_parts),
-      timeline_(with_room(settings)),
-      physics_(timeline_.world()),
+      physics_(with_room(settings)),
       bodies_(settings.most_bodies),
       handle_of_slot_(settings.most_bodies, no_handle),
       handle_of_id_(settings.most_bodies, no_handle),
       state_changes_(settings.most_bodies),
-      state_of_(settings.most_bodies, no_handle) {
+      state_of_(settings.most_bodies, no_handle),
+      gravity_(settings.physics.gravity) {
     travelling_.reserve(settings.most_bodies);
+    forming_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
     pushed_.reserve(settings.most_bodies);
     joints_.resize(settings.physics.max_joints);
-    corrected_.reserve(settings.history.ticks > 0 ? settings.most_bodies : 0);
     states_.reserve(settings.most_bodies);
     hands_.reserve(most_proxies);
 }
@@ -61,8 +62,8 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     ++tick_;
     time_ = now;
     scene_.begin_tick();
+    take_forms();
     follow_physics();
-    follow_replay();
     travel();
     {
         const TraceScope scope(trace, TickStage::read_device);
@@ -79,6 +80,8 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     if (side_) {
         const TraceScope scope(trace, TickStage::correct_model);
         side_->set_forces(*this, now);
+    } else {
+        fade_jumps();
     }
     press_all();
     {
@@ -130,34 +133,6 @@ void SessionLoop::follow_physics() {
     }
 }
 
-bool SessionLoop::correct(std::uint64_t tick, std::span<const BodyCorrection> truth, PastInputs* inputs) {
-    std::array<BodyTruth, Timeline::most_truths> told;
-    std::size_t count = 0;
-    for (const BodyCorrection& t : truth) {
-        if (body(t.body) && count < told.size()) {
-            told[count++] = {bodies_[t.body].id, t.pose, t.linear_velocity, t.angular_velocity};
-        }
-    }
-    return tick > 0 && timeline_.correct(tick - 1, std::span(told).first(count), inputs);
-}
-
-// A replay that has caught up may have moved anything that can move, awake or asleep.
-void SessionLoop::follow_replay() {
-    corrected_.clear();
-    if (!timeline_.replaying() || !timeline_.replay(settings_.history.replayed_a_tick)) {
-        return;
-    }
-    for (const BodyState& state : states_) {
-        const Body& moved = bodies_[state.handle];
-        const Pose before = scene_.body(moved.slot).pose;
-        const Pose now = physics_.pose(moved.id);
-        if (now.position != before.position || now.rotation != before.rotation) {
-            corrected_.push_back({state.handle, before});
-        }
-        place(state.handle, now, false);
-    }
-}
-
 // Ways that the owner asked for. A kinematic body gets the velocity that takes it one tick further, so that
 // it pushes; a static one is simply put there.
 void SessionLoop::travel() {
@@ -169,12 +144,12 @@ void SessionLoop::travel() {
                                                 : moving.target;
         if (moving.motion == Motion::Kinematic) {
             if (moving.ticks_left > 0) {
-                timeline_.move_to(moving.id, pose, seconds_);
+                physics_.move_to(moving.id, pose, seconds_);
             } else {
-                timeline_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
+                physics_.set_velocity(moving.id, Vec3(0.0), Vec3(0.0));
             }
         } else if (moving.ticks_left > 0) {
-            timeline_.set_pose(moving.id, pose);
+            physics_.set_pose(moving.id, pose);
             place(handle, pose, false);
         }
         // A kinematic body needs one tick more: the last step's velocity has to be taken from it.
@@ -224,6 +199,9 @@ void SessionLoop::read_devices(Nanoseconds now) {
 
 void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
+        for (ProxySlot& slot : proxies_) {
+            slot.parts = {};  // nothing is touched here, so nothing is pressed
+        }
         return;
     }
     for (ProxySlot& slot : proxies_) {
@@ -231,6 +209,23 @@ void SessionLoop::touch_all(Nanoseconds now) {
             slot.force_before = slot.force;
             touch(slot, now);
         }
+    }
+}
+
+// A side has a way of its own to hide what it changes.
+void SessionLoop::fade_jumps() {
+    for (ProxySlot& slot : proxies_) {
+        if (!slot.proxy || slot.description.device >= most_devices) {
+            continue;
+        }
+        FadingForce::Step step{slot.hand, slot.hand_velocity};
+        for (const Touch& contact : slot.proxy->touching()) {
+            const TouchMaterial& material = scene_.body(contact.body).material;
+            step.stiffness = std::max(step.stiffness, material.stiffness);
+            step.damping = std::max(step.damping, material.damping);
+        }
+        const double limit = devices_[slot.description.device].workspace.force_limit;
+        slot.state.force = slot.fading.felt(slot.force, limit, slot.jumped, step);
     }
 }
 
@@ -251,6 +246,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.force = Vec3(0.0);
         slot.proxy->restart();
         slot.state = {};
+        slot.jumped = true;
         return;
     }
     // A path goes on where it stopped; a real hand may be deep inside a body by now.
@@ -264,10 +260,11 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), {slot.hand, slot.hand_velocity}, now, seconds_,
                         slot.effects, force);
-    if (slot.description.force_law == ForceLaw::smoothed) {
+    if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
         smooth(force, slot.force_before);
     }
     slot.force = force.total + attract(slot, false);
+    slot.jumped = tick.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
     describe(slot, tick);
@@ -289,8 +286,8 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
         if (press && magnet.motion == Motion::Dynamic) {
-            timeline_.apply_force(magnet.id, -on_hand,
-                                  slot.proxy->position() - nearest.normal * nearest.distance);
+            physics_.apply_force(magnet.id, -on_hand,
+                                 slot.proxy->position() - nearest.normal * nearest.distance);
         }
     }
     return pull;
@@ -311,8 +308,8 @@ void SessionLoop::push_bodies() {
     for (const SessionHandle handle : pushed_) {
         const Body& pushed = bodies_[handle];
         if (pushed.motion == Motion::Dynamic) {
-            timeline_.apply_force(pushed.id, pushed.push, physics_.center_of_mass(pushed.id));
-            timeline_.apply_torque(pushed.id, pushed.twist);
+            physics_.apply_force(pushed.id, pushed.push, physics_.center_of_mass(pushed.id));
+            physics_.apply_torque(pushed.id, pushed.twist);
         }
     }
 }
@@ -325,8 +322,8 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
             const bool sticks = !slot.sliding && material.static_friction > 0.0;
-            timeline_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
-                                                      material.damping, slot.hand_velocity, sticks});
+            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
+                                                     material.damping, slot.hand_velocity, sticks});
         }
     }
 }
@@ -339,7 +336,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     state.residual = tick.residual;
     state.status = tick.status;
     state.contact_count = 0;
-    for (const Contact& contact : slot.proxy->touching()) {
+    for (const Touch& contact : slot.proxy->touching()) {
         if (state.contact_count == HandForce::most_contacts) {
             break;
         }
@@ -356,14 +353,22 @@ void SessionLoop::write_devices(Nanoseconds now) {
             devices_[slot.description.device].force += slot.state.force;
         }
     }
-    for (DeviceSlot& slot : devices_) {
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+        DeviceSlot& slot = devices_[i];
         if (!slot.device) {
             continue;
         }
-        const Vec3 limited = limited_force(slot.force, slot.workspace.force_limit);
-        status_ |= limited != slot.force ? static_cast<TickStatus>(session_force_limited) : 0u;
-        slot.force = limited;
-        slot.device->write(now, direction_to_local(slot.workspace.pose, limited));
+        bool limited = false;
+        slot.force =
+            slot.exit.leave(side_ ? side_->limits() : local_touch, slot.force, slot.workspace.force_limit,
+                            slot.hand_velocity / slot.workspace.scale, seconds_, limited);
+        status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
+        for (ProxySlot& proxy : proxies_) {
+            if (limited && side_ && proxy.proxy && proxy.description.device == i) {
+                proxy.state.status |= felt_limited;
+            }
+        }
+        slot.device->write(now, direction_to_local(slot.workspace.pose, slot.force));
     }
 }
 
@@ -371,12 +376,14 @@ void SessionLoop::rest() {
     for (DeviceSlot& slot : devices_) {
         if (slot.device) {
             slot.force = Vec3(0.0);
+            slot.exit.rest();
             slot.device->write(time_, slot.force);
         }
     }
     for (ProxySlot& slot : proxies_) {
         slot.force = Vec3(0.0);
         slot.state.force = Vec3(0.0);
+        slot.fading.clear();
         slot.rested = true;
     }
     publish(time_);
@@ -390,8 +397,8 @@ void SessionLoop::step_physics() {
             hands_.push_back(slot.proxy->position());
         }
     }
-    timeline_.set_hands(hands_);
-    const std::uint32_t step = timeline_.step(seconds_);
+    physics_.set_hands(hands_);
+    const std::uint32_t step = physics_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
     status_ |= step & step_body_lost ? static_cast<TickStatus>(session_body_lost) : 0u;

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "core/haptics/fading_force.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
-#include "physics/timeline.hpp"
+#include "physics/physics_world.hpp"
 #include "realtime/tick_trace.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/change_order.hpp"
@@ -24,6 +26,8 @@ public:
         BodyId id;
         int slot = -1;  // in the touch scene; -1: not in the loop
         std::shared_ptr<const TouchShape> shape;
+        std::shared_ptr<const TouchShape> former;  // form; its triangles may still be on their way
+        bool takes_form = false;                   // `shape` is not in the touch scene yet
         std::shared_ptr<const HeightImage> texture;
         Motion motion = Motion::Static;
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
@@ -41,6 +45,8 @@ public:
         Vec3 force{0.0};          // of the scene as it is here; what the hand is given is state.force
                                   // (unit: newtons)
         Vec3 force_before{0.0};   // one tick ago
+        FadingForce fading;       // from `force` to state.force
+        bool jumped = false;      // see ProxyTick
         HandForce parts;
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
@@ -61,34 +67,12 @@ public:
     void follow(const SessionLoop& other, const Command& command);
 
     // After the first bodies have come in and before the first tick.
-    void settle() { timeline_.settle_broad_phase(); }
+    void settle() { physics_.settle_broad_phase(); }
 
     TickStatus tick(Nanoseconds now, TickTrace* trace);
 
     // See Session.
     void rest();
-
-    // --- time travel, for sessions that keep a history (HistorySettings). All of it between ticks or in one,
-    // before its step.
-    //
-    // restore t, put the truth in, replay: `truth` is what these bodies were in tick `tick`, as that tick's
-    // snapshot shows bodies. From then on what the hand did since is replayed beside the present, a few ticks
-    // in each tick, with the hand's forces as the corrected bodies take them (physics/timeline.hpp) or, with
-    // `inputs`, as `inputs` computes them anew: there tick T of the session is step T - 1. The tick in which
-    // the replay has caught up moves every body to where it should be, finds them in corrected() and goes on.
-    // A correction under way is replaced. False, and nothing happens, when the history does not reach back
-    // to `tick`: bodies, joints or kinds of motion that changed since end it.
-    bool correct(std::uint64_t tick, std::span<const BodyCorrection> truth, PastInputs* inputs = nullptr);
-    bool correcting() const { return timeline_.replaying(); }
-    std::uint64_t oldest_correctable_tick() const { return timeline_.oldest_tick() + 1; }
-
-    // Bodies that a replay moved in this tick.
-    std::span<const CorrectedBody> corrected() const { return corrected_; }
-
-    // The body in physics, for PastInputs; invalid where there is none.
-    BodyId physics_id(SessionHandle handle) const {
-        return handle < bodies_.size() ? bodies_[handle].id : BodyId{};
-    }
 
     // Another loop that has to get every command, too.
     SessionLoop* twin() { return side_ ? side_->twin() : nullptr; }
@@ -107,8 +91,12 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
-    // In this tick, besides all other forces; a body at rest is left alone (unit: meters per second squared).
-    void accelerate(SessionHandle handle, const Vec3& acceleration);
+    void set_factors(SessionHandle handle, const BodyFactors& factors);
+    const Vec3& gravity() const { return gravity_; }
+    // Whether the owner has changed what is touched, or what touches, since this was asked last.
+    bool take_touch_change() { return std::exchange(touch_changed_, false); }
+    // The velocity that hands give a body in this tick (unit: meters per second).
+    Vec3 pushed(SessionHandle handle) const;
 
     // The body is elsewhere. With `rides`, or where a proxy rests on it, it has been elsewhere a tick ago,
     // too, and what rests on it comes along; else it runs into what is in its way. `previous`: where it was a
@@ -138,11 +126,13 @@ private:
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
+        ForceExit exit;
         bool was_held = false;
     };
 
     bool carry_out(command::AddBody& c, Retired& retired);
     bool carry_out(command::RemoveBody& c, Retired& retired);
+    bool carry_out(command::DeformBody& c, Retired& retired);
     bool carry_out(command::TeleportBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);
@@ -168,14 +158,15 @@ private:
 
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
     void end_travel(SessionHandle handle);
+    void take_forms();
     void travel();
     void follow_physics();
-    void follow_replay();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void show_state(SessionHandle handle);
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
     void touch_all(Nanoseconds now);
+    void fade_jumps();
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
     void break_surfaces(ProxySlot& slot, const HandForce& force);
@@ -192,16 +183,15 @@ private:
     double seconds_;  // of a tick
     TripleBuffer<SessionSnapshot>& snapshots_;
     TouchScene scene_;
-    Timeline timeline_;                          // whatever changes physics goes through it
-    const PhysicsWorld& physics_;                // its present
+    PhysicsWorld physics_;
     std::vector<Body> bodies_;                   // by handle
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
-    std::vector<SessionHandle> pushed_;   // bodies with a push of their own
-    std::vector<JointId> joints_;         // by handle
-    std::vector<SessionHandle> magnets_;  // bodies that pull before they are touched
-    std::vector<CorrectedBody> corrected_;
+    std::vector<SessionHandle> forming_;   // bodies that take another form in the coming tick
+    std::vector<SessionHandle> pushed_;    // bodies with a push of their own
+    std::vector<JointId> joints_;          // by handle
+    std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched
     std::vector<Vec3> hands_;              // where the proxies are (unit: meters)
     std::vector<BodyState> states_;        // of all bodies that are not static, dense
     ChangeOrder state_changes_;            // of states_
@@ -213,7 +203,9 @@ private:
     RecorderRing<SessionRecord>* recording_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
-    bool follows_all_ = false;  // a memento was restored: where bodies are is to be read anew
+    Vec3 gravity_;                // (unit: meters per second squared)
+    bool touch_changed_ = false;  // see take_touch_change()
+    bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew
     std::uint64_t tick_ = 0;
     Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;

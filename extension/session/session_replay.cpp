@@ -19,17 +19,28 @@ bool SessionLoop::asleep(SessionHandle handle) {
     return !physics_.awake(bodies_[handle].id);
 }
 
-void SessionLoop::accelerate(SessionHandle handle, const Vec3& acceleration) {
-    const Body& pushed = bodies_[handle];
-    if (pushed.motion == Motion::Dynamic && physics_.awake(pushed.id)) {
-        timeline_.apply_force(pushed.id, acceleration * physics_.mass(pushed.id),
-                              physics_.center_of_mass(pushed.id));
+void SessionLoop::set_factors(SessionHandle handle, const BodyFactors& factors) {
+    physics_.set_factors(bodies_[handle].id, factors);
+}
+
+Vec3 SessionLoop::pushed(SessionHandle handle) const {
+    Vec3 force(0.0);
+    if (handle >= bodies_.size() || bodies_[handle].slot < 0 || bodies_[handle].motion != Motion::Dynamic) {
+        return force;
     }
+    for (const ProxySlot& slot : proxies_) {
+        for (int i = 0; slot.proxy && i < slot.parts.contact_count; ++i) {
+            if (slot.parts.contacts[i].body == bodies_[handle].slot) {
+                force -= slot.parts.contacts[i].on_hand;
+            }
+        }
+    }
+    return force * (seconds_ / physics_.mass(bodies_[handle].id));
 }
 
 bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
     const int slot = bodies_[handle].slot;
-    return std::ranges::any_of(proxy.touching(), [slot](const Contact& c) { return c.body == slot; });
+    return std::ranges::any_of(proxy.touching(), [slot](const Touch& c) { return c.body == slot; });
 }
 
 void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,
@@ -51,9 +62,9 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
         scene_.displace(corrected->slot, motion);
     }
     scene_.set_pose(corrected->slot, to.pose);
-    timeline_.set_pose(corrected->id, to.pose);
-    if (with_velocity && corrected->motion == Motion::Dynamic) {
-        timeline_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
+    physics_.set_pose(corrected->id, to.pose);
+    if (with_velocity && corrected->motion != Motion::Static) {
+        physics_.set_velocity(corrected->id, to.linear_velocity, to.angular_velocity);
     }
     if (state_of_[handle] == no_handle) {
         show_state(handle);
@@ -68,6 +79,7 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
 void SessionLoop::begin_replay_tick() {
     ++tick_;
     scene_.begin_tick();
+    take_forms();
     if (std::exchange(follows_all_, false)) {
         for (const BodyState& state : states_) {
             place(state.handle, physics_.pose(bodies_[state.handle].id), false);
@@ -106,9 +118,10 @@ bool SessionLoop::save(LoopMemento& memento) {
 
 bool SessionLoop::restore(const LoopMemento& memento) {
     if (memento.physics_bytes == 0 ||
-        !timeline_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
+        !physics_.restore(std::span(memento.physics).first(memento.physics_bytes))) {
         return false;
     }
+    physics_.set_gravity(gravity_);  // as it is now, like all settings; the memento holds an older one
     for (std::size_t i = 0; i < memento.place_count; ++i) {
         if (const Body* const placed = body(memento.places[i].handle)) {
             scene_.set_pose(placed->slot, memento.places[i].pose, true);

@@ -19,27 +19,16 @@ constexpr SessionHandle no_handle = 0xffff'ffffu;
 constexpr std::size_t most_devices = 8;
 constexpr std::size_t most_proxies = 16;
 
-// How far back the bodies can be corrected (SessionLoop::correct). Its memory is bounded: two physics worlds
-// and `ticks / ticks_a_snapshot` snapshots. Without it there is neither.
-struct HistorySettings {
-    std::uint32_t ticks = 0;             // 0: no history
-    std::uint32_t ticks_a_snapshot = 8;  // see TimelineSettings
-    std::uint32_t replayed_a_tick = 3;   // a replay catches up by one less in every tick, >= 2
-    std::size_t snapshot_bytes = 65536;  // about 400 a body and 250 a contact
-};
-
 struct SessionSettings {
     Nanoseconds period = 1'000'000;    // of a tick, > 0
     std::uint32_t most_bodies = 4096;  // that may be in the session at once
     std::uint32_t most_parts = 8192;   // shapes of all of them together
-    // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings). A session
-    // with a history has no such limit.
+    // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings).
     std::uint32_t full_rate_bodies = 64;
     // Taken from the owner in one tick; the rest waits for the next. A dynamic body that comes counts as
     // four: it is awake at first, and its contacts are new.
     std::uint32_t commands_per_tick = 64;
     PhysicsSettings physics;
-    HistorySettings history;
 };
 
 // Where a device's workspace stands in the scene. A point p of the device is at pose * (scale * p). Forces
@@ -87,6 +76,16 @@ struct BodyState {
     std::uint64_t changed_at = 0;  // tick
 };
 
+// Bits of ProxyState::status besides ProxyStatus, with a link: what is between the model's force and the
+// hand.
+enum FeltStatus : std::uint32_t {
+    felt_carried = 1u << 16,  // a second pointer is felt, carried along with an object that was corrected
+    felt_bridged = 1u << 17,  // a change of the model is hidden and fades unnoticed
+    felt_letting_go =
+        1u << 18,             // a change of the model was too large to hide: it fades so that it may be felt
+    felt_limited = 1u << 19,  // the force was to change or to give more than is allowed
+};
+
 struct ProxyState {
     SessionHandle handle = no_handle;
     Vec3 position{0.0};        // of the proxy, in the world (unit: meters)
@@ -123,20 +122,6 @@ struct SessionSnapshot {
     std::size_t awake_bodies = 0;
     std::size_t slowed_bodies = 0;    // of those awake: far from every hand, at a sixteenth of the tick rate
     std::uint64_t physics_steps = 0;  // that physics has taken so far; a scene at rest takes none
-};
-
-// What was true of a body that can move.
-struct BodyCorrection {
-    SessionHandle body = no_handle;
-    Pose pose;
-    Vec3 linear_velocity{0.0};   // of the centre of mass (unit: meters per second)
-    Vec3 angular_velocity{0.0};  // (unit: radians per second)
-};
-
-// A body that a correction moved in this tick, before its proxies moved, and where it would be without.
-struct CorrectedBody {
-    SessionHandle body = no_handle;
-    Pose before;
 };
 
 // One row of a recording: a proxy and, where a body is followed, that body (thesis 4.5).

@@ -12,9 +12,12 @@
 #include "core/teleop/control_scheme.hpp"
 #include "core/teleop/deadband.hpp"
 #include "core/teleop/derivation.hpp"
-#include "core/teleop/drag_estimate.hpp"
 #include "core/teleop/errors.hpp"
+#include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/force_exit.hpp"
 #include "core/teleop/jitter_buffer.hpp"
+#include "core/teleop/parameter_estimate.hpp"
+#include "core/teleop/pose_filter.hpp"
 #include "core/teleop/stealth.hpp"
 #include "network/discovery_receiver.hpp"
 #include "network/discovery_sender.hpp"
@@ -33,7 +36,9 @@ struct TeleopSettings {
     ControlScheme control = ControlScheme::spring;
     MotionThreshold threshold;
     StealthSettings stealth;
-    DragSettings drag;  // with re-simulation
+    EstimateSettings estimate;  // with re-simulation
+    PoseFilterSettings filter;  // with re-simulation
+    ForceLimits limits;         // of what leaves for the devices
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
@@ -42,8 +47,16 @@ struct TeleopSettings {
     std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
     Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
     ClockSkew skew;                     // of this side's clock, as an experiment
-    bool leaving = false;               // says bye, once
-    std::uint32_t replay_steps = 32;    // ticks of the past that are replayed in one tick, >= 1
+    Pose frame;            // of this side's world in its scene: what is sent is relative to it, on both sides
+    bool leaving = false;  // says bye, once
+    std::uint32_t replay_steps = 32;  // ticks of the past that are replayed in one tick, >= 1
+};
+
+// What a pointer feels besides its model.
+struct FeltFigures {
+    FeltState state = FeltState::together;
+    double offset = 0.0;  // how far it is carried (unit: meters)
+    double hidden = 0.0;  // what is hidden of its force (unit: newtons)
 };
 
 struct TeleopStatistics {
@@ -58,6 +71,10 @@ struct TeleopStatistics {
     CorrectionCost cost;                // of the last tick
     double largest_force_step = 0.0;    // (unit: newtons)
     double offset = 0.0;                // how far the pointers are carried (unit: meters)
+    std::array<FeltFigures, most_proxies> pointers;
+    std::uint64_t let_go = 0;  // times that a pointer has begun to let go of what was too large to hide
+    EnergyFigures energy;
+    std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past
     BufferCounts buffer;
     std::uint64_t buffer_depth = 0;
 };

@@ -9,6 +9,7 @@
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/teleop/body_motion.hpp"
+#include "core/teleop/force_exit.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {
@@ -32,6 +33,9 @@ public:
 
     // False: bodies stay where they are put and nothing touches them; everything comes from the far side.
     virtual bool simulates() const { return true; }
+
+    // What leaves for the devices is limited by this, besides each device's own longest force.
+    virtual const ForceLimits& limits() const = 0;
 
     // A second loop with the same bodies, in which the past is replayed; null where there is none.
     virtual SessionLoop* twin() { return nullptr; }

@@ -1,7 +1,11 @@
 #include "session/teleoperator_side.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <utility>
+
+#include "network/plausibility.hpp"
 
 namespace tactus {
 
@@ -14,13 +18,15 @@ constexpr std::uint64_t linger = 200;
 constexpr double seen_position = 1e-3;
 constexpr double seen_angle = 0.02;
 
+// A hand that comes back no farther from where it was lost, in the frame of what it pressed, presses still
+// (unit: meters).
+constexpr double same_hand = 0.05;
+
 }  // namespace
 
 TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                                    std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
-    : settings_(settings),
-      link_(link, endpoint),
-      port_(std::move(port)),
+    : channel_(settings, link, std::move(port), endpoint),
       seconds_(to_seconds(session.period)),
       moved_at_(session.most_bodies),
       told_(session.most_bodies) {
@@ -29,26 +35,32 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
 
 void TeleoperatorSide::set_buffers() {
     JitterBufferSettings buffer;
-    buffer.depth = settings_.buffer_depth;
-    buffer.sparse = settings_.deadband.enabled;
+    buffer.depth = settings().buffer_depth;
+    buffer.sparse = settings().deadband.enabled;
     buffer.seconds = seconds_;
-    peer_period_ = link_.statistics().peer_hello.period;
+    peer_period_ = channel_.link().statistics().peer_hello.period;
     buffer.sample_seconds = peer_period_ > 0 ? to_seconds(peer_period_) : seconds_;
-    buffer.guess_seconds = 2.0 * to_seconds(settings_.deadband.longest_silence);
+    buffer.guess_seconds = 2.0 * to_seconds(settings().deadband.longest_silence);
     for (Pointer& pointer : pointers_) {
         pointer.buffer.set_settings(buffer);
     }
 }
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    link_.begin_tick(now);
+    if (channel_.begin_tick(now)) {
+        set_buffers();
+    }
     take_orders();
     ++tick_;
     receive();
-    if (link_.statistics().peer_hello.period != peer_period_) {
+    if (const std::uint64_t missing = channel_.link().statistics().missing; missing != missing_) {
+        lost_at_ = missing > missing_ ? tick_ : lost_at_;
+        missing_ = missing;
+    }
+    if (channel_.link().statistics().peer_hello.period != peer_period_) {
         set_buffers();
     }
-    if (!link_.hears_peer()) {
+    if (!channel_.link().hears_peer()) {
         release_hands();
     }
     for (std::size_t i = 0; i < most_proxies; ++i) {
@@ -59,33 +71,25 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 }
 
 void TeleoperatorSide::take_orders() {
-    if (port_->settings.refresh()) {
-        const bool left = std::exchange(settings_, port_->settings.front()).leaving;
-        link_.set_skew(settings_.skew);
-        link_.set_scenario(settings_.traditional ? 2 : 4);
-        if (settings_.leaving && !left) {
-            link_.leave();
-        }
-        set_buffers();
-    }
-    while (PreparedDiscovery* const announced = port_->announced.front()) {
+    TeleopPort& port = channel_.port();
+    while (PreparedDiscovery* const announced = port.announced.front()) {
         discovery_.announce(*announced);
-        port_->released.try_push(std::move(announced->content));
-        port_->announced.pop();
+        port.released.try_push(std::move(announced->content));
+        port.announced.pop();
     }
     ObjectId gone = no_object;
-    while (port_->withdrawn.try_pop(gone)) {
+    while (port.withdrawn.try_pop(gone)) {
         std::shared_ptr<const std::vector<std::byte>> content;
         discovery_.withdraw(gone, content);
-        port_->released.try_push(std::move(content));
+        port.released.try_push(std::move(content));
     }
 }
 
 void TeleoperatorSide::receive() {
-    notice_restart();
-    while (const Endpoint::Received* const received = link_.receive()) {
-        notice_restart();
-        const Message& message = received->packet.message;
+    start_over_if_peer_has();
+    while (const Packet* const packet = channel_.receive()) {
+        start_over_if_peer_has();
+        const Message& message = packet->message;
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
             for (std::size_t i = 0; i < samples->count; ++i) {
                 if (samples->samples[i].pointer < most_proxies) {
@@ -98,9 +102,8 @@ void TeleoperatorSide::receive() {
     }
 }
 
-void TeleoperatorSide::notice_restart() {
-    if (link_.peer_epoch() != peer_epoch_) {
-        peer_epoch_ = link_.peer_epoch();
+void TeleoperatorSide::start_over_if_peer_has() {
+    if (channel_.peer_has_started()) {
         release_hands();
         discovery_.restart();
     }
@@ -121,38 +124,80 @@ void TeleoperatorSide::describe(Nanoseconds now) {
     constexpr int most_a_tick = 2;
     constexpr Nanoseconds soonest = 200'000'000;
     discovery_.set_repeat_after(
-        std::max(soonest, static_cast<Nanoseconds>(1.5 * link_.clock().figures().mean_delay)));
+        std::max(soonest, static_cast<Nanoseconds>(1.5 * channel_.link().clock().figures().mean_delay)));
     const DiscoveryCounts& counts = discovery_.counts();
-    link_.set_world(counts.waiting + counts.known + counts.refused + counts.no_room, settings_.gravity);
+    channel_.link().set_world(counts.waiting + counts.known + counts.refused + counts.no_room,
+                              direction_to_local(settings().frame, settings().gravity));
     Message message;
-    for (int i = 0; i < most_a_tick && link_.hears_peer() && discovery_.next(now, message); ++i) {
-        link_.send(message);
+    for (int i = 0; i < most_a_tick && channel_.link().hears_peer() && discovery_.next(now, message); ++i) {
+        channel_.link().send(message);
     }
 }
 
 void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) {
-    if (pointer.buffer.play(pointer.played) == Playing::waiting || !pointer.played.connected) {
+    const bool waits = pointer.buffer.play(pointer.played) == Playing::waiting;
+    if (!waits) {
+        const Pose& frame = settings().frame;
+        pointer.here = pointer.played;
+        pointer.here.position = to_parent(frame, pointer.played.position);
+        pointer.here.velocity = direction_to_parent(frame, pointer.played.velocity);
+        pointer.here.force = direction_to_parent(frame, pointer.played.force);
+    }
+    if (waits || !pointer.played.connected) {
+        if (!slot.idle) {
+            keep(loop, pointer, slot);
+        }
         slot.idle = true;
         pointer.holds = false;
         return;
     }
     if (!pointer.holds) {
-        pointer.hand = pointer.played.position;
+        pointer.hand = pointer.here.position;
         pointer.holds = true;
+        come_back(loop, pointer, slot);
     }
     slot.idle = false;
     newest_applied_ = std::max(newest_applied_, pointer.played.sequence);
-    pointer.hand = stand_in_hand(settings_.control, settings_.stand_in, stand_in_input(loop, pointer, slot));
+    pointer.hand =
+        stand_in_hand(settings().control, settings().stand_in, stand_in_input(loop, pointer, slot));
     slot.hand = pointer.hand;
-    slot.hand_velocity = pointer.played.velocity;
+    slot.hand_velocity = pointer.here.velocity;
+}
+
+// Where a hand that is lost has pressed, so that it can go on pressing.
+void TeleoperatorSide::keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
+    pointer.kept_on = slot.state.contact_count > 0 ? slot.state.bodies[0] : no_handle;
+    if (const SessionLoop::Body* const under = loop.body(pointer.kept_on)) {
+        const Pose& pose = loop.scene().body(under->slot).pose;
+        pointer.kept_proxy = to_local(pose, slot.proxy->position());
+        pointer.kept_hand = to_local(pose, slot.hand);
+    }
+}
+
+// A hand that was lost while it pressed is inside of what it pressed when it comes back: it goes on from
+// where its proxy was on that body, wherever that is now.
+void TeleoperatorSide::come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const {
+    const SessionLoop::Body* const under = loop.body(std::exchange(pointer.kept_on, no_handle));
+    if (!under) {
+        return;
+    }
+    const Pose& pose = loop.scene().body(under->slot).pose;
+    if (glm::distance(to_parent(pose, pointer.kept_hand), pointer.hand) > same_hand) {
+        return;
+    }
+    ProxyMemory memory;
+    memory.position = to_parent(pose, pointer.kept_proxy);
+    memory.present = true;
+    memory.hand = pointer.hand;
+    slot.proxy->recall(memory);
 }
 
 StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                               const SessionLoop::ProxySlot& slot) const {
     StandInInput in;
-    in.hand = pointer.played.position;
-    in.velocity = pointer.played.velocity;
-    in.force = pointer.played.force;
+    in.hand = pointer.here.position;
+    in.velocity = pointer.here.velocity;
+    in.force = pointer.here.force;
     in.own_hand = pointer.hand;
     in.own_proxy = slot.state.position;
     in.seconds = seconds_;
@@ -173,19 +218,34 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
 
 void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     send_states(loop, now);
-    for (std::size_t i = 0; i < most_proxies && settings_.traditional; ++i) {
-        if (pointers_[i].holds && loop.proxy(i).present()) {
-            send_force(loop, i, now);
+    if (settings().traditional) {
+        send_forces(loop, now);
+    }
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        Pointer& pointer = pointers_[i];
+        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (!slot.proxy || slot.idle) {
+            pointer.had_force = Vec3(0.0);
+            continue;
         }
+        // What the last tick's force has done on the way since.
+        statistics_.energy.far_J += glm::dot(pointer.had_force, slot.hand - pointer.had_hand);
+        pointer.had_force = slot.state.force;
+        pointer.had_hand = slot.hand;
     }
     describe(now);
-    link_.end_tick();
     statistics_.sample = newest_applied_;
     statistics_.buffer = pointers_[0].buffer.counts();
     statistics_.buffer_depth = pointers_[0].buffer.depth();
-    statistics_.link = link_.statistics();
     statistics_.discovery = discovery_.counts();
-    port_->statistics.publish(statistics_);
+    channel_.end_tick(statistics_);
+}
+
+// Whether packets have been lost lately. What the far side loses is known to it alone; links mostly lose both
+// ways.
+bool TeleoperatorSide::loses() const {
+    constexpr std::uint64_t lately = 1000;
+    return lost_at_ != 0 && tick_ - lost_at_ < lately;
 }
 
 // What moves is said often; with a deadband, when it goes on otherwise than was said.
@@ -195,15 +255,18 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
         return false;
     }
     const auto handle = static_cast<SessionHandle>(body);
-    if (!settings_.deadband.enabled || told.tick == 0 || loop.asleep(handle) != told.asleep ||
-        now - told.time >= settings_.deadband.longest_silence) {
+    if (told.again && tick_ - told.tick >= settings().states_every) {
+        return true;  // what was said may have been lost
+    }
+    if (!settings().deadband.enabled || told.tick == 0 || loop.asleep(handle) != told.asleep ||
+        now - told.time >= settings().deadband.longest_silence) {
         return true;
     }
     DerivationInput since;
     since.received = told.motion;
     since.seconds = static_cast<double>(tick_ - told.tick) * seconds_;
-    DeadbandSettings band = settings_.deadband;
-    if (settings_.traditional) {
+    DeadbandSettings band = settings().deadband;
+    if (settings().traditional) {
         // What is only seen may be off by more.
         band.position = std::max(band.position, seen_position);
         band.angle = std::max(band.angle, seen_angle);
@@ -218,12 +281,12 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
             moved_at_[i] = tick_;
         }
     }
-    const bool everything = tick_ % std::max(1u, settings_.refresh_every) == 0;
-    if (!everything && tick_ % std::max(1u, settings_.states_every) != 0) {
+    const bool everything = tick_ % std::max(1u, settings().refresh_every) == 0;
+    if (!everything && tick_ % std::max(1u, settings().states_every) != 0) {
         return;
     }
     ObjectStates message;
-    message.true_at = link_.local_time(now);
+    message.true_at = channel_.link().local_time(now);
     message.newest_operator_sample = newest_applied_;
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
@@ -232,37 +295,56 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
             continue;
         }
         const BodyMotion motion = loop.motion(handle);
-        told_[i] = {motion, tick_, now, loop.asleep(handle)};
-        message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), motion.pose,
-                                           motion.linear_velocity, motion.angular_velocity};
+        told_[i] = {motion, tick_, now, loop.asleep(handle),
+                    settings().deadband.enabled && loses() && !told_[i].again};
+        const BodyMotion said = to_local(settings().frame, motion);
+        message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), said.pose,
+                                           said.linear_velocity, said.angular_velocity};
         if (message.count == ObjectStates::most) {
-            link_.send(message);
+            channel_.link().send(message);
             message.count = 0;
         }
     }
     if (message.count > 0) {
-        link_.send(message);
+        channel_.link().send(message);
     }
 }
 
-void TeleoperatorSide::send_force(SessionLoop& loop, std::size_t index, Nanoseconds now) {
-    const ProxyState& state = loop.proxy(index).state;
-    Pointer& pointer = pointers_[index];
-    if (!force_needs_sending(settings_.deadband, pointer.force_sent, state.force) &&
-        now - pointer.force_sent_at < settings_.deadband.longest_silence) {
+void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
+    ForceSamples message;
+    for (std::size_t i = 0; i < most_proxies && message.count < ForceSamples::most; ++i) {
+        if (pointers_[i].holds && loop.proxy(i).present() && force_is_due(loop, i, now)) {
+            message.samples[message.count++] = force_of(loop, i, now);
+        }
+    }
+    if (message.count == 0 || !channel_.try_send(message)) {
         return;
     }
-    ForceSample message;
-    message.pointer = static_cast<std::uint16_t>(index);
-    message.true_at = link_.local_time(now);
-    message.newest_operator_sample = pointer.played.sequence;
-    message.force = state.force;
-    message.proxy = state.position;
-    message.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
-    if (link_.send(message)) {
-        pointer.force_sent = state.force;
+    for (std::size_t i = 0; i < message.count; ++i) {
+        const std::size_t index = message.samples[i].pointer;
+        Pointer& pointer = pointers_[index];
+        pointer.force_sent = loop.proxy(index).state.force;
         pointer.force_sent_at = now;
     }
+}
+
+bool TeleoperatorSide::force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const {
+    const Pointer& pointer = pointers_[index];
+    return force_needs_sending(settings().deadband, pointer.force_sent, loop.proxy(index).state.force) ||
+           now - pointer.force_sent_at >= settings().deadband.longest_silence;
+}
+
+ForceSample TeleoperatorSide::force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const {
+    const ProxyState& state = loop.proxy(index).state;
+    ForceSample sample;
+    sample.pointer = static_cast<std::uint16_t>(index);
+    sample.true_at = channel_.link().local_time(now);
+    sample.newest_operator_sample = pointers_[index].played.sequence;
+    sample.force = glm::clamp(direction_to_local(settings().frame, state.force), -plausible::max_force,
+                              plausible::max_force);
+    sample.proxy = to_local(settings().frame, state.position);
+    sample.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
+    return sample;
 }
 
 }  // namespace tactus

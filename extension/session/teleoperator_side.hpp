@@ -2,8 +2,8 @@
 // and tells what became of the bodies, or what the hand would feel.
 #pragma once
 
+#include "session/channel.hpp"
 #include "session/session_loop.hpp"
-#include "session/teleop_port.hpp"
 
 namespace tactus {
 
@@ -15,13 +15,18 @@ public:
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop&, Nanoseconds) override {}
     void report(SessionLoop& loop, Nanoseconds now) override;
+    const ForceLimits& limits() const override { return channel_.settings().limits; }
 
 private:
     struct Pointer {
         JitterBuffer<OperatorSample> buffer;
         OperatorSample played;
-        bool holds = false;  // a hand is there
-        Vec3 hand{0.0};      // where the stand-in has put it (unit: meters)
+        OperatorSample here;                   // the same in this side's scene
+        bool holds = false;                    // a hand is there
+        Vec3 hand{0.0};                        // where the stand-in has put it (unit: meters)
+        SessionHandle kept_on = no_handle;     // a body that was pressed when the hand was lost
+        Vec3 kept_proxy{0.0}, kept_hand{0.0};  // in its frame (unit: meters)
+        Vec3 had_force{0.0}, had_hand{0.0};    // one tick ago (unit: newtons, meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
     };
@@ -32,26 +37,30 @@ private:
         std::uint64_t tick = 0;  // 0: never
         Nanoseconds time = 0;
         bool asleep = false;
+        bool again = false;  // is to be said once more: the first may have been lost
     };
 
+    const TeleopSettings& settings() const { return channel_.settings(); }
     void take_orders();
     void receive();
-    void notice_restart();
+    void start_over_if_peer_has();
     void release_hands();
     void describe(Nanoseconds now);
     void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
+    void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
+    void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
     void set_buffers();
+    bool loses() const;
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
-    void send_force(SessionLoop& loop, std::size_t index, Nanoseconds now);
+    void send_forces(SessionLoop& loop, Nanoseconds now);
+    bool force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
+    ForceSample force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
 
-    TeleopSettings settings_;
-    Endpoint link_;
-    std::shared_ptr<TeleopPort> port_;
+    Channel channel_;
     DiscoverySender discovery_;
-    std::uint64_t peer_epoch_ = 0;
     double seconds_;                       // of a tick
     Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
     std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
@@ -59,6 +68,8 @@ private:
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;
+    std::uint64_t missing_ = 0;  // packets of the operator, so far
+    std::uint64_t lost_at_ = 0;  // the tick in which one more was
     TeleopStatistics statistics_;
 };
 

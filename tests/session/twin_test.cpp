@@ -32,6 +32,7 @@ public:
             saves_ = false;
         }
     }
+    const ForceLimits& limits() const override { return limits_; }
     SessionLoop* twin() override { return &twin_; }
 
     void save() { saves_ = true; }
@@ -56,6 +57,7 @@ private:
     }()};
     SessionLoop twin_;
     LoopMemento memento_;
+    ForceLimits limits_;
     SessionLoop* loop_ = nullptr;
     bool saves_ = false;
     Nanoseconds saved_at_ = -1;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,30 @@ struct WrongBody {
     double friction = 1.0;          // factor, of the body on other bodies
     double touch_friction = 1.0;    // factor, of the pointer on the body
     double stiffness = 1.0;         // factor
+    // Only where the model is discovered (TeleopCase::discovers).
+    std::optional<double> touch_friction_is;  // of the pointer on the body, in place of the true one
+    double magnet_force = 0.0;                // as well (unit: newtons)
+    double ball = 0.0;    // taken for a ball of this radius (unit: meters); 0: its own shape
+    bool absent = false;  // the model does not know it
+    bool ghost = false;   // only the model has it
+};
+
+// Something happens while the hand touches.
+struct TeleopEvent {
+    enum class Kind : std::uint8_t {
+        told,      // the body is described anew, as it is
+        removed,   // the operator is told that there is no such body
+        gravity,   // the operator is told the true gravity
+        correct,   // states are believed from now on
+        scheme,    // corrections are brought in by the scheme `amount`, see Correction
+        scenario,  // 2 or 4, `amount`
+        restart,   // of the far side
+        cut,       // nothing gets through any more: forth (1), back (2) or both ways (3), `amount`
+    };
+    double at = 0.0;  // (unit: seconds)
+    Kind kind = Kind::told;
+    std::string body;
+    double amount = 0.0;
 };
 
 // A hinge between a body and the world, at a place on the body where the scene (not the model) has it.
@@ -61,10 +86,16 @@ struct TeleopCase {
     Nanoseconds late = 0;             // the far side starts so much after the operator's, >= 0
     Vec3 path_shift{0.0};             // the hand's path lies so far off the scene's (unit: meters)
     double pose_noise = 0.0;          // standard deviation of what the far side says of places (unit: meters)
-    bool correct_from_touch = false;  // the model is left wrong until it is touched
-    std::string object;               // the body whose place is compared; empty: none. box_position_error
-                                      // is that of the dynamic body that is off most
-    std::string rows;                 // CSV of every tick; empty: none
+    bool correct_from_touch = false;  // the model is left wrong until either hand touches something
+    // The model is what the far side has described over the link, made wrong: without it, it is there at
+    // once.
+    bool discovers = false;
+    Vec3 gravity_believed{0.0, -9.81, 0.0};  // until it is told (unit: meters per second squared)
+    std::vector<TeleopEvent> events;
+    double measured_from = 0.0, measured_to = 1e9;  // ticks that count as felt excess (unit: seconds)
+    std::string object;  // the body whose place is compared; empty: none. box_position_error
+                         // is that of the dynamic body that is off most
+    std::string rows;    // CSV of every tick; empty: none
 };
 
 }  // namespace tactus::shared

@@ -162,8 +162,6 @@ private:
     Series series_;
 };
 
-// In a tick in which the pointer says that it lets go, what is felt is no touch: nothing is counted there,
-// nor against it.
 void find_excess(std::vector<TeleopRow>& rows) {
     const auto within = [&](std::size_t i, std::size_t window) {
         const std::size_t before = i - std::min(i, window);
@@ -175,9 +173,16 @@ void find_excess(std::vector<TeleopRow>& rows) {
     }
 }
 
-void evaluate_excess(const std::vector<TeleopRow>& rows, TeleopFigures& figures, TeleopBins* bins) {
+void evaluate_excess(const std::vector<TeleopRow>& rows, const TeleopCase& experiment, TeleopFigures& figures,
+                     TeleopBins* bins) {
     Spread steps_N, steps_jnd, changes_N, changes_jnd;
+    double left = 0.0;
     for (const TeleopRow& row : rows) {
+        const double time = to_seconds(row.time);
+        if (time < experiment.measured_from || time >= experiment.measured_to) {
+            continue;
+        }
+        left = force_error(row.force, row.direct);
         steps_N.add(row.excess_1ms.newtons);
         steps_jnd.add(row.excess_1ms.jnd);
         changes_N.add(row.excess_100ms.newtons);
@@ -189,6 +194,7 @@ void evaluate_excess(const std::vector<TeleopRow>& rows, TeleopFigures& figures,
             spread.count((*bins)[name + "_" + unit]);
         }
     };
+    figures["force_error_left_N"] = left;  // when the last tick was measured
     tell(steps_N, "felt_excess_1ms", "N");
     tell(steps_jnd, "felt_excess_1ms", "jnd");
     tell(changes_N, "felt_excess_100ms", "N");
@@ -244,7 +250,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     figures["energy_created_J"] = ports.hand.created();
     figures["link_energy_created_J"] = ports.link_created;
     find_excess(rows);
-    evaluate_excess(rows, figures, bins);
+    evaluate_excess(rows, experiment, figures, bins);
     figures["let_go_ticks"] =
         static_cast<double>(std::ranges::count_if(rows, [](const TeleopRow& row) { return row.let_go; }));
     if (experiment.uses_arm) {

@@ -1,18 +1,20 @@
 #include "shared/teleop_run.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <random>
+#include <optional>
 
-#include "devices/path_device.hpp"
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
+#include "session/environment_teller.hpp"
+#include "session/model_builder.hpp"
 #include "session/operator_side.hpp"
 #include "session/teleoperator_side.hpp"
+#include "shared/teleop_links.hpp"
+#include "shared/teleop_place.hpp"
 
 namespace tactus::shared {
 
@@ -21,338 +23,343 @@ namespace {
 constexpr Nanoseconds period = 1'000'000;
 constexpr double tick_seconds = 1e-3;
 
-// Keeps what the hand was given.
-class FeltDevice final : public Device {
-public:
-    explicit FeltDevice(std::unique_ptr<Device> inner) : inner_(std::move(inner)) {}
-    DeviceSample read(Nanoseconds now) override { return sample = inner_->read(now); }
-    void write(Nanoseconds now, const Vec3& given) override {
-        force = given;
-        inner_->write(now, given);
-    }
+// Of what only the model has: an object that is no body of the far side.
+constexpr SessionHandle ghosts_from = 40;
 
-    DeviceSample sample;
-    Vec3 force{0.0};
-
-private:
-    std::unique_ptr<Device> inner_;
-};
-
-// The same hand elsewhere: goes where another one went in the same tick, and feels nothing.
-class FollowingDevice final : public Device {
-public:
-    explicit FollowingDevice(const FeltDevice& followed) : followed_(followed) {}
-    DeviceSample read(Nanoseconds) override { return followed_.sample; }
-    void write(Nanoseconds, const Vec3&) override {}
-
-private:
-    const FeltDevice& followed_;
-};
-
-HandPath shifted(HandPath path, const Vec3& by) {
-    if (auto* const circle = std::get_if<CircleWave>(&path)) {
-        circle->centre += by;
-    } else {
-        for (Keyframe& keyframe : std::get<KeyframePath>(path).keyframes) {
-            keyframe.position += by;
-        }
-    }
-    return path;
-}
-
-std::unique_ptr<Device> hand_of(const TeleopScene& scene, const TeleopCase& experiment) {
-    HandPath path = shifted(scene.path, experiment.path_shift);
-    if (experiment.uses_arm) {
-        return std::make_unique<SimulatedArm>(std::move(path), experiment.arm);
-    }
-    return std::make_unique<PathDevice>(std::move(path));
-}
-
-SessionSettings session_settings() {
-    SessionSettings settings;
-    settings.period = period;
-    settings.most_bodies = 64;
-    settings.most_parts = 256;
-    settings.physics.max_touching_pairs = 512;
-    settings.physics.max_contacts = 512;
-    settings.full_rate_bodies = 0;
-    return settings;
-}
-
-BodyAddition as_believed(const TeleopBody& body, const TeleopHinge* hinge, const TeleopCase& experiment) {
-    BodyAddition believed = body.addition;
-    if (const auto found = experiment.wrong.find(body.name); found != experiment.wrong.end()) {
-        const WrongBody& wrong = found->second;
-        believed.description.pose.position += wrong.move;
-        if (hinge) {
-            const Vec3& at = hinge->at;
-            const Quat turn = glm::angleAxis(wrong.swing, hinge->axis);
-            believed.description.pose.position = at + turn * (believed.description.pose.position - at);
-            believed.description.pose.rotation = turn * believed.description.pose.rotation;
-        }
-        believed.description.pose.rotation = wrong.turn * believed.description.pose.rotation;
-        believed.description.mass *= wrong.mass;
-        believed.description.material.friction *= wrong.friction;
-        believed.touch_material.static_friction *= wrong.touch_friction;
-        believed.touch_material.dynamic_friction *= wrong.touch_friction;
-        believed.touch_material.stiffness *= wrong.stiffness;
-    }
-    return believed;
-}
-
-// A scene with a mistake gives no figures.
-void stop_at(const std::string& error, const std::string& what) {
-    if (!error.empty()) {
-        std::fprintf(stderr, "%s: %s\n", what.c_str(), error.c_str());
-        std::exit(1);
-    }
-}
-
-// One world with one hand in it.
-struct Place {
-    Place(const TeleopCase& experiment, std::unique_ptr<Device> hand)
-        : session(session_settings()), device(std::move(hand)), object_name(experiment.object) {}
-
-    void fill(const TeleopScene& scene, const TeleopCase& experiment, bool believed) {
-        Workspace workspace;
-        workspace.force_limit = scene.force_limit;
-        ProxyDescription pointer;
-        pointer.device = session.add_device(device, workspace).handle;
-        pointer.settings.radius = scene.radius;
-        session.add_proxy(pointer);
-        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-            const TeleopBody& body = scene.bodies[i];
-            const auto hinge = std::ranges::find(scene.hinges, i, &TeleopHinge::body);
-            const TeleopHinge* const held = hinge == scene.hinges.end() ? nullptr : &*hinge;
-            const BodyAddition addition = believed ? as_believed(body, held, experiment) : body.addition;
-            const AddResult added = session.add_body(addition);
-            stop_at(added.error, body.name);
-            if (held) {
-                hang(*held, body.addition.description.pose, added.handle);
-            }
-            if (addition.description.motion == Motion::Dynamic) {
-                moving.push_back(added.handle);
-            }
-            if (body.name == object_name) {
-                object = added.handle;
-            }
-        }
-        session.settle();
-    }
-
-    // On the body, the hinge is where the scene has it, wherever the body is believed to be.
-    void hang(const TeleopHinge& hinge, const Pose& body, SessionHandle handle) {
-        const Vec3 z(0.0, 0.0, 1.0);
-        const double along = glm::dot(z, hinge.axis);
-        const Vec3 half = glm::normalize(z + hinge.axis);  // of an axis that is not -z
-        JointDescription joint;
-        joint.kind = JointKind::Hinge;
-        joint.angular[2] = JointRange::free();
-        joint.frame.position = to_local(body, hinge.at);
-        joint.frame.rotation =
-            glm::conjugate(body.rotation) *
-            (along > 1.0 - 1e-12 ? Quat(1.0, 0.0, 0.0, 0.0) : Quat(glm::dot(z, half), glm::cross(z, half)));
-        const AddResult added = session.add_joint(joint, handle, no_handle);
-        stop_at(added.error, "hinge");
-    }
-
-    void tick(Nanoseconds now) {
-        session.tick(now);
-        session.refresh();
-    }
-
-    const ProxyState& pointer() const { return session.snapshot().proxies[0]; }
-    Pose pose_of(SessionHandle body) const {
-        const SessionSnapshot& snapshot = session.snapshot();
-        for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == body) {
-                return snapshot.bodies[i].pose;
-            }
-        }
-        return {};
-    }
-    double depth() const {
-        return pointer().contact_count > 0 ? glm::distance(pointer().hand, pointer().position) : 0.0;
-    }
-    bool touches_object() const {
-        const auto& bodies = pointer().bodies;
-        return object != no_handle && std::find(bodies.begin(), bodies.begin() + pointer().contact_count,
-                                                object) != bodies.begin() + pointer().contact_count;
-    }
-
-    Session session;
-    FeltDevice device;
-    std::string object_name;
-    SessionHandle object = no_handle;
-    std::vector<SessionHandle> moving;
-};
-
-// A far side that sees bodies only roughly: what it says of their places is off by chance.
-class RoughSight final : public Link {
-public:
-    RoughSight(Link& inner, double deviation, std::uint64_t seed)
-        : inner_(inner), deviation_(deviation), random_(seed) {}
-
-    bool send(std::span<const std::byte> datagram, Nanoseconds now) override {
-        return inner_.send(datagram, now);
-    }
-    ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) override {
-        ReceivedDatagram received = inner_.receive(into, now);
-        Packet packet;
-        if (deviation_ > 0.0 && received && decode(into.first(received.bytes), packet) == Refusal::none) {
-            if (auto* const states = std::get_if<ObjectStates>(&packet.message)) {
-                for (std::size_t i = 0; i < states->count; ++i) {
-                    states->states[i].pose.position += off();
-                }
-                received.bytes = encode(packet.header, packet.message, into);
-            }
-        }
-        return received;
-    }
-
-private:
-    Vec3 off() {
-        std::normal_distribution<double> normal(0.0, deviation_);
-        return {normal(random_), normal(random_), normal(random_)};
-    }
-
-    Link& inner_;
-    double deviation_;
-    std::mt19937_64 random_;
-};
-
-// Nobody listens yet.
-void drop_all(Link& link, Nanoseconds now) {
-    std::array<std::byte, most_datagram_bytes> ignored;
-    while (link.receive(ignored, now)) {
-    }
-}
-
-}  // namespace
-
-TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment, TeleopBins* bins) {
-    MemoryLinkPair wire(4096);
-    LinkEmulator at_far(wire.second(), experiment.forth, experiment.seed);
-    LinkEmulator at_operator(wire.first(), experiment.back, experiment.seed + 1);
-    RoughSight seen(at_operator, experiment.pose_noise, experiment.seed + 2);
-    const auto operator_port = std::make_shared<TeleopPort>();
-    const auto far_port = std::make_shared<TeleopPort>();
-    const SessionSettings settings = session_settings();
+OperatorRoom room_for(const TeleopCase& experiment) {
     OperatorRoom room;
     room.most_tracked = 16;
     room.samples = 2048;
     room.memento_bytes = 16384;
     room.pointers = 1;
-    room.replays = !experiment.settings.traditional &&
-                   experiment.settings.derivation == Derivation::resimulate &&
-                   experiment.settings.correction != Correction::none;
+    const bool never = experiment.settings.correction == Correction::none && experiment.events.empty();
+    room.replays = !never && !experiment.settings.traditional &&
+                   experiment.settings.derivation == Derivation::resimulate;
+    return room;
+}
 
-    Place model(experiment, hand_of(scene, experiment)), truth(experiment, hand_of(scene, experiment));
-    Place direct(experiment, std::make_unique<FollowingDevice>(model.device));
-    Place local(experiment, hand_of(scene, experiment));
-    const auto endpoint = [&](Side side, std::uint64_t epoch) {
-        EndpointSettings one;
-        one.side = side;
-        one.scenario = experiment.settings.traditional ? 2 : 4;
-        one.epoch = epoch;
-        one.period = period;
-        return one;
-    };
-    TeleopSettings at_first = experiment.settings;
-    at_first.correction = experiment.correct_from_touch ? Correction::none : at_first.correction;
-    model.session.attach(std::make_unique<OperatorSide>(settings, room, at_first, seen, operator_port,
-                                                        endpoint(Side::operator_side, 11)));
-    truth.session.attach(std::make_unique<TeleoperatorSide>(settings, experiment.settings, at_far, far_port,
-                                                            endpoint(Side::teleoperator_side, 12)));
-    model.fill(scene, experiment, true);
-    truth.fill(scene, experiment, false);
-    direct.fill(scene, experiment, false);
+class TeleopRun {
+public:
+    TeleopRun(const TeleopScene& scene, const TeleopCase& experiment);
+    TeleopFigures run(TeleopBins* bins);
+
+private:
+    EndpointSettings endpoint(Side side, std::uint64_t epoch) const;
+    void attach_far_side(std::uint64_t epoch);
+    void describe_all();
+    const TeleopBody* body_named(const std::string& name) const;
+    SessionHandle object_id(const TeleopBody& body) const;
+    void distort(ObjectDescription& description) const;
+    void happen(const TeleopEvent& event);
+    void tell_anew(const std::string& name);
+    void note_model(std::size_t tick);
+    void note_answer();
+    void note_energy(std::size_t tick);
+    std::optional<Pose> modelled(std::size_t moving) const;
+    TeleopFigures figures(TeleopBins* bins);
+
+    const TeleopScene& scene_;
+    const TeleopCase& experiment_;
+    MemoryLinkPair wire_{4096};
+    LinkEmulator emulated_forth_, emulated_back_;
+    CutLink at_far_, cut_back_;
+    RoughSight at_operator_;
+    std::shared_ptr<TeleopPort> operator_port_ = std::make_shared<TeleopPort>();
+    std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
+    TeleopPlace model_, truth_, direct_, local_;
+    ModelBuilder builder_;
+    EnvironmentTeller teller_;
+    TeleopSettings settings_;        // of the operator, as they are now
+    std::vector<std::string> told_;  // bodies that are described as they are
+    std::vector<TeleopRow> rows_;
+    std::vector<std::optional<Pose>> believed_;  // by tick and moving body
+    TeleopPorts ports_;
+    Vec3 far_hand_{0.0}, far_force_{0.0};
+    double largest_step_ = 0.0;
+    std::uint64_t answered_ = 0;
+};
+
+TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
+    : scene_(scene),
+      experiment_(experiment),
+      emulated_forth_(wire_.second(), experiment.forth, experiment.seed),
+      emulated_back_(wire_.first(), experiment.back, experiment.seed + 1),
+      at_far_(emulated_forth_),
+      cut_back_(emulated_back_),
+      at_operator_(cut_back_, experiment.pose_noise, experiment.seed + 2),
+      model_(experiment, hand_of(scene, experiment)),
+      truth_(experiment, hand_of(scene, experiment)),
+      direct_(experiment, std::make_unique<FollowingDevice>(model_.device)),
+      local_(experiment, hand_of(scene, experiment)),
+      builder_(model_.session, operator_port_),
+      teller_(far_port_),
+      settings_(experiment.settings),
+      rows_(static_cast<std::size_t>(experiment.seconds / tick_seconds)) {
+    const bool corrects_later =
+        experiment.correct_from_touch ||
+        std::ranges::count(experiment.events, TeleopEvent::Kind::correct, &TeleopEvent::kind) > 0;
+    settings_.correction = corrects_later ? Correction::none : settings_.correction;
+    model_.session.attach(std::make_unique<OperatorSide>(teleop_session_settings(), room_for(experiment),
+                                                         settings_, at_operator_, operator_port_,
+                                                         endpoint(Side::operator_side, 11)));
+    attach_far_side(12);
+    truth_.fill(scene, experiment, false);
+    direct_.fill(scene, experiment, false);
     if (experiment.uses_arm) {
-        local.fill(scene, experiment, false);
+        local_.fill(scene, experiment, false);
     }
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        operator_port->bindings.try_push({static_cast<ObjectId>(i), static_cast<SessionHandle>(i)});
+    if (experiment.discovers) {
+        model_.add_hand(scene);
+        builder_.set_distortion([this](ObjectDescription& description) { distort(description); });
+        describe_all();
+    } else {
+        model_.fill(scene, experiment, true);
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            operator_port_->bindings.try_push({static_cast<ObjectId>(i), model_.handles[i]});
+        }
     }
+    believed_.resize(rows_.size() * truth_.moving.size());
+}
 
-    const auto ticks = static_cast<std::size_t>(experiment.seconds / tick_seconds);
-    std::vector<TeleopRow> rows(ticks);
-    const std::size_t moving = model.moving.size();
-    std::vector<Pose> believed(ticks * moving);  // by tick and moving body
-    TeleopPorts ports;
-    Vec3 far_hand(0.0), far_force(0.0);
-    bool waiting_for_touch = experiment.correct_from_touch;
-    double largest_step = 0.0;
-    for (std::size_t i = 0; i < ticks; ++i) {
-        const Nanoseconds now = static_cast<Nanoseconds>(i + 1) * period;
-        model.tick(now);
-        direct.tick(now);
-        if (now > experiment.late) {
-            truth.tick(now + experiment.phase);
-        } else {
-            drop_all(at_far, now);
+EndpointSettings TeleopRun::endpoint(Side side, std::uint64_t epoch) const {
+    EndpointSettings one;
+    one.side = side;
+    one.scenario = experiment_.settings.traditional ? 2 : 4;
+    one.epoch = epoch;
+    one.period = period;
+    return one;
+}
+
+void TeleopRun::attach_far_side(std::uint64_t epoch) {
+    TeleopSettings settings = experiment_.settings;
+    settings.gravity = experiment_.gravity_believed;
+    truth_.session.attach(std::make_unique<TeleoperatorSide>(
+        teleop_session_settings(), settings, at_far_, far_port_, endpoint(Side::teleoperator_side, epoch)));
+}
+
+void TeleopRun::describe_all() {
+    for (const TeleopBody& body : scene_.bodies) {
+        const auto wrong = experiment_.wrong.find(body.name);
+        if (wrong == experiment_.wrong.end() || !wrong->second.absent) {
+            teller_.tell(object_id(body), body.name, body.addition);
         }
-        TeleopRow& row = rows[i];
-        row.time = static_cast<Nanoseconds>(i) * period;
-        row.hand = model.device.sample.position;
-        row.velocity = model.device.sample.velocity;
-        row.force = model.device.force;
-        row.direct = direct.device.force;
-        if (experiment.uses_arm) {
-            local.tick(now);
-            row.local_hand = local.device.sample.position;
-            row.local_velocity = local.device.sample.velocity;
-            row.local_force = local.device.force;
-            row.local_depth = local.depth();
+    }
+}
+
+const TeleopBody* TeleopRun::body_named(const std::string& name) const {
+    const auto found = std::ranges::find(scene_.bodies, name, &TeleopBody::name);
+    if (found == scene_.bodies.end()) {
+        std::fprintf(stderr, "%s: no body of the scene\n", name.c_str());
+        std::exit(1);
+    }
+    return &*found;
+}
+
+SessionHandle TeleopRun::object_id(const TeleopBody& body) const {
+    const auto index = static_cast<std::size_t>(&body - scene_.bodies.data());
+    const SessionHandle handle = truth_.handles[index];
+    return handle == no_handle ? ghosts_from + static_cast<SessionHandle>(index) : handle;
+}
+
+void TeleopRun::distort(ObjectDescription& description) const {
+    // What is told anew has a name of its own, or nobody would notice.
+    const std::string name = description.name.substr(0, description.name.find('\''));
+    if (std::ranges::find(told_, name) != told_.end()) {
+        return;
+    }
+    const TeleopBody& body = *body_named(name);
+    const auto index = static_cast<std::size_t>(&body - scene_.bodies.data());
+    TeleopBody described = body;
+    described.addition.description = description.body;
+    const BodyAddition believed = as_believed(described, hinge_of(scene_, index), experiment_);
+    description.body = believed.description;
+    description.touch = believed.touch_material;
+}
+
+void TeleopRun::happen(const TeleopEvent& event) {
+    using Kind = TeleopEvent::Kind;
+    switch (event.kind) {
+        case Kind::told:
+            tell_anew(event.body);
+            return;
+        case Kind::removed:
+            teller_.forget(object_id(*body_named(event.body)));
+            return;
+        case Kind::gravity:
+            far_port_->settings.publish(experiment_.settings);
+            return;
+        case Kind::correct:
+            settings_.correction = experiment_.settings.correction;
+            break;
+        case Kind::scheme:
+            settings_.correction = static_cast<Correction>(static_cast<int>(event.amount));
+            break;
+        case Kind::scenario: {
+            settings_.traditional = event.amount == 2.0;
+            TeleopSettings there = experiment_.settings;
+            there.traditional = settings_.traditional;
+            far_port_->settings.publish(there);
+            break;
         }
-        row.model = model.pose_of(model.object);
-        for (std::size_t body = 0; body < moving; ++body) {
-            believed[i * moving + body] = model.pose_of(model.moving[body]);
-        }
-        row.touches = model.touches_object();
-        row.direct_touches = direct.pointer().contact_count > 0;
-        operator_port->statistics.refresh();
-        const TeleopStatistics& statistics = operator_port->statistics.front();
-        row.jnd_share = statistics.cost.jnd_share;
-        row.offset = statistics.offset;
-        largest_step = std::max(largest_step, statistics.cost.force_step);
-        if (i > 0) {
-            ports.hand.add(rows[i - 1].force, row.hand - rows[i - 1].hand);
-        }
-        const ProxyState& there = truth.pointer();
-        ports.far.add(-far_force, there.hand - far_hand);
-        ports.link_created = std::max(ports.link_created, ports.hand.total() + ports.far.total());
-        far_hand = there.hand;
-        far_force = truth.device.force;
-        far_port->statistics.refresh();
-        if (const std::uint64_t sample = far_port->statistics.front().sample; sample > 0 && sample <= ticks) {
-            TeleopRow& answered = rows[sample - 1];
-            if (!answered.far_known) {
-                answered.far_known = true;
-                answered.truth = truth.pose_of(truth.object);
-                answered.far = truth.device.force;
-                answered.depth = truth.depth();
-                for (std::size_t body = 0; body < moving; ++body) {
-                    const Pose& ours = believed[(sample - 1) * moving + body];
-                    const Pose theirs = truth.pose_of(truth.moving[body]);
-                    answered.box_error = std::max(answered.box_error, position_error(ours, theirs));
-                    answered.turn_error = std::max(answered.turn_error, rotation_error(ours, theirs));
-                }
+        case Kind::restart:
+            attach_far_side(13);
+            teller_ = EnvironmentTeller(far_port_);
+            describe_all();
+            return;
+        case Kind::cut:
+            at_far_.cut = at_far_.cut || event.amount != 2.0;
+            cut_back_.cut = cut_back_.cut || event.amount != 1.0;
+            return;
+    }
+    operator_port_->settings.publish(settings_);
+}
+
+void TeleopRun::tell_anew(const std::string& name) {
+    const TeleopBody& body = *body_named(name);
+    const SessionHandle object = object_id(body);
+    BodyAddition addition = body.addition;
+    if (addition.description.motion == Motion::Dynamic) {
+        const SessionSnapshot& now = truth_.session.snapshot();
+        for (std::size_t i = 0; i < now.body_count; ++i) {
+            if (now.bodies[i].handle == object) {
+                addition.description.pose = now.bodies[i].pose;
+                addition.description.linear_velocity = now.bodies[i].linear_velocity;
+                addition.description.angular_velocity = now.bodies[i].angular_velocity;
             }
         }
-        if (waiting_for_touch && model.pointer().contact_count > 0) {
-            waiting_for_touch = false;
-            operator_port->settings.publish(experiment.settings);
+    }
+    told_.push_back(name);
+    teller_.tell(object, name + "'", addition);
+}
+
+// Where the model has the moving body `moving` of the environment, if it does.
+std::optional<Pose> TeleopRun::modelled(std::size_t moving) const {
+    if (!experiment_.discovers) {
+        return model_.pose_of(model_.moving[moving]);
+    }
+    const auto object = static_cast<ObjectId>(truth_.moving[moving]);
+    const auto found = std::ranges::find(builder_.objects(), object, &ModelObject::object);
+    if (found == builder_.objects().end() || found->body == no_handle) {
+        return std::nullopt;
+    }
+    return model_.pose_of(found->body);
+}
+
+void TeleopRun::note_model(std::size_t tick) {
+    TeleopRow& row = rows_[tick];
+    row.time = static_cast<Nanoseconds>(tick) * period;
+    row.hand = model_.device.sample.position;
+    row.velocity = model_.device.sample.velocity;
+    row.force = model_.device.force;
+    row.direct = direct_.device.force;
+    if (experiment_.uses_arm) {
+        row.local_hand = local_.device.sample.position;
+        row.local_velocity = local_.device.sample.velocity;
+        row.local_force = local_.device.force;
+        row.local_depth = local_.depth();
+    }
+    const std::size_t moving = truth_.moving.size();
+    for (std::size_t body = 0; body < moving; ++body) {
+        const std::optional<Pose> pose = modelled(body);
+        believed_[tick * moving + body] = pose;
+        if (truth_.moving[body] == truth_.object) {
+            row.model = pose.value_or(Pose{});
         }
     }
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-        rows[i].depth = rows[i].far_known ? rows[i].depth : rows[i - 1].depth;  // a sample was left out
+    row.touches = model_.touches_object();
+    row.direct_touches = direct_.pointer().contact_count > 0;
+    const TeleopStatistics& statistics = operator_port_->statistics.front();
+    row.jnd_share = statistics.cost.jnd_share;
+    row.offset = statistics.offset;
+    largest_step_ = std::max(largest_step_, statistics.cost.force_step);
+}
+
+// The far side has applied a sample: what became of it belongs to that sample's row.
+void TeleopRun::note_answer() {
+    const std::uint64_t sample = far_port_->statistics.front().sample;
+    if (sample == 0 || sample > rows_.size() || sample == answered_) {
+        return;
     }
-    TeleopFigures figures = evaluate(rows, experiment, ports, bins);
-    figures["correction_force_step_max_N"] = largest_step;
-    const TeleopStatistics& ours = operator_port->statistics.front();
-    const TeleopStatistics& theirs = far_port->statistics.front();
+    answered_ = sample;
+    TeleopRow& answered = rows_[sample - 1];
+    if (answered.far_known) {
+        return;
+    }
+    answered.far_known = true;
+    answered.truth = truth_.pose_of(truth_.object);
+    answered.far = truth_.device.force;
+    answered.depth = truth_.depth();
+    const std::size_t moving = truth_.moving.size();
+    for (std::size_t body = 0; body < moving; ++body) {
+        const std::optional<Pose>& ours = believed_[(sample - 1) * moving + body];
+        const Pose theirs = truth_.pose_of(truth_.moving[body]);
+        if (ours) {
+            answered.box_error = std::max(answered.box_error, position_error(*ours, theirs));
+            answered.turn_error = std::max(answered.turn_error, rotation_error(*ours, theirs));
+        }
+    }
+}
+
+void TeleopRun::note_energy(std::size_t tick) {
+    if (tick > 0) {
+        ports_.hand.add(rows_[tick - 1].force, rows_[tick].hand - rows_[tick - 1].hand);
+    }
+    const ProxyState& there = truth_.pointer();
+    ports_.far.add(-far_force_, there.hand - far_hand_);
+    ports_.link_created = std::max(ports_.link_created, ports_.hand.total() + ports_.far.total());
+    far_hand_ = there.hand;
+    far_force_ = truth_.device.force;
+}
+
+TeleopFigures TeleopRun::run(TeleopBins* bins) {
+    bool waiting_for_touch = experiment_.correct_from_touch;
+    std::vector<TeleopEvent> events = experiment_.events;
+    std::ranges::sort(events, {}, &TeleopEvent::at);
+    std::size_t next_event = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const Nanoseconds now = static_cast<Nanoseconds>(i + 1) * period;
+        while (next_event < events.size() && to_seconds(now) >= events[next_event].at) {
+            happen(events[next_event++]);
+        }
+        model_.tick(now);
+        direct_.tick(now);
+        if (experiment_.uses_arm) {
+            local_.tick(now);
+        }
+        if (now > experiment_.late) {
+            truth_.tick(now + experiment_.phase);
+        } else {
+            drop_all(at_far_, now);
+        }
+        operator_port_->statistics.refresh();
+        far_port_->statistics.refresh();
+        if (experiment_.discovers) {
+            model_.session.collect();
+            truth_.session.collect();
+            teller_.update(truth_.session.snapshot(), far_port_->statistics.front().link.peer_epoch);
+            builder_.update(now, operator_port_->statistics.front().link);
+        }
+        note_model(i);
+        note_energy(i);
+        note_answer();
+        if (waiting_for_touch && model_.pointer().contact_count + truth_.pointer().contact_count > 0) {
+            waiting_for_touch = false;
+            operator_port_->settings.publish(experiment_.settings);
+        }
+    }
+    for (std::size_t i = 1; i < rows_.size(); ++i) {
+        rows_[i].depth = rows_[i].far_known ? rows_[i].depth : rows_[i - 1].depth;  // a sample was left out
+    }
+    return figures(bins);
+}
+
+TeleopFigures TeleopRun::figures(TeleopBins* bins) {
+    TeleopFigures figures = evaluate(rows_, experiment_, ports_, bins);
+    figures["correction_force_step_max_N"] = largest_step_;
+    const TeleopStatistics& ours = operator_port_->statistics.front();
+    const TeleopStatistics& theirs = far_port_->statistics.front();
     const auto per_second = [&](std::uint64_t count) {
-        return static_cast<double>(count) / experiment.seconds;
+        return static_cast<double>(count) / experiment_.seconds;
     };
     figures["packets_forth_per_s"] = per_second(ours.link.packets_sent);
     figures["packets_back_per_s"] = per_second(theirs.link.packets_sent);
@@ -366,10 +373,16 @@ TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment,
     figures["samples_held"] = static_cast<double>(theirs.buffer.held);
     figures["samples_filled"] = static_cast<double>(theirs.buffer.filled);
     figures["round_trip_ms"] = 1e3 * ours.round_trip;
-    if (!experiment.rows.empty()) {
-        write_rows(experiment.rows, rows);
+    if (!experiment_.rows.empty()) {
+        write_rows(experiment_.rows, rows_);
     }
     return figures;
+}
+
+}  // namespace
+
+TeleopFigures run_teleop(const TeleopScene& scene, const TeleopCase& experiment, TeleopBins* bins) {
+    return TeleopRun(scene, experiment).run(bins);
 }
 
 }  // namespace tactus::shared

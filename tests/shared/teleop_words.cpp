@@ -161,10 +161,36 @@ bool set_wrong(const std::string& key, const std::string& value, TeleopCase& c) 
         in >> wrong.touch_friction;
     } else if (what == "stiffness") {
         in >> wrong.stiffness;
+    } else if (what == "touch_friction_is") {
+        in >> wrong.touch_friction_is.emplace();
+    } else if (what == "magnet_force") {
+        in >> wrong.magnet_force;
+    } else if (what == "ball") {
+        in >> wrong.ball;
+    } else if (what == "absent") {
+        in >> wrong.absent;
+    } else if (what == "ghost") {
+        in >> wrong.ghost;
     } else {
         return false;
     }
     return !in.fail();
+}
+
+// SECONDS,KIND[,BODY or AMOUNT]
+bool read_event(std::string text, TeleopEvent& event) {
+    std::ranges::replace(text, ',', ' ');
+    std::istringstream in(text);
+    std::string kind;
+    in >> event.at >> kind;
+    if (in.fail() ||
+        !choose(kind, {"told", "removed", "gravity", "correct", "scheme", "scenario", "restart", "cut"},
+                event.kind)) {
+        return false;
+    }
+    in >> event.body;
+    event.amount = std::strtod(event.body.c_str(), nullptr);
+    return true;
 }
 
 bool set(const std::string& key, const std::string& value, TeleopCase& c) {
@@ -184,7 +210,9 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
     } else if (key == "seed") {
         c.seed = natural;
     } else if (key == "correction") {
-        return choose(value, {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction"},
+        return choose(value,
+                      {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
+                       "stealthy_translate", "stealthy_turn"},
                       s.correction);
     } else if (key == "derivation") {
         return choose(value, {"none", "velocity", "acceleration", "averaged", "history", "resimulate"},
@@ -203,10 +231,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.replay_steps = natural;
     } else if (key == "share") {
         s.stealth.share = number;
-    } else if (key == "drag_gain") {
-        s.drag.gain = number;
-    } else if (key == "drag_slow") {
-        s.drag.slow = number;
+    } else if (key == "estimate") {
+        s.estimate.gain = number;
     } else if (key == "fade_window") {
         s.stealth.window = number;
     } else if (key == "deadband") {
@@ -237,6 +263,16 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         c.pose_noise = number;
     } else if (key == "correct_from_touch") {
         c.correct_from_touch = number != 0.0;
+    } else if (key == "discovers") {
+        c.discovers = number != 0.0;
+    } else if (key == "gravity_believed") {
+        return read_vector(value, c.gravity_believed);
+    } else if (key.rfind("event.", 0) == 0) {
+        return read_event(value, c.events.emplace_back());
+    } else if (key == "measured_from") {
+        c.measured_from = number;
+    } else if (key == "measured_to") {
+        c.measured_to = number;
     } else if (key == "object") {
         c.object = value;
     } else if (key == "rows") {

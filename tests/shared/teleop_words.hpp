@@ -9,6 +9,7 @@
 //     sphere R X Y Z
 //     hinge NAME X Y Z AX AY AZ             (of a body above, to the world; where, and about which axis)
 //     case NAME key=value …
+// Among the keys of a case, event.ANYTHING=SECONDS,KIND[,BODY or AMOUNT], see TeleopEvent.
 #pragma once
 
 #include <iosfwd>

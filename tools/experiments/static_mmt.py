@@ -5,6 +5,11 @@
 
 --clock   virtual: one process, the same figures on every run. real: two Godot processes over UDP
 --mass and the others make every model worse, the right one, too; see Imperfections in measuring/teleop_runs.py
+
+Two paths of the hand, and every key behind the name of its path: thesis_path is the thesis's own (5 waves in a turn of 10 s,
+section 5.1), waves a fast one (20 waves on a smaller circle). Where a wrong model is corrected, what is felt of it is paid
+for with time: PATH.trade.SHARE.* is the same correction with the share of a just-noticeable difference that may be spent in
+100 ms, from careful to careless.
 """
 
 from dataclasses import dataclass
@@ -12,9 +17,15 @@ from pathlib import Path
 from typing import Literal
 
 from measuring import options, teleop_runs
+from measuring.teleop_scene import Scene
 
 FIGURES = ("force_error_mean_N", "force_error_p95_N", "force_error_max_N", "force_error_shifted_mean_N")
+FELT = ("seconds_until_right", "felt_excess_1ms_N_max", "felt_excess_100ms_N_max", "felt_excess_100ms_jnd_max")
+ENERGY = ("energy_at_hand_J", "energy_at_far_side_J", "energy_created_J", "bits_per_s")
 CORRECTED = "mmt_wrong_corrected_100ms"
+# From the start: the model is right before it is touched.
+TOLD = "mmt_wrong_told_100ms"
+SHARES = ("0.125", "0.25", "0.5", "1", "2", "4", "8", "16")
 
 
 @dataclass(frozen=True)
@@ -24,8 +35,9 @@ class Settings(teleop_runs.Imperfections):
     pictures: int = 1
 
 
-def cases(description: dict, settings: Settings, output: Path) -> list[teleop_runs.Case]:
+def cases(description: dict, path: str, settings: Settings, output: Path) -> list[teleop_runs.Case]:
     wrong = teleop_runs.wrong(description["wrong"])
+    corrected = {"delay_ms": 100, "correct_from_touch": 1, **wrong}
     found: list[teleop_runs.Case] = [
         {"name": f"traditional_{delay}ms", "traditional": 1, "delay_ms": delay} for delay in (0, 100)
     ]
@@ -33,11 +45,14 @@ def cases(description: dict, settings: Settings, output: Path) -> list[teleop_ru
         found.append({"name": f"mmt_right_{delay}ms", "delay_ms": delay})
     for delay in (0, 100, 500):
         found.append({"name": f"mmt_wrong_{delay}ms", "delay_ms": delay, "correction": "none", **wrong})
-    found.append({"name": CORRECTED, "delay_ms": 100, "correct_from_touch": 1, **wrong})
+    found.append({"name": CORRECTED, **corrected})
+    found.append({"name": TOLD, "delay_ms": 100, **wrong})
+    found.append({"name": f"{CORRECTED}_pose", "correction": "pose", "derivation": "none", **corrected})
     for case in found:
-        worse = settings.keys(description["scene"])
-        case |= worse | {"seconds": settings.seconds, "rows": output / f"{case['name']}.csv"}
-    return found
+        case["rows"] = output / f"{path}.{case['name']}.csv"
+    found += [{"name": f"trade.{share}", "share": share, **corrected} for share in SHARES]
+    worse = settings.keys(description["scene"])
+    return [case | worse | {"seconds": settings.seconds} for case in found]
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
@@ -47,16 +62,27 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         from measuring import teleop_processes
 
         return teleop_processes.static_mmt(description, settings.seconds, output)
-    found = teleop_runs.run(description["scene"], cases(description, settings, output), output)
     summary: dict[str, object] = {}
-    for name, figures in found.items():
-        wanted = (*FIGURES, "seconds_until_right", "correction_force_step_max_N") if name == CORRECTED else FIGURES
-        summary |= {f"{name}.{key}": figures[key] for key in wanted}
-    for case in ("mmt_wrong_0ms", "mmt_wrong_100ms", "mmt_wrong_500ms"):
-        ratio = found[case]["force_error_mean_N"] / found["traditional_100ms"]["force_error_mean_N"]
-        summary[f"{case}.over_traditional_100ms"] = ratio
+    scene = description["scene"]
+    for path, resource in description["paths"].items():
+        lines = Scene(scene).along(resource)
+        found = teleop_runs.run(scene, cases(description, path, settings, output), output, lines=lines)
+        summary |= {f"{path}.{key}": value for key, value in figures(found).items()}
     if settings.pictures:
-        from plots import teleop
+        from plots import static_mmt
 
-        teleop.draw_static(output)
+        for path in description["paths"]:
+            static_mmt.draw(output, path)
+        static_mmt.draw_trade(summary, tuple(description["paths"]), SHARES, CORRECTED, output / "trade.png")
+    return summary
+
+
+def figures(found: dict[str, dict[str, float]]) -> dict[str, object]:
+    summary: dict[str, object] = {}
+    for name, one in found.items():
+        wanted = FELT if name.startswith("trade.") else (*FIGURES, *FELT, *ENERGY, "correction_force_step_max_N")
+        summary |= {f"{name}.{key}": one[key] for key in wanted}
+    traditional = found["traditional_100ms"]["force_error_mean_N"]
+    for case in ("mmt_wrong_0ms", "mmt_wrong_100ms", "mmt_wrong_500ms"):
+        summary[f"{case}.over_traditional_100ms"] = found[case]["force_error_mean_N"] / traditional
     return summary

@@ -76,17 +76,28 @@ class Scene:
         return _placement(next(node for node in self._nodes if node.attributes["name"] == body))[:3]
 
     def varied(self, variation: dict) -> str:
-        """What the runner reads, with copies of bodies elsewhere and hinges to the world:
-        {"copies": {"Box2": {"of": "Box", "at": [x, y, z]}}, "hinges": {"Box": {"at": [x, y, z], "axis": [x, y, z]}}}
+        """What the runner reads, with copies of bodies elsewhere, hinges to the world, and another path of the hand:
+        {"copies": {"Box2": {"of": "Box", "at": [x, y, z]}}, "hinges": {"Box": {"at": [x, y, z], "axis": [x, y, z]}},
+        "frictionless": ["Box"], "without": ["Sphere"], "path": [[seconds, x, y, z], …]}
         """
         lines = self.lines().splitlines()
+        if "path" in variation:
+            keys = [word for keyframe in variation["path"] for word in _texts(keyframe)]
+            lines = [" ".join(["path", "linear", *keys]) if line.startswith("path ") else line for line in lines]
+        for name in variation.get("without", []):
+            start = next(i for i, line in enumerate(lines) if line.startswith(f"body {name} "))
+            del lines[start : next(i for i in range(start + 1, len(lines) + 1) if not _is_shape(lines[i : i + 1]))]
+        for name in variation.get("frictionless", []):
+            start = next(i for i, line in enumerate(lines) if line.startswith(f"body {name} "))
+            words = lines[start].split()
+            lines[start] = " ".join([*words[:8], "0", "0", *words[10:]])
         for name, copy in variation.get("copies", {}).items():
             start = next(i for i, line in enumerate(lines) if line.startswith(f"body {copy['of']} "))
             _, _, *words = lines[start].split()
             words[8:11] = _texts(copy["at"])
             lines.append(" ".join(["body", name, *words]))
             for line in lines[start + 1 :]:
-                if line.split()[0] not in ("box", "sphere"):
+                if not _is_shape([line]):
                     break
                 lines.append(line)
         for name, hinge in variation.get("hinges", {}).items():
@@ -127,19 +138,32 @@ class Scene:
             return " ".join(["box", *_texts(half), *_texts(place)])
         return " ".join(["sphere", shape.values.get("radius", "0.5"), *_texts(place[:3])])
 
+    def along(self, resource: str) -> str:
+        """What the runner reads, with another path resource for the hand."""
+        path = next(s.values for s in _sections(_file(resource)) if s.kind == "resource")
+        lines = self.lines().splitlines()
+        return "\n".join(_path_line(path) if line.startswith("path ") else line for line in lines) + "\n"
+
     def _path(self, device: _Section) -> str:
-        path = self._resource(device.values["path"])
-        if "points_positions" in path:
-            points, times = _numbers(path["points_positions"]), _numbers(path["points_times"])
-            how = "smooth" if path.get("points_interpolation", "0") == "1" else "linear"
-            keys = [_texts([time, *points[3 * i : 3 * i + 3]]) for i, time in enumerate(times)]
-            return " ".join(["path", how, *(word for key in keys for word in key)])
-        circle = [path.get(f"circle_{key}") for key in ("radius", "amplitude", "turn_time", "waves")]
-        return " ".join(["path", "circle", *_texts(_numbers(path["circle_center"])), *circle])
+        return _path_line(self._resource(device.values["path"]))
+
+
+def _path_line(path: dict[str, str]) -> str:
+    if "points_positions" in path:
+        points, times = _numbers(path["points_positions"]), _numbers(path["points_times"])
+        how = "smooth" if path.get("points_interpolation", "0") == "1" else "linear"
+        keys = [_texts([time, *points[3 * i : 3 * i + 3]]) for i, time in enumerate(times)]
+        return " ".join(["path", how, *(word for key in keys for word in key)])
+    circle = [path.get(f"circle_{key}") for key in ("radius", "amplitude", "turn_time", "waves")]
+    return " ".join(["path", "circle", *_texts(_numbers(path["circle_center"])), *circle])
 
 
 def _is_body(node: _Section) -> bool:
     return node.attributes.get("type") in ("StaticBody3D", "RigidBody3D")
+
+
+def _is_shape(lines: list[str]) -> bool:
+    return bool(lines) and lines[0].split()[0] in ("box", "sphere")
 
 
 def _texts(numbers: list[float]) -> list[str]:

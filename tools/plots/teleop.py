@@ -24,40 +24,8 @@ def force_error(rows: Rows) -> np.ndarray:
     return np.sqrt(sum((rows[f"force_{axis}"] - rows[f"direct_{axis}"]) ** 2 for axis in "xyz"))
 
 
-def _legend(axes) -> None:
+def legend(axes) -> None:
     axes.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
-
-
-def draw_static(folder: Path) -> None:
-    """The thesis's figure 5.4: the force's vertical part, and the size of its error."""
-    traditional = read(folder / "traditional_100ms.csv")
-    right, wrong = read(folder / "mmt_right_100ms.csv"), read(folder / "mmt_wrong_100ms.csv")
-    drawn, ((force,), (error,)) = style.figure(2, 1, 9.0, 6.0, sharex=True)
-    force.plot(right["time"], right["direct_y"], color=style.QUIET, linewidth=3.0, alpha=0.5, label="direct touch")
-    force.plot(right["time"], traditional["force_y"], color=style.WARNING, linewidth=1.1, label="traditional, 100 ms")
-    force.plot(right["time"], wrong["force_y"], color=style.REFERENCE, linewidth=1.1, label="wrong model")
-    force.plot(right["time"], right["force_y"], color=style.MEASURED, linewidth=1.1, label="right model")
-    force.set(ylabel="force, vertical (N)", xlim=(0.0, 3.0))
-    force.set_title("Touch of what stands still, 100 ms away", pad=24)
-    _legend(force)
-    for rows, colour in ((traditional, style.WARNING), (wrong, style.REFERENCE), (right, style.MEASURED)):
-        error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.2)
-    error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None))
-    style.save(drawn, folder / "forces.png")
-    _draw_correction(folder)
-
-
-def _draw_correction(folder: Path) -> None:
-    rows, wrong = read(folder / "mmt_wrong_corrected_100ms.csv"), read(folder / "mmt_wrong_100ms.csv")
-    drawn, ((error,), (offset,)) = style.figure(2, 1, 9.0, 4.6, sharex=True, height_ratios=[2, 1])
-    error.plot(wrong["time"], force_error(wrong), color=style.REFERENCE, linewidth=1.1, label="left wrong")
-    error.plot(rows["time"], force_error(rows), color=style.MEASURED, label="corrected from the first touch on")
-    error.set(ylabel="force error (N)", xlim=(0.0, 3.0), ylim=(0, None))
-    error.set_title("A wrong model becomes right", pad=24)
-    _legend(error)
-    offset.plot(rows["time"], rows["offset_m"] * 1e3, color=style.INK, linewidth=1.2)
-    offset.set(ylabel="pointers\ncarried (mm)", xlabel="time (s)", ylim=(0, None))
-    style.save(drawn, folder / "correction.png")
 
 
 def draw_gain(folder: Path, scene: str, delay: float) -> None:
@@ -76,7 +44,7 @@ def draw_gain(folder: Path, scene: str, delay: float) -> None:
         error.plot(rows[scenario]["time"], force_error(rows[scenario]), color=colour, linewidth=1.2)
     force.set(ylabel="force on the hand (N)", ylim=(0, None))
     force.set_title(f"{round(delay * 1e3)} ms away, {scene} scene", pad=24)
-    _legend(force)
+    legend(force)
     error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None))
     style.save(drawn, folder / f"{scene}_forces.png")
 
@@ -106,7 +74,7 @@ def draw_dynamic(folder: Path, names: tuple[str, ...]) -> None:
         error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.0, label=label)
     place.set(ylabel="box off by (mm)", ylim=(1e-4, 3e3))
     place.set_title("A box that is pushed 100 ms away, its model 20 % too heavy and 30 % too slippery", pad=24)
-    _legend(place)
+    legend(place)
     force.set(ylabel="force (N)", ylim=(0, None))
     error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None), xlim=(1.0, 5.0))
     style.save(drawn, folder / "dynamic.png")

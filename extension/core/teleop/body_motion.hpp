@@ -34,4 +34,14 @@ inline Pose displacement(const Pose& from, const Pose& to) {
     return {to.position - turn * from.position, turn};
 }
 
+// The same motion, seen from the parent of a frame that stands still, or from that frame.
+inline BodyMotion to_parent(const Pose& frame, const BodyMotion& motion) {
+    return {compose(frame, motion.pose), direction_to_parent(frame, motion.linear_velocity),
+            direction_to_parent(frame, motion.angular_velocity)};
+}
+inline BodyMotion to_local(const Pose& frame, const BodyMotion& motion) {
+    return {compose(inverse(frame), motion.pose), direction_to_local(frame, motion.linear_velocity),
+            direction_to_local(frame, motion.angular_velocity)};
+}
+
 }  // namespace tactus

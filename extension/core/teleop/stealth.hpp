@@ -19,12 +19,18 @@ enum class Correction : std::uint8_t {
     none,                // the model is never corrected
     pose,                // at once, rates stay: the thesis's, which jitters
     pose_velocity,       // at once, with the rates
-    stealthy_magnitude,  // pointers are carried; when the object turned, the force keeps its size
-    stealthy_direction,  // the same, and the force keeps its direction as well
+    stealthy_magnitude,  // the force keeps its size; what its size would have changed by fades
+    stealthy_direction,  // the force keeps size and direction; what it would have changed by fades
+    stealthy_translate,  // pointers are carried by the object's way alone; as it turns, the force varies
+    stealthy_turn,       // pointers are carried and turned with it; the force keeps its size in its frame
 };
 
 inline bool is_stealthy(Correction correction) {
-    return correction == Correction::stealthy_magnitude || correction == Correction::stealthy_direction;
+    return correction >= Correction::stealthy_magnitude;
+}
+// A second pointer is carried along (thesis 3.1.4).
+inline bool is_carrying(Correction correction) {
+    return correction == Correction::stealthy_translate || correction == Correction::stealthy_turn;
 }
 
 struct StealthSettings {
@@ -34,21 +40,24 @@ struct StealthSettings {
     double window = 0.1;             // in which a change counts as one change (unit: seconds), > 0
     double free_speed = 0.5;         // at which the offset fades in free space (unit: meters per second), > 0
     double longest_offset = 0.1;     // more is not carried (unit: meters), >= 0
+    double bound = 1.0;              // no more is hidden than this share of the modelled force, >= 0
+    double masked = 0.1;  // of a change of force by the hand's own way, this share may fade, too, >= 0
+    double let_go_seconds = 0.15;  // within which what is too large fades (unit: seconds), > 0
+    double tank = 0.02;  // most energy that touch has taken and hiding may spend (unit: joules), >= 0
 };
 
 // How fast corrections come that are each too small to notice. They come where the model drifts, and the
 // drift takes back what they bring: fading as fast as they come changes nothing that can be felt.
 class DriftRate {
 public:
-    // A correction has carried the pointers by `way`; of that, no more than `unnoticed` counts (unit:
-    // meters).
-    void carried(const StealthSettings& settings, double way, double unnoticed) {
-        rate_ += std::min(way, unnoticed) / settings.window;
+    // A correction has brought `change`; of that, no more than `unnoticed` counts (unit: newtons).
+    void carried(const StealthSettings& settings, double change, double unnoticed) {
+        rate_ += std::min(change, unnoticed) / settings.window;
     }
     void pass(const StealthSettings& settings, double seconds) {
         rate_ *= std::exp(-seconds / settings.window);
     }
-    double rate() const { return rate_; }  // (unit: meters per second)
+    double rate() const { return rate_; }  // (unit: newtons per second)
 
 private:
     double rate_ = 0.0;
@@ -60,24 +69,7 @@ double just_noticeable(const StealthSettings& settings, double force);
 // How much the felt force may change by within `seconds` because of fading (unit: newtons).
 double unnoticed_change(const StealthSettings& settings, double force, double seconds);
 
-// What makes up for the rest: felt = factor * (turn * modelled).
-struct ForceBridge {
-    Quat turn{1.0, 0.0, 0.0, 0.0};
-    double factor = 1.0;
-
-    bool is_none() const { return factor == 1.0 && turn == Quat(1.0, 0.0, 0.0, 0.0); }
-    Vec3 felt(const Vec3& modelled) const { return factor * (turn * modelled); }
-};
-
-// The bridge from the force as it is modelled now to the one felt before. With `keep_direction` false only
-// the size is kept. Forces too small to have a direction give none.
-ForceBridge bridge(const Vec3& modelled, const Vec3& felt_before, bool keep_direction);
-
-// The bridge after the felt force has changed by at most `change` (unit: newtons). Shared evenly between turn
-// and factor.
-ForceBridge faded(const ForceBridge& from, double modelled_force, double change);
-
-// The offset after it has become shorter by at most `way` (unit: meters).
-Vec3 faded(const Vec3& offset, double way);
+// What is left of it after it has become shorter by at most `way`.
+Vec3 faded(const Vec3& from, double way);
 
 }  // namespace tactus

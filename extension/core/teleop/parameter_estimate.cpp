@@ -1,0 +1,54 @@
+#include "core/teleop/parameter_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+void ParameterEstimate::forget(const EstimateSettings& settings) {
+    p_ = q_ = pq_ = 0.0;
+    pp_ = qq_ = settings.uncertainty * settings.uncertainty;
+}
+
+void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLesson& lesson) {
+    const Vec3 mean = 0.5 * (lesson.truth_before + lesson.truth);
+    const double speed = glm::length(mean);
+    if (!(speed > settings.slow) || !(glm::length(lesson.model) > settings.slow) || !(lesson.seconds > 0.0)) {
+        return;
+    }
+    const Vec3 d = mean / speed;
+    const double missing =
+        glm::dot((lesson.truth - lesson.truth_before) - (lesson.model - lesson.model_before), d) /
+        lesson.seconds;
+    const double h = glm::dot(lesson.pushed, d) / lesson.seconds;
+    const double c =
+        glm::dot(lesson.model - lesson.model_before - lesson.pushed - lesson.fell, d) / lesson.seconds;
+    const double wander = settings.wander * settings.wander * lesson.seconds;
+    const double most = settings.uncertainty * settings.uncertainty;
+    pp_ = std::min(pp_ + wander, most);
+    qq_ = std::min(qq_ + wander, most);
+    const double doubt = settings.doubt + settings.relative_doubt * (std::abs(h) + std::abs(c));
+    const double a = pp_ * h + pq_ * c;
+    const double b = pq_ * h + qq_ * c;
+    const double variance = a * h + b * c + doubt * doubt;
+    if (!std::isfinite(missing) || !(variance > 0.0) || !std::isfinite(variance)) {
+        return;
+    }
+    const double limit = std::log(settings.largest);
+    p_ = std::clamp(p_ + settings.gain * a / variance * missing, -limit, limit);
+    q_ = std::clamp(q_ + settings.gain * b / variance * missing, -limit, limit);
+    pp_ -= a * a / variance;
+    pq_ -= a * b / variance;
+    qq_ -= b * b / variance;
+}
+
+double ParameterEstimate::mass_factor() const {
+    return std::exp(-p_);
+}
+
+double ParameterEstimate::friction_factor() const {
+    return std::exp(q_);
+}
+
+}  // namespace tactus

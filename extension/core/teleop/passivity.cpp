@@ -1,0 +1,212 @@
+#include "core/teleop/passivity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+// Below this nothing moves or presses: nothing can be damped or yielded to (units: m^2/s^2, N^2).
+constexpr double nothing = 1e-12;
+
+constexpr double two_pi = 6.28318530717958648;
+
+}  // namespace
+
+const OperatorPassivity::Past* OperatorPassivity::past(std::uint64_t sample) const {
+    const Past& found = past_[sample % samples];
+    return sample != 0 && found.sample == sample ? &found : nullptr;
+}
+
+Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& settings, const In& in) {
+    if (!begun_) {
+        hand_ = in.hand;
+        begun_ = true;
+    }
+    // The environment is passive: in a contact it gives back no more than this end has given.
+    net_ = given_ == Vec3(0.0) ? 0.0 : net_ + glm::dot(given_, in.hand - hand_);
+    hear(scheme, settings, in);
+    Vec3 force(0.0);
+    switch (scheme) {
+        case Passivity::none:
+            force = in.far_sample != 0 ? in.far_force : Vec3(0.0);
+            break;
+        case Passivity::wave_variables:
+            force = wave_force(settings, in);
+            break;
+        case Passivity::time_domain:
+            force = damped_force(settings, in);
+            break;
+        case Passivity::two_layers:
+            force = tank_force(settings, in);
+            break;
+    }
+    Past& now = past_[in.sample % samples];
+    now.sample = in.sample;
+    now.hand = in.hand;
+    const Vec3 velocity = (in.hand - hand_) / in.seconds;
+    now.wave = (settings.impedance * velocity - force) / std::sqrt(2.0 * settings.impedance);
+    hand_ = in.hand;
+    given_ = force;
+    return force;
+}
+
+// What the newest answer says about the far end: its wave, and the energy it has taken in. What was lost in
+// between is no energy, and a wave of the smaller of its neighbours.
+void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings, const In& in) {
+    if (in.far_sample <= heard_) {
+        return;
+    }
+    const Past* const then = past(in.far_sample);
+    const Past* const before = past(heard_);
+    if (then && before) {
+        // The far hand went as the operator's did; of the forces on this way, the one that took in least.
+        const Vec3 way = then->hand - before->hand;
+        const double held = glm::dot(far_force_, way);
+        const double other = in.far_sample == heard_ + 1 ? held : glm::dot(in.far_force, way);
+        const double taken = std::max(0.0, std::min(held, other));
+        far_in_ += taken;
+        tank_ += scheme == Passivity::two_layers ? settings.shared * taken : 0.0;
+    }
+    if (then) {
+        const Vec3 wave = then->wave + std::sqrt(2.0 / settings.impedance) * in.far_force;
+        const double lost = heard_ != 0 ? static_cast<double>(in.far_sample - heard_ - 1) : 0.0;
+        const double least = std::min(glm::dot(wave, wave), glm::dot(wave_, wave_));
+        wave_energy_ += 0.5 * in.seconds * (glm::dot(wave, wave) + lost * least);
+        wave_ = wave;
+    }
+    far_force_ = in.far_force;
+    heard_ = in.far_sample;
+}
+
+Vec3 OperatorPassivity::wave_force(const PassivitySettings& settings, const In& in) {
+    const double b = settings.impedance;
+    const Vec3 velocity = (in.hand - hand_) / in.seconds;
+    const double share = 1.0 - std::exp(-two_pi * settings.wave_cutoff * in.seconds);
+    smooth_ += share * (wave_ - smooth_);
+    Vec3 wave = smooth_;
+    const double energy = 0.5 * in.seconds * glm::dot(wave, wave);
+    if (energy > wave_energy_) {
+        wave *= std::sqrt(std::max(0.0, wave_energy_) / energy);
+    }
+    wave_energy_ -= 0.5 * in.seconds * glm::dot(wave, wave);
+    return std::sqrt(2.0 * b) * wave - b * velocity;
+}
+
+// Of a force, what gives no more than `energy` in a tick in which the hand goes on as it does (unit: joules).
+// Less than none is owed: it is damped away, no faster than the device can. Where the hand is about to turn,
+// its velocity says little: a free hand of mass m that comes with v against the force turns where f dt > m v,
+// and what f has beyond that gives it f^2 dt^2 / m. No force is larger than what this end has left for that.
+Vec3 OperatorPassivity::affordable(const PassivitySettings& settings, const In& in, const Vec3& force,
+                                   double energy) const {
+    const double left = std::max(0.0, std::min(energy, -net_ - settings.reserve) + settings.reserve);
+    const double size = glm::length(force);
+    const double against = size > 0.0 ? std::max(0.0, -glm::dot(force, in.velocity) / size) : 0.0;
+    const double mass = settings.lightest_hand;
+    const double largest = (std::sqrt(left * mass) + mass * against) / in.seconds;
+    Vec3 affordable = size > largest ? force * (largest / size) : force;
+    const double speed2 = glm::dot(in.velocity, in.velocity);
+    const double power = glm::dot(affordable, in.velocity);
+    if (speed2 < nothing || power <= 0.0) {
+        return affordable;
+    }
+    const double allowed = left / in.seconds;
+    const double owed = std::max(0.0, -settings.reserve - std::min(energy, -net_ - settings.reserve));
+    const double damping = std::max(0.0, power - allowed) / speed2 +
+                           std::min(owed / (speed2 * in.seconds), settings.largest_damping);
+    return affordable - damping * in.velocity;
+}
+
+Vec3 OperatorPassivity::damped_force(const PassivitySettings& settings, const In& in) {
+    out_ += std::max(0.0, glm::dot(given_, in.hand - hand_));
+    const Vec3 wanted = in.far_sample != 0 ? in.far_force : Vec3(0.0);
+    return affordable(settings, in, wanted, far_in_ - out_);
+}
+
+Vec3 OperatorPassivity::tank_force(const PassivitySettings& settings, const In& in) {
+    // What the hand was given comes out of the tank; of what it gave, the far end gets its share.
+    const double given = glm::dot(given_, in.hand - hand_);
+    tank_ -= given > 0.0 ? given : (1.0 - settings.shared) * given;
+    const Vec3 wanted = in.far_sample != 0 ? in.far_force : Vec3(0.0);
+    const Vec3 force = affordable(settings, in, wanted, tank_);
+    return force - settings.refill * std::max(0.0, settings.tank - tank_) * in.velocity;
+}
+
+Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, const In& in) {
+    if (!begun_) {
+        begun_ = true;
+        operator_hand_ = own_ = in.hand;
+        operator_force_ = in.force;
+        sample_ = in.sample;
+    }
+    if (scheme == Passivity::none) {
+        own_ = in.hand;
+    } else {
+        // Of one sample to the next, the force was held and the hand went its way.
+        const double taken = in.sample == sample_ + 1
+                                 ? std::max(0.0, -glm::dot(operator_force_, in.hand - operator_hand_))
+                                 : 0.0;
+        operator_in_ += taken;
+        tank_ += settings.shared * taken;
+        switch (scheme) {
+            case Passivity::wave_variables:
+                own_ += wave_way(settings, in);
+                break;
+            case Passivity::time_domain:
+                own_ += yielding_way(settings, in);
+                break;
+            default:
+                own_ += tank_way(settings, in);
+                break;
+        }
+    }
+    operator_hand_ = in.hand;
+    operator_force_ = in.force;
+    sample_ = in.sample;
+    return own_;
+}
+
+Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in) const {
+    const double b = settings.impedance;
+    // sqrt(2/b) u = x' + F / b, and F = -f.
+    Vec3 way = in.hand - operator_hand_ + (in.own_force - in.force) * (in.seconds / b);
+    if (in.own_force == Vec3(0.0)) {
+        // Nothing is pressed: where it has drifted to costs nothing to put right.
+        way += (in.hand - own_ - way) * std::min(1.0, settings.drift_rate * in.seconds);
+    }
+    return way;
+}
+
+Vec3 FarPassivity::yielding_way(const PassivitySettings& settings, const In& in) {
+    const Vec3& h = in.own_force;
+    Vec3 way = in.hand - operator_hand_;
+    way += (operator_hand_ - own_) * std::min(1.0, settings.drift_rate * in.seconds);
+    const double size2 = glm::dot(h, h);
+    const double given = -glm::dot(h, way);  // to the environment
+    const double left = operator_in_ + settings.far_store - out_;
+    if (given > left && size2 > nothing) {
+        const double yield = (given - left) / (size2 * in.seconds);
+        way += std::min(yield, settings.largest_yield) * in.seconds * h;
+    }
+    out_ += std::max(0.0, -glm::dot(h, way));
+    return way;
+}
+
+Vec3 FarPassivity::tank_way(const PassivitySettings& settings, const In& in) {
+    const Vec3& h = in.own_force;
+    Vec3 way = in.hand - own_;
+    const double size2 = glm::dot(h, h);
+    double given = -glm::dot(h, way);
+    const double allowed = std::max(0.0, tank_ + settings.far_store);
+    if (given > allowed && size2 > nothing) {
+        way += h * ((given - allowed) / size2);
+        given = allowed;
+    }
+    // What is taken in here is in the tank, less what the operator's end counts as its share of it.
+    tank_ -= given + settings.shared * std::max(0.0, glm::dot(h, in.hand - operator_hand_));
+    return way;
+}
+
+}  // namespace tactus

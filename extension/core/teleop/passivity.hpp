@@ -1,0 +1,128 @@
+// Traditional touch that cannot make energy, whatever the delay: the schemes of the field, at both ends.
+//
+// Both ends are ports: the operator's hand gives the link a velocity and is given a force; the far hand is
+// moved by the link and feels the environment's force h. Nothing more is sent than without a scheme: what the
+// operator sends (place, force on the hand) and what the far side sends (force, the sample it answers) lets
+// either end work out the other's waves and energies.
+//
+//   wave variables  Niemeyer and Slotine 1991. With wave impedance b and F = -f the hand's force on the link:
+//                   u = (b x' + F) / sqrt(2b) goes there, w = (b x' - F) / sqrt(2b) comes back. Decoded,
+//                       far hand   x' = sqrt(2/b) u + h / b,    w = u + sqrt(2/b) h
+//                       operator   f = sqrt(2b) w - b x'
+//                   A delay of |u|^2/2 and |w|^2/2 makes no energy. What is smoothed or held is scaled so
+//                   that no more of it is played than has come.
+//   time domain     Ryu, Artigas and Preusche 2010, after Hannaford and Ryu 2002. Each end splits its energy
+//                   into what goes in and what comes out. What has come out may not exceed what the other
+//                   end has taken in, as last heard: else the operator's end damps, alpha = dE / (v^2 dt),
+//                   and the far end yields, beta = dE / (h^2 dt).
+//   two layers      Franken, Stramigioli, Misra, Secchi and Macchelli 2011. The upper layer wants the far
+//                   force and the operator's place; the lower has a tank at each end, and nothing is done
+//                   that the tank cannot pay. What is taken in is shared between both tanks; below its
+//                   wanted level the operator's is filled by -d x'.
+//
+// Pure values: no clock, no allocation after set-up.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/math/types.hpp"
+
+namespace tactus {
+
+enum class Passivity : std::uint8_t { none, wave_variables, time_domain, two_layers };
+
+struct PassivitySettings {
+    double impedance = 4.0;       // wave variables: b (unit: newton-seconds per meter), > 0
+    double wave_cutoff = 20.0;    // above it returning waves are smoothed (unit: hertz), > 0
+    double drift_rate = 10.0;     // at which a far hand that has yielded comes back (unit: 1/seconds), >= 0
+    double reserve = 1e-3;        // time domain, two layers: never given to the operator (unit: joules), >= 0
+    double lightest_hand = 0.05;  // and its handle (unit: kilograms), > 0
+    double largest_damping = 30.0;  // of what is owed (unit: newton-seconds per meter), > 0
+    double largest_yield = 1.0;     // time domain (unit: meters per newton-second), > 0
+    double far_store = 0.02;  // that the far end may spend before it has heard of any (unit: joules), >= 0
+    double tank = 0.01;       // two layers: the operator's wanted level (unit: joules), >= 0
+    double refill = 200.0;    // two layers: d for each joule below it (unit: newton-seconds per meter joule)
+    double shared = 0.5;      // two layers: of what is taken in, what the other end gets, 0 … 1
+};
+
+class OperatorPassivity {
+public:
+    // More delay than this many ticks finds no wave of its own any more and gives no force.
+    static constexpr std::size_t samples = 2048;
+
+    struct In {
+        std::uint64_t sample = 0;  // of this tick, > 0
+        Vec3 hand{0.0};            // (unit: meters)
+        Vec3 velocity{0.0};        // of the hand (unit: meters per second)
+        // Heard last: the force on the far hand after it had applied `far_sample`; 0: nothing has come.
+        Vec3 far_force{0.0};  // (unit: newtons)
+        std::uint64_t far_sample = 0;
+        double seconds = 0.001;  // of a tick
+    };
+
+    // The force on the hand in this tick (unit: newtons).
+    Vec3 force(Passivity scheme, const PassivitySettings& settings, const In& in);
+    // After limits behind it have changed what the hand is given.
+    void given(const Vec3& force) { given_ = force; }
+    void reset() { *this = {}; }
+
+private:
+    struct Past {
+        std::uint64_t sample = 0;
+        Vec3 hand{0.0};
+        Vec3 wave{0.0};
+    };
+    const Past* past(std::uint64_t sample) const;
+    void hear(Passivity scheme, const PassivitySettings& settings, const In& in);
+    Vec3 affordable(const PassivitySettings& settings, const In& in, const Vec3& force, double energy) const;
+    Vec3 wave_force(const PassivitySettings& settings, const In& in);
+    Vec3 damped_force(const PassivitySettings& settings, const In& in);
+    Vec3 tank_force(const PassivitySettings& settings, const In& in);
+
+    std::array<Past, samples> past_{};
+    bool begun_ = false;
+    Vec3 hand_{0.0};           // one tick ago
+    Vec3 given_{0.0};          // force, one tick ago
+    std::uint64_t heard_ = 0;  // the newest sample that was answered
+    Vec3 far_force_{0.0};      // with it
+    double far_in_ = 0.0;      // taken in at the far end, as heard (unit: joules)
+    Vec3 wave_{0.0};           // that has come last
+    Vec3 smooth_{0.0};
+    double wave_energy_ = 0.0;  // that has come and has not been played (unit: joules)
+    double out_ = 0.0;          // given to the hand (unit: joules)
+    double tank_ = 0.0;         // (unit: joules)
+    double net_ = 0.0;          // given to the hand in this contact, less what it has given (unit: joules)
+};
+
+class FarPassivity {
+public:
+    struct In {
+        std::uint64_t sample = 0;  // the operator's that is played in this tick
+        Vec3 hand{0.0};            // the operator's (unit: meters)
+        Vec3 force{0.0};           // on the operator's hand (unit: newtons)
+        Vec3 own_force{0.0};       // h, on the hand here one tick ago (unit: newtons)
+        double seconds = 0.001;
+    };
+
+    // Where the far hand goes in this tick (unit: meters).
+    Vec3 hand(Passivity scheme, const PassivitySettings& settings, const In& in);
+    void reset() { *this = {}; }
+
+private:
+    Vec3 wave_way(const PassivitySettings& settings, const In& in) const;
+    Vec3 yielding_way(const PassivitySettings& settings, const In& in);
+    Vec3 tank_way(const PassivitySettings& settings, const In& in);
+
+    bool begun_ = false;
+    std::uint64_t sample_ = 0;
+    Vec3 operator_hand_{0.0};  // one tick ago
+    Vec3 operator_force_{0.0};
+    Vec3 own_{0.0};             // where the far hand is
+    double operator_in_ = 0.0;  // taken in at the operator's end, as heard (unit: joules)
+    double out_ = 0.0;          // given to the environment (unit: joules)
+    double tank_ = 0.0;
+};
+
+}  // namespace tactus

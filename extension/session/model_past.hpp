@@ -1,0 +1,58 @@
+// What the model has been through, by sample of the operator: the hands, and for each body with a place how
+// it moved and what the hands gave it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/teleop/state_history.hpp"
+#include "session/session_loop.hpp"
+#include "session/truth_store.hpp"
+
+namespace tactus {
+
+class ModelPast {
+public:
+    struct Hand {
+        Vec3 position{0.0};
+        Vec3 velocity{0.0};
+        bool idle = false;
+    };
+    struct Moment {
+        Nanoseconds time = 0;
+        std::array<Hand, most_proxies> hands;
+    };
+
+    ModelPast(std::size_t places, std::size_t samples)
+        : history_(places, samples), moments_(samples), pushes_(places * samples, Vec3(0.0)) {}
+
+    std::size_t samples() const { return moments_.size(); }
+
+    void note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds now);
+    const Moment& moment(SampleSequence sample) const { return moments_[sample % moments_.size()]; }
+
+    // Before the step: what hands press bodies with. After it: how they move.
+    void note_pushes(SessionLoop& loop, const TruthStore& truths, SampleSequence sample);
+    void note_motions(SessionLoop& loop, const TruthStore& truths, SampleSequence sample);
+
+    // Null where it is not known.
+    const BodyMotion* motion(std::uint32_t place, SampleSequence sample) const {
+        return place != TruthStore::no_place && sample != no_sample ? history_.at(place, sample) : nullptr;
+    }
+    // The velocity that hands gave the body after sample `first` up to `last`.
+    Vec3 pushed(std::uint32_t place, SampleSequence first, SampleSequence last) const;
+
+    // The body has been elsewhere since `first`.
+    void carry(std::uint32_t place, SampleSequence first, SampleSequence last, const BodyMotion& before,
+               const BodyMotion& after) {
+        history_.carry(place, first, last, before, after);
+    }
+    void forget(std::uint32_t place) { history_.forget(place); }
+
+private:
+    StateHistory history_;
+    std::vector<Moment> moments_;
+    std::vector<Vec3> pushes_;  // by place and sample
+};
+
+}  // namespace tactus

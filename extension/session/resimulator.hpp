@@ -1,0 +1,79 @@
+// The one time machine: a twin of the loop goes back to the far side's words, each at its own sample, and
+// does the hand's part since then again.
+//
+// A replay starts from the newest memento that is no newer than the oldest fresh truth, and puts every known
+// truth in at its own sample on its way, so that what comes late for one body takes nothing back of another.
+// It runs beside the present, some ticks in each tick, until it has caught up: no tick is late, however much
+// there is to replay.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "session/model_past.hpp"
+
+namespace tactus {
+
+class Resimulator {
+public:
+    // A body that is to be elsewhere in the present.
+    struct Target {
+        SessionHandle body = no_handle;
+        BodyMotion motion;
+        bool previous_known = false;
+        Pose previous;  // one tick ago
+    };
+
+    // Without `exists` there is no twin, and no memory for one.
+    Resimulator(const SessionSettings& session, std::size_t samples, std::size_t samples_a_memento,
+                std::size_t memento_bytes, bool exists);
+
+    bool exists() const { return twin_ != nullptr; }
+    SessionLoop* twin() { return twin_.get(); }
+    bool running() const { return running_; }
+
+    // After the step of `sample`, in the present or in the twin: a place that a replay can start from.
+    void remember(SessionLoop& loop, SampleSequence sample);
+
+    // False where there is no past to start from.
+    bool begin(const TruthStore& truths, const ModelPast& past, SampleSequence now);
+
+    // At most `ticks` more. True where only the present tick is missing.
+    bool advance(const TruthStore& truths, ModelPast& past, SampleSequence now, std::uint32_t ticks);
+
+    // The replay has caught up: bodies of the twin that differ from the present by more than the threshold.
+    void finish(SessionLoop& loop, const TruthStore& truths, const MotionThreshold& threshold,
+                std::vector<Target>& targets);
+
+    // The sample of the truth that the model's past of a body goes on from.
+    SampleSequence goes_on_from(SessionHandle body) const { return put_in_[body]; }
+
+    void stop() { running_ = false; }
+    // Of what was before, nothing is left to start from.
+    void forget();
+
+private:
+    struct Planned {
+        SampleSequence sample = no_sample;
+        SessionHandle body = no_handle;
+        BodyMotion motion;
+    };
+
+    void plan(const TruthStore& truths);
+    void put_in();
+    void tick(const TruthStore& truths, ModelPast& past);
+
+    TripleBuffer<SessionSnapshot> nobody_looks_;  // the twin publishes nothing
+    std::unique_ptr<SessionLoop> twin_;
+    std::size_t samples_a_memento_;
+    std::vector<LoopMemento> mementos_;
+    std::vector<SampleSequence> memento_of_;  // the sample after which it was taken; no_sample: none
+    bool running_ = false;
+    SampleSequence replayed_ = no_sample;  // the newest sample that the twin has applied
+    SampleSequence first_truth_ = no_sample;
+    std::vector<Planned> plan_;           // by sample
+    std::size_t next_ = 0;                // of the plan
+    std::vector<SampleSequence> put_in_;  // by body: the newest truth that a replay has put in
+};
+
+}  // namespace tactus

@@ -1,0 +1,43 @@
+// Traditional touch (scenarios 2 and 3): the hand is given what the far side's hand feels, one delay later,
+// and bodies are shown where the far side last saw them.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "network/messages.hpp"
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+class TraditionalTouch {
+public:
+    // What the far side's hand was given last.
+    struct Far {
+        SampleSequence sample =
+            no_sample;    // the newest one that had been applied; no_sample: nothing has come
+        Vec3 force{0.0};  // (unit: newtons)
+        Vec3 proxy{0.0};  // in the world (unit: meters)
+        SessionHandle touched = no_handle;
+    };
+
+    // False, and nothing has changed, where it is older than what is known.
+    bool take(const ForceSample& force, SessionHandle touched);
+
+    // Whether what came last for pointer `index` still holds in the tick of `sample`: the far side is heard,
+    // and has heard of this hand within `longest_silence`.
+    bool answers(std::size_t index, SampleSequence sample, double tick_seconds, bool hears_peer) const;
+
+    // Of what is touched there, no more is known than which object, and where the force points.
+    void describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const;
+
+    const Far& far(std::size_t index) const { return far_[index]; }
+    void forget() { far_ = {}; }
+
+private:
+    static constexpr double longest_silence = 1.0;  // (unit: seconds)
+
+    std::array<Far, most_proxies> far_;
+};
+
+}  // namespace tactus

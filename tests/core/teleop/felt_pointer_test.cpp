@@ -1,0 +1,146 @@
+#include "core/teleop/felt_pointer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+namespace {
+
+constexpr double tick = 0.001;
+
+FeltInput pressing(const Vec3& modelled, const Vec3& velocity = Vec3(0.0)) {
+    return {modelled, velocity, 500.0, tick};
+}
+
+// A hand that has rubbed over something long enough for the tank to be full.
+FeltPointer rubbed(const StealthSettings& settings, const Vec3& force) {
+    FeltPointer pointer;
+    for (int i = 0; i < 1000; ++i) {
+        pointer.feel(settings, pressing(force, -0.1 * force / glm::length(force)));
+    }
+    return pointer;
+}
+
+TEST(FeltPointer, WithoutAChangeTheModelIsFeltToTheBit) {
+    const StealthSettings settings;
+    FeltPointer pointer;
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 modelled(0.1 * i, std::sin(i), -0.3);
+        EXPECT_EQ(pointer.feel(settings, pressing(modelled, {0.1, 0.0, 0.3})), modelled);
+        EXPECT_EQ(pointer.state(), FeltState::together);
+    }
+}
+
+TEST(FeltPointer, AChangeIsNotFeltInItsTickAndFadesUnnoticed) {
+    const StealthSettings settings;
+    const Vec3 before(0.0, 2.0, 0.0), after(0.2, 1.7, 0.0);
+    FeltPointer pointer = rubbed(settings, before);
+    pointer.hide(settings, before, after);
+    Vec3 felt = pointer.feel(settings, pressing(after));
+    EXPECT_LT(glm::distance(felt, before), 0.02 * just_noticeable(settings, 2.0));
+    EXPECT_EQ(pointer.state(), FeltState::bridged);
+    int ticks = 1;
+    for (Vec3 earlier = felt; pointer.state() != FeltState::together; ++ticks) {
+        felt = pointer.feel(settings, pressing(after));
+        if (ticks % 100 == 0) {
+            EXPECT_LE(glm::distance(felt, earlier), just_noticeable(settings, 2.0) * 1.001) << ticks;
+            earlier = felt;
+        }
+        ASSERT_LT(ticks, 2000);
+    }
+    EXPECT_EQ(felt, after);
+}
+
+TEST(FeltPointer, OnlyTheSizeIsKeptWhereAskedFor) {
+    const StealthSettings settings;
+    const Vec3 before(0.0, 2.0, 0.0), after(1.5, 0.0, 0.0);
+    FeltPointer pointer = rubbed(settings, before);
+    pointer.hide_size(settings, before, after);
+    const Vec3 felt = pointer.feel(settings, pressing(after));
+    EXPECT_NEAR(glm::length(felt), 2.0, 0.01);
+    EXPECT_NEAR(felt.y, 0.0, 1e-12);
+}
+
+TEST(FeltPointer, WhatIsTooLargeIsLetGoAndSaysSo) {
+    const StealthSettings settings;
+    const Vec3 before(0.0, 3.0, 0.0);
+    FeltPointer pointer = rubbed(settings, before);
+    pointer.hide(settings, before, Vec3(0.0));
+    double largest_change = 0.0;
+    Vec3 last = before;
+    int ticks = 0;
+    do {
+        const Vec3 felt = pointer.feel(settings, {Vec3(0.0), Vec3(0.0), 0.0, tick});
+        EXPECT_EQ(pointer.begins_to_let_go(), ticks == 0);
+        largest_change = std::max(largest_change, glm::distance(felt, last));
+        last = felt;
+        ASSERT_LT(++ticks, 400);
+    } while (pointer.state() == FeltState::letting_go);
+    EXPECT_LE(largest_change, 3.0 * tick / settings.let_go_seconds * 1.001);
+    EXPECT_LT(glm::length(last), just_noticeable(settings, 0.0));
+    EXPECT_GE(ticks, 100);
+}
+
+// A hand that leaves a surface leaves what is hidden there with it.
+TEST(FeltPointer, NothingIsFeltWhereNothingIsTouchedAnyMore) {
+    const StealthSettings settings;
+    const Vec3 before(0.0, 2.0, 0.0);
+    FeltPointer pointer = rubbed(settings, before);
+    pointer.hide(settings, before, {0.0, 1.5, 0.0});
+    Vec3 felt(0.0);
+    for (double modelled = 1.5; modelled > 0.0; modelled -= 0.01) {
+        felt = pointer.feel(settings, pressing({0.0, modelled, 0.0}, {0.0, 0.02, 0.0}));
+        EXPECT_LE(felt.y, 2.0 * modelled + 2.0 * just_noticeable(settings, 0.0));
+    }
+    EXPECT_LT(glm::length(felt), 0.05);
+}
+
+// A model that is changed at random, every tick, under a hand that moves at random: what hiding gives never
+// exceeds what touch has taken before.
+TEST(FeltPointer, WhatIsHiddenNeverAddsEnergyThatTouchHasNotTaken) {
+    const StealthSettings settings;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        FeltPointer pointer;
+        std::uint32_t random = seed;
+        const auto number = [&random] {
+            random = random * 1664525u + 1013904223u;
+            return static_cast<double>(random >> 8) / (1 << 24) * 2.0 - 1.0;
+        };
+        double taken = 0.0;  // by the modelled force, for good
+        double stored = 0.0;
+        Vec3 modelled(0.0), velocity(0.0);
+        for (int i = 0; i < 5000; ++i) {
+            velocity += Vec3(number(), number(), number()) * 0.01 - velocity * 0.02;
+            const Vec3 next(0.3 * number(), 2.0 + number(), 0.3 * number());
+            if (i % 7 == 0) {
+                pointer.hide(settings, modelled, next);
+            }
+            modelled = next;
+            pointer.feel(settings, pressing(modelled, velocity));
+            const double now = 0.5 * glm::dot(modelled, modelled) / 500.0;
+            taken -= glm::dot(modelled, velocity) * tick + now - stored;
+            stored = now;
+            // The tank forgets what it has no room for; it never invents any.
+            ASSERT_LE(pointer.energy().tank_J, settings.tank + 1e-12);
+            ASSERT_GE(pointer.energy().tank_J, -settings.tank - 1e-12);
+        }
+        EXPECT_LE(pointer.energy().hidden_J, std::max(0.0, taken) + settings.tank) << seed;
+    }
+}
+
+TEST(FeltPointer, AnEmptyTankLetsNothingHelpTheHand) {
+    const StealthSettings settings;
+    FeltPointer pointer;
+    pointer.hide(settings, {0.0, 2.0, 0.0}, {0.0, 1.5, 0.0});
+    for (int i = 0; i < 100; ++i) {
+        const Vec3 felt = pointer.feel(settings, pressing({0.0, 1.5, 0.0}, {0.0, 0.1, 0.0}));
+        EXPECT_LE(felt.y, 1.5 + 1e-12);
+    }
+    EXPECT_LE(pointer.energy().hidden_J, 1e-12);
+    EXPECT_GT(pointer.energy().damped_J, 0.0);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,80 @@
+"""Every change of the model that could kick a hand that touches: how much of each is felt (100 ms away).
+
+    ./run experiment kicks [--delay=100] [--kinds=stiffness,restart,…] [--set=KEY=VALUE,KEY=VALUE] [--pictures=1]
+
+The hand presses (2.5 N), slides or pushes; the model is wrong in one thing and at 2 s the far side tells the truth, or the
+far side starts anew, or the link dies. Bodies are described over the link, as between two programs. The figures count from
+then until the hand is about to leave: KIND.felt_excess_100ms_jnd_max, KIND.felt_excess_100ms_N_max, KIND.felt_excess_1ms_N_max, KIND.force_error_left_N,
+what of the mistake is still felt at the end, and KIND.let_go where the pointer has let go and said so. demo_project/experiments/kicks.json says what each KIND is.
+"""
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from measuring import options, teleop_runs
+from measuring.teleop_scene import Scene
+
+FIGURES = ("felt_excess_100ms_jnd_max", "felt_excess_100ms_N_max", "felt_excess_1ms_N_max", "force_error_left_N", "energy_created_J")
+
+
+@dataclass(frozen=True)
+class Settings:
+    delay: float = 100.0
+    kinds: str = "all"
+    set: str = ""
+    clock: Literal["virtual"] = "virtual"
+    pictures: int = 1
+
+
+def run(given: dict[str, str], output: Path) -> dict[str, object]:
+    settings = options.parse(Settings, given)
+    description = teleop_runs.description("kicks")
+    kinds = description["kinds"]
+    chosen = list(kinds) if settings.kinds == "all" else settings.kinds.split(",")
+    unknown = [kind for kind in chosen if kind not in kinds]
+    if unknown:
+        raise ValueError(f"{unknown[0]} is none of {', '.join(kinds)}")
+    found: dict[str, dict] = {}
+    for place, lift in dict.fromkeys((kinds[kind]["place"], kinds[kind].get("lift", 0.0)) for kind in chosen):
+        here = [kind for kind in chosen if (kinds[kind]["place"], kinds[kind].get("lift", 0.0)) == (place, lift)]
+        lines = Scene(description["scene"]).varied(_lifted(description["places"][place], lift))
+        cases = [case(description, kind, settings, output) for kind in here]
+        found |= teleop_runs.run(description["scene"], cases, output, lines=lines)
+    summary: dict[str, object] = {}
+    for kind in chosen:
+        summary |= {f"{kind}.{key}": found[kind][key] for key in FIGURES}
+        summary[f"{kind}.let_go"] = found[kind]["let_go_ticks"] > 0
+    summary["kicking_kinds"] = sum(not is_quiet(found[kind]) for kind in chosen)
+    with (output / "kicks.csv").open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["kind", *FIGURES, "let_go"])
+        writer.writerows([kind, *(found[kind][key] for key in FIGURES), summary[f"{kind}.let_go"]] for kind in chosen)
+    if settings.pictures:
+        from plots import kicks
+
+        kicks.draw(output, chosen, summary, description["at"])
+    return summary
+
+
+def is_quiet(figures: dict[str, float]) -> bool:
+    return figures["felt_excess_100ms_jnd_max"] <= 1.0 or figures["let_go_ticks"] > 0
+
+
+def case(description: dict, kind: str, settings: Settings, output: Path) -> teleop_runs.Case:
+    how = dict(description["kinds"][kind])
+    keys: teleop_runs.Case = {"name": kind, "rows": output / f"{kind}.csv", "discovers": 1, "delay_ms": settings.delay}
+    keys |= {"seconds": description["seconds"], "measured_to": description["measured_to"]}
+    keys |= {"measured_from": description["at"]}
+    event = how.pop("event", None)
+    if event:
+        keys["event.0"] = f"{description['at']},{event}"
+    keys |= teleop_runs.wrong(how.pop("wrong", {}))
+    keys |= {key: value for key, value in how.items() if key not in ("place", "lift")}
+    return keys | dict(pair.split("=", 1) for pair in settings.set.split(",") if pair)
+
+
+def _lifted(variation: dict, by: float) -> dict:
+    """The hand presses what is believed to be higher by as much."""
+    return variation | {"path": [[time, x, y + by, z] for time, x, y, z in variation["path"]]}

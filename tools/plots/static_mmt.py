@@ -1,0 +1,62 @@
+"""Touch of what stands still, and what a correction costs."""
+
+from pathlib import Path
+
+from plots import style
+from plots.teleop import force_error, legend, read
+
+
+def draw(folder: Path, path: str) -> None:
+    """The thesis's figure 5.4: the force's vertical part, and the size of its error."""
+    traditional = read(folder / f"{path}.traditional_100ms.csv")
+    right, wrong = read(folder / f"{path}.mmt_right_100ms.csv"), read(folder / f"{path}.mmt_wrong_100ms.csv")
+    drawn, ((force,), (error,)) = style.figure(2, 1, 9.0, 6.0, sharex=True)
+    force.plot(right["time"], right["direct_y"], color=style.QUIET, linewidth=3.0, alpha=0.5, label="direct touch")
+    force.plot(right["time"], traditional["force_y"], color=style.WARNING, linewidth=1.1, label="traditional, 100 ms")
+    force.plot(right["time"], wrong["force_y"], color=style.REFERENCE, linewidth=1.1, label="wrong model")
+    force.plot(right["time"], right["force_y"], color=style.MEASURED, linewidth=1.1, label="right model")
+    force.set(ylabel="force, vertical (N)", xlim=(0.0, 5.0))
+    force.set_title(f"Touch of what stands still, 100 ms away: {path.replace('_', ' ')}", pad=24)
+    legend(force)
+    for rows, colour in ((traditional, style.WARNING), (wrong, style.REFERENCE), (right, style.MEASURED)):
+        error.plot(rows["time"], force_error(rows), color=colour, linewidth=1.2)
+    error.set(ylabel="force error (N)", xlabel="time (s)", ylim=(0, None))
+    style.save(drawn, folder / f"{path}_forces.png")
+    _draw_correction(folder, path)
+
+
+def _draw_correction(folder: Path, path: str) -> None:
+    rows, wrong = read(folder / f"{path}.mmt_wrong_corrected_100ms.csv"), read(folder / f"{path}.mmt_wrong_100ms.csv")
+    drawn, ((error,), (offset,)) = style.figure(2, 1, 9.0, 4.6, sharex=True, height_ratios=[2, 1])
+    error.plot(wrong["time"], force_error(wrong), color=style.REFERENCE, linewidth=1.1, label="left wrong")
+    error.plot(rows["time"], force_error(rows), color=style.MEASURED, label="corrected from the first touch on")
+    error.set(ylabel="force error (N)", xlim=(0.0, 5.0), ylim=(0, None))
+    error.set_title("A wrong model becomes right", pad=24)
+    legend(error)
+    offset.plot(rows["time"], rows["offset_m"] * 1e3, color=style.INK, linewidth=1.2)
+    offset.set(ylabel="pointers\ncarried (mm)", xlabel="time (s)", ylim=(0, None))
+    style.save(drawn, folder / f"{path}_correction.png")
+
+
+def draw_trade(summary: dict[str, object], paths: tuple[str, ...], shares: tuple[str, ...], ours: str, path: Path) -> None:
+    """Felt excess against time to truth: the same correction from careful to careless."""
+    drawn, ((one,),) = style.figure(1, 1, 7.0, 4.6)
+    for name, colour in zip(paths, (style.MEASURED, style.REFERENCE)):
+        points = [
+            (
+                float(summary[f"{name}.trade.{share}.seconds_until_right"]),
+                float(summary[f"{name}.trade.{share}.felt_excess_100ms_jnd_max"]),
+            )
+            for share in shares
+        ]
+        one.plot(*zip(*points), color=colour, marker="o", markersize=4, label=name.replace("_", " "))
+        for share, point in zip(shares, points):
+            one.annotate(share, point, textcoords="offset points", xytext=(5, 3), fontsize=7, color=colour)
+        default = [float(summary[f"{name}.{ours}.{key}"]) for key in ("seconds_until_right", "felt_excess_100ms_jnd_max")]
+        one.plot(*default, color=colour, marker="s", markersize=8, fillstyle="none")
+    one.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
+    one.set(xlabel="seconds from the first touch until right", yscale="log", xlim=(0, None))
+    one.set_ylabel("felt excess over 100 ms, largest\n(just-noticeable differences)")
+    one.set_title("What is felt of a correction against the time it takes", pad=12)
+    one.legend(fontsize=8, title="numbers: share of a JND in 100 ms; square: default", title_fontsize=7)
+    style.save(drawn, path)
