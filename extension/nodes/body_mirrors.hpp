@@ -31,7 +31,7 @@ struct SceneFacts {
 
 struct BodyPoint {
     godot::CollisionObject3D* body = nullptr;  // null: nothing is met
-    TouchedPoint at;
+    SurfaceHit at;
 };
 
 class BodyMirrors {
