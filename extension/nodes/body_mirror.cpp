@@ -65,8 +65,7 @@ void BodyMirror::remove(Session& session) {
 }
 
 // Godot tells of changes of what it is made of from now on.
-void BodyMirror::listen(const MirrorContext& context) {
-    CollisionObject3D& node = *body();
+void BodyMirror::listen(CollisionObject3D& node, const MirrorContext& context) {
     if (ObjectDB::get_instance(watch_) == nullptr) {
         watch_ = BodyWatch::put_into(node, context.news);
     }
@@ -89,7 +88,7 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     key_ = shape_key(node);
     mesh_changes_ = HapticMesh::changes();
     makings_ = read_makings(node);
-    listen(context);
+    listen(node, context);
     shapes_ = read_shapes(node);
     if (handle_ == no_handle) {
         remember_place(node);
@@ -189,11 +188,11 @@ bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) 
     return !same_shapes(read_shapes(node), shapes_);
 }
 
-void BodyMirror::send_values(Session& session, const MirrorContext& context) {
+void BodyMirror::send_values(CollisionObject3D& node, Session& session, const MirrorContext& context) {
     const BodyValues before = values_;
-    values_ = read_values(*body(), context.defaults);
+    values_ = read_values(node, context.defaults);
     if (values_.material != before.material) {
-        listen(context);
+        listen(node, context);
     }
     bool described_anew = false;
     const auto changes = [&described_anew](bool differs) {
@@ -246,8 +245,8 @@ std::vector<std::string> BodyMirror::problems() const {
     return all;
 }
 
-void BodyMirror::send_motion(Session& session, double seconds, std::uint64_t takes_effect) {
-    CollisionObject3D& node = *body();
+void BodyMirror::send_motion(CollisionObject3D& node, Session& session, double seconds,
+                             std::uint64_t takes_effect) {
     const Transform3D place = node.get_global_transform();
     place_problem_ = problem_of_place(place);
     if (!(place == place_) && place_problem_.empty()) {
@@ -285,16 +284,17 @@ void BodyMirror::synchronise(Session& session, const MirrorContext& context, dou
     }
     if (handle_ != no_handle) {
         hold_still_in_godot(*node);
-        send_values(session, context);
-        send_motion(session, seconds, context.takes_effect);
+        send_values(*node, session, context);
+        send_motion(*node, session, seconds, context.takes_effect);
     }
 }
 
 bool BodyMirror::follow(Session& session, const MirrorContext& context, double seconds) {
-    if (handle_ == no_handle || body() == nullptr) {
+    CollisionObject3D* node = handle_ != no_handle ? body() : nullptr;
+    if (node == nullptr) {
         return false;
     }
-    send_motion(session, seconds, context.takes_effect);
+    send_motion(*node, session, seconds, context.takes_effect);
     return !place_problem_.empty();
 }
 

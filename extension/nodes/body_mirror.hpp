@@ -81,9 +81,10 @@ private:
     bool deform(Session& session, Job& job);
     void catch_up(Session& session, const BodyPlan& plan);
     bool needs_a_new_twin(godot::CollisionObject3D& body, bool shapes_changed);
-    void listen(const MirrorContext& context);
-    void send_values(Session& session, const MirrorContext& context);
-    void send_motion(Session& session, double seconds, std::uint64_t takes_effect);
+    void listen(godot::CollisionObject3D& node, const MirrorContext& context);
+    void send_values(godot::CollisionObject3D& node, Session& session, const MirrorContext& context);
+    void send_motion(godot::CollisionObject3D& node, Session& session, double seconds,
+                     std::uint64_t takes_effect);
     void hold_still_in_godot(godot::CollisionObject3D& body) const;
     void remember_place(godot::CollisionObject3D& body);
 

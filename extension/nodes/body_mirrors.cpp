@@ -14,14 +14,14 @@ namespace {
 
 // Bodies that are looked at in a frame whatever was told: as many as cost a few hundredths of a millisecond,
 // and in a large scene so many that each has its turn within about a second.
-constexpr std::size_t min_turns = 24;
-constexpr std::size_t frames_a_round = 64;
+constexpr std::size_t min_turns = 12;
+constexpr std::size_t frames_a_round = 96;
 
 // Speeds are cheaper to ask for, and a throw should not wait.
-constexpr std::size_t frames_a_round_of_speeds = 4;
+constexpr std::size_t frames_a_round_of_speeds = 16;
 
-std::size_t turns(std::size_t count) {
-    return std::min(count, std::max(min_turns, count / frames_a_round));
+std::size_t turns(std::size_t count, std::size_t frames) {
+    return std::min(count, std::max(min_turns, count / frames));
 }
 
 void collect(const Node& node, std::vector<CollisionObject3D*>& bodies, std::vector<Joint3D*>& joints,
@@ -195,12 +195,11 @@ void BodyMirrors::look_at_bodies(Session& session, const MirrorContext& context,
             look_at(*mirror, session, context, seconds, complaints);
         }
     }
-    for (std::size_t i = turns(bodies_.size()); i > 0; --i) {
+    for (std::size_t i = turns(bodies_.size(), frames_a_round); i > 0; --i) {
         next_body_ = next_body_ + 1 < bodies_.size() ? next_body_ + 1 : 0;
         look_at(*bodies_[next_body_], session, context, seconds, complaints);
     }
-    for (std::size_t i = (bodies_.size() + frames_a_round_of_speeds - 1) / frames_a_round_of_speeds; i > 0;
-         --i) {
+    for (std::size_t i = turns(bodies_.size(), frames_a_round_of_speeds); i > 0; --i) {
         next_rigid_ = next_rigid_ + 1 < bodies_.size() ? next_rigid_ + 1 : 0;
         if (bodies_[next_rigid_]->is_thrown()) {
             look_at_motion(*bodies_[next_rigid_], session, context, seconds, complaints);
@@ -213,7 +212,7 @@ void BodyMirrors::look_at_joints(Session& session, Complaints& complaints) {
         return node != nullptr ? of(node->get_instance_id()) : nullptr;
     };
     const bool all = std::exchange(handles_changed_, false) || !in_turn_;
-    for (std::size_t i = all ? joints_.size() : turns(joints_.size()); i > 0; --i) {
+    for (std::size_t i = all ? joints_.size() : turns(joints_.size(), frames_a_round); i > 0; --i) {
         next_joint_ = next_joint_ + 1 < joints_.size() ? next_joint_ + 1 : 0;
         JointMirror& joint = *joints_[next_joint_];
         joint.synchronise(session, mirror_of);

@@ -10,6 +10,7 @@
 #include <godot_cpp/classes/viewport.hpp>
 
 #include "devices/path_device.hpp"
+#include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
@@ -25,6 +26,16 @@ namespace {
 
 // The hand of a mouse stays at least this far in front of the camera (unit: meters).
 constexpr double nearest_depth = 0.02;
+
+// No hand goes farther from the origin (unit: meters).
+constexpr double farthest_hand = 1e6;
+
+// Of a simulated arm: heavier, tougher or firmer ones are no hand's (units: kilograms, newton seconds per
+// meter, newtons per meter).
+constexpr double max_arm_mass = 1e3;
+constexpr double min_arm_mass = 1e-3;
+constexpr double max_arm_damping = 1e4;
+constexpr double max_arm_stiffness = 1e6;
 
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
@@ -106,8 +117,8 @@ void HapticDevice::arm_changed() {
 }
 
 void HapticDevice::set_arm_mass(double kilograms) {
-    if (!is_above_zero(kilograms)) {
-        refuse(*this, "arm_mass", kilograms, "a finite number above 0");
+    if (!(kilograms >= min_arm_mass && kilograms <= max_arm_mass)) {
+        refuse(*this, "arm_mass", kilograms, "between 0.001 and 1,000 kg");
         return;
     }
     arm_settings_.mass = kilograms;
@@ -115,8 +126,8 @@ void HapticDevice::set_arm_mass(double kilograms) {
 }
 
 void HapticDevice::set_arm_damping(double newton_seconds_per_meter) {
-    if (!is_at_least_zero(newton_seconds_per_meter)) {
-        refuse(*this, "arm_damping", newton_seconds_per_meter, "a finite number, 0 or more");
+    if (!(newton_seconds_per_meter >= 0.0 && newton_seconds_per_meter <= max_arm_damping)) {
+        refuse(*this, "arm_damping", newton_seconds_per_meter, "between 0 and 10,000 N·s/m");
         return;
     }
     arm_settings_.damping = newton_seconds_per_meter;
@@ -124,8 +135,8 @@ void HapticDevice::set_arm_damping(double newton_seconds_per_meter) {
 }
 
 void HapticDevice::set_arm_stiffness(double newtons_per_meter) {
-    if (!is_at_least_zero(newtons_per_meter)) {
-        refuse(*this, "arm_stiffness", newtons_per_meter, "a finite number, 0 or more");
+    if (!(newtons_per_meter >= 0.0 && newtons_per_meter <= max_arm_stiffness)) {
+        refuse(*this, "arm_stiffness", newtons_per_meter, "between 0 and 1,000,000 N/m");
         return;
     }
     arm_settings_.stiffness = newtons_per_meter;
@@ -158,13 +169,7 @@ String HapticDevice::problem() const {
     if (follows_path() && !path_problem_.is_empty()) {
         return "its path cannot be followed: " + path_problem_;
     }
-    if (is_inside_tree() && !get_global_transform().is_finite()) {
-        return "its transform is not made of finite numbers: reset it in the inspector";
-    }
-    if (is_inside_tree() && get_global_transform().basis.determinant() == 0) {
-        return "it is scaled to zero: give it and the nodes above it a scale that is not zero";
-    }
-    return String();
+    return is_inside_tree() ? to_godot(problem_of_place(get_global_transform())) : String();
 }
 
 String HapticDevice::get_state_text() const {
@@ -269,6 +274,10 @@ Workspace HapticDevice::workspace() const {
 }
 
 void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change) {
+    if (!screen_position.is_finite() || !std::isfinite(depth_change)) {
+        refuse(*this, "aim_mouse", screen_position, "a place of the screen, and a finite way to it");
+        return;
+    }
     Camera3D* camera = is_inside_tree() ? get_viewport()->get_camera_3d() : nullptr;
     if (mouse_ == nullptr || camera == nullptr) {
         return;
@@ -281,7 +290,11 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     if (!(slant > 0.0)) {
         return;
     }
-    mouse_target_ = eye + ray * (depth / slant);
+    const Vec3 target = eye + ray * (depth / slant);
+    if (!(glm::length(target) < farthest_hand)) {
+        return;  // a camera that is nowhere sees no place
+    }
+    mouse_target_ = target;
     const Workspace mapping = workspace();
     const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
     mouse_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});

@@ -10,6 +10,7 @@ using namespace godot;
 
 namespace {
 
+constexpr double max_length = 1e6;  // of all there is to say about a path (unit: meters)
 constexpr int64_t max_waves = 1'000'000;
 
 constexpr int line_steps = 600;  // points of a drawn path: 3 mm apart on the path of the thesis
@@ -29,8 +30,8 @@ void HapticPath::set_form(Form form) {
 }
 
 void HapticPath::set_center(const Vector3& center) {
-    if (!center.is_finite()) {
-        refuse(*this, "circle_center", center, "made of finite numbers");
+    if (!(static_cast<double>(center.length()) <= max_length)) {
+        refuse(*this, "circle_center", center, "no farther than 1,000,000 m");
         return;
     }
     change(circle_.centre, from_godot(center));
@@ -41,16 +42,16 @@ Vector3 HapticPath::get_center() const {
 }
 
 void HapticPath::set_radius(double radius) {
-    if (!is_at_least_zero(radius)) {
-        refuse(*this, "circle_radius", radius, "a finite number, 0 or more");
+    if (!(radius >= 0.0 && radius <= max_length)) {
+        refuse(*this, "circle_radius", radius, "between 0 and 1,000,000 m");
         return;
     }
     change(circle_.radius, radius);
 }
 
 void HapticPath::set_amplitude(double amplitude) {
-    if (!is_at_least_zero(amplitude)) {
-        refuse(*this, "circle_amplitude", amplitude, "a finite number, 0 or more");
+    if (!(amplitude >= 0.0 && amplitude <= max_length)) {
+        refuse(*this, "circle_amplitude", amplitude, "between 0 and 1,000,000 m");
         return;
     }
     change(circle_.amplitude, amplitude);
@@ -107,6 +108,11 @@ String HapticPath::get_problem() const {
         return "there are " + String::num_int64(points_.size()) + " points and " +
                String::num_int64(times_.size()) +
                " times: give each point a time, or leave the times empty for one second a point";
+    }
+    for (int64_t i = 0; form_ == FORM_POINTS && i < points_.size(); ++i) {
+        if (static_cast<double>(points_[i].length()) > max_length) {
+            return "point " + String::num_int64(i) + " is no place within 1,000,000 m: set it anew";
+        }
     }
     return to_godot(problem_with(hand_path()));
 }

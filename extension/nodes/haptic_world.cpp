@@ -340,12 +340,18 @@ void HapticWorld::_notification(int what) {
 }
 
 void HapticWorld::node_added(Node* node) {
+    if (node == nullptr) {
+        return;
+    }
     if (run_ != nullptr) {
         run_->scene_changed(*node);
     }
 }
 
 void HapticWorld::node_removed(Node* node) {
+    if (node == nullptr) {
+        return;
+    }
     if (run_ == nullptr) {
         return;
     }

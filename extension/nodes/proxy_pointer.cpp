@@ -27,6 +27,9 @@ namespace {
 constexpr double hand_size = 0.5;
 constexpr double line_size = 0.2;
 
+constexpr double min_radius = 1e-6;  // (unit: meters)
+constexpr double max_radius = 1e3;
+
 constexpr float opaque = 1.0f;
 const Color proxy_color(0.1f, 0.4f, 0.9f, opaque);
 const Color hand_color(0.95f, 0.15f, 0.15f, opaque);
@@ -71,10 +74,10 @@ void ProxyPointer::set_device(const NodePath& path) {
 }
 
 void ProxyPointer::set_radius(double meters) {
-    radius_was_refused_ = !is_above_zero(meters);
+    radius_was_refused_ = !(meters >= min_radius && meters <= max_radius);
     update_configuration_warnings();
     if (radius_was_refused_) {
-        refuse(*this, "radius", meters, "a finite number above 0");
+        refuse(*this, "radius", meters, "between 0.000001 and 1,000 m");
         return;
     }
     radius_ = meters;

@@ -19,7 +19,7 @@ const FLOATS: Array[float] = [
 	0.0, -0.0, 1.0, -1.0, 0.01, 0.5, 3.0, 100.0, 1e-9, 1e6, 1e20, 1e300, -1e300, INF, -INF, NAN
 ]
 const INTEGERS: Array[int] = [
-	0, 1, 2, 3, 5, 7, 50, 99, 500, 1000, 65535, 65536, -1, -2, -3, 0xffffffff, 0x7fffffff, 1 << 40, -(1 << 62)
+	0, 1, 2, 3, 5, 7, 50, 99, 500, 1000, 4096, 70000, -1, -2, -3, 0xffffffff, 0x7fffffff, 1 << 40, -(1 << 62)
 ]
 const STRINGS: Array[String] = [
 	"",
@@ -32,7 +32,7 @@ const STRINGS: Array[String] = [
 	"bunny",
 	"127.0.0.1",
 	"::1",
-	"no such host.invalid",
+	"fe80::zz",
 	"short",
 	"a long enough key",
 	"\n\t\"'\\"
@@ -63,7 +63,8 @@ class Ears:
 
 
 var _chance := RandomNumberGenerator.new()
-var _objects: Array[Object] = []
+## Some of them are gone by now.
+var _objects := []
 var _ears := Ears.new()
 
 
@@ -71,10 +72,16 @@ func _any(from: Array) -> Variant:
 	return from[_chance.randi() % from.size()]
 
 
+func _living(kind := "Object") -> Array:
+	var living := []
+	for object in _objects:
+		if is_instance_valid(object) and object.is_class(kind):
+			living.append(object)
+	return living
+
+
 func _node() -> Node:
-	var nodes := _objects.filter(
-		func(object: Object) -> bool: return is_instance_valid(object) and object is Node
-	)
+	var nodes := _living("Node")
 	return _any(nodes) if not nodes.is_empty() else null
 
 
@@ -89,7 +96,8 @@ func _value(type: int, name: String, kind: String) -> Variant:
 			# A step longer than this only takes long.
 			return _any(FLOATS) if name != "seconds" else _any([0.0, 0.001, 0.01, -1.0, NAN, 1e300])
 		TYPE_STRING:
-			return _any(STRINGS)
+			# Others are looked up in the network, for as long as that takes.
+			return _any(STRINGS) if not name.ends_with("address") else _any(["127.0.0.1", "::1", ""])
 		TYPE_STRING_NAME:
 			return StringName(_any(STRINGS))
 		TYPE_NODE_PATH:
@@ -107,10 +115,7 @@ func _value(type: int, name: String, kind: String) -> Variant:
 		TYPE_PACKED_FLOAT64_ARRAY:
 			return _any([PackedFloat64Array(), PackedFloat64Array([1.0, 0.0]), PackedFloat64Array([NAN])])
 		TYPE_OBJECT:
-			var fitting := _objects.filter(
-				func(object: Object) -> bool:
-					return is_instance_valid(object) and (kind.is_empty() or object.is_class(kind))
-			)
+			var fitting := _living(kind if not kind.is_empty() else "Object")
 			return _any(fitting) if not fitting.is_empty() and _chance.randi() % 4 != 0 else null
 	return null
 
@@ -156,7 +161,10 @@ func _make_something() -> String:
 	var made: Object
 	match _chance.randi() % 3:
 		0:
-			made = ClassDB.instantiate(_any(CLASSES))
+			# A start of a world takes longer than a thousand other calls.
+			var kind: String = _any(CLASSES)
+			var has_room := kind != "HapticWorld" or _living(kind).size() < 3
+			made = ClassDB.instantiate(kind if has_room else "HapticPath")
 		1:
 			made = with_shape(
 				_any([StaticBody3D, RigidBody3D, AnimatableBody3D, CharacterBody3D]).new(), sphere(0.1)
@@ -206,7 +214,7 @@ func _move_something() -> String:
 
 
 func _do_something() -> String:
-	_objects.assign(_objects.filter(func(object: Object) -> bool: return is_instance_valid(object)))
+	_objects = _living()
 	var ours := _objects.filter(func(object: Object) -> bool: return object.get_class() in CLASSES)
 	var kind := _chance.randi() % 10
 	if ours.size() < 12 or kind == 0:
@@ -226,6 +234,8 @@ func _answer(object: Object) -> void:
 func test_ten_thousand_calls() -> void:
 	expect_error("")
 	OS.add_logger(_ears)
+	# It would move bodies that are nowhere, and complain in every step.
+	PhysicsServer3D.set_active(false)
 	_chance.seed = 20260101
 	var answered := {}
 	var slowest := 0
@@ -255,4 +265,5 @@ func test_ten_thousand_calls() -> void:
 			object.free()
 	_objects.clear()
 	await frames(3)
+	PhysicsServer3D.set_active(true)
 	OS.remove_logger(_ears)
