@@ -19,8 +19,21 @@ LINK_EXTENSION = [
 ]  # fmt: skip
 
 
-def compile_flags(target):
-    return [*LANGUAGE, *OPTIMISED, *SAME_BITS, *WARNINGS, *BY_TARGET[target]]
+# Which may stand together: address with undefined.
+SANITIZERS = ["address", "undefined", "thread"]
+
+
+def sanitize_flags(sanitizers):
+    # What is undefined ends the program, like what the others find.
+    return [f"-fsanitize={sanitizers}", "-fno-sanitize-recover=all"] if sanitizers else []
+
+
+def compile_flags(target, sanitizers=""):
+    plain = [*LANGUAGE, *OPTIMISED, *SAME_BITS, *WARNINGS, *BY_TARGET[target]]
+    if not sanitizers:
+        return plain
+    # Less inlining than -O3 for a quicker build; warnings that only watched code gives are not errors.
+    return [*plain, "-O1", "-fno-omit-frame-pointer", "-Wno-error", *sanitize_flags(sanitizers)]
 
 
 # A unique symbol would keep the library loaded for ever, and the editor from reloading it. The linker drops the
@@ -37,3 +50,11 @@ FLAGS_OF_LAYER = {
 
 # Runs on any processor, to say what is missing on an older one.
 FLAGS_OF_FILE = {"extension/nodes/entry.cpp": ["-march=x86-64"]}
+
+# Stands in front of the C library and of the sanitizers: it runs before these are ready.
+NOT_WATCHED = ["tests/support/realtime_audit.cpp"]
+
+
+def flags_of_file(source, sanitizers):
+    audit = [f"-DTACTUS_SANITIZE_{name.upper()}=1" for name in sanitizers.split(",") if name]
+    return [*FLAGS_OF_FILE.get(source, []), *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]

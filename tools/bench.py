@@ -1,4 +1,7 @@
-"""./run bench [NAME] [--key=value …]: builds and runs tests/bench/NAME.cpp, which writes build/bench/NAME.json."""
+"""./run bench [NAME] [--key=value …]: builds and runs tests/bench/NAME.cpp, which writes build/bench/NAME.json.
+
+NAME.gd is a bench inside Godot.
+"""
 
 import os
 import subprocess
@@ -6,11 +9,16 @@ import sys
 from pathlib import Path
 
 import build
-from setup import cache
+from setup import cache, godot, jolt
 
 
 def names() -> list[str]:
-    return sorted(path.stem for path in (cache.clone() / "tests/bench").glob("*.cpp"))
+    return sorted(path.stem for path in (cache.clone() / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd"))
+
+
+def run_in_godot(script: Path, result: Path) -> int:
+    command = [godot.command(), "--headless", "--path", cache.clone() / "demo_project", "--script", script, "--", result]
+    return subprocess.run(command).returncode
 
 
 def draw(name: str, result: Path) -> None:
@@ -27,6 +35,9 @@ def main(arguments: list[str]) -> int:
     if unknown or (passed_on and len(chosen) != 1):
         print(f"./run bench [NAME] [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
         return 2
+    if "proxy" in (chosen or names()) and jolt.installed() is None and jolt.ready(fast=True) is None:
+        print("Building Jolt without its deterministic mode, once, to hold beside it …", flush=True)
+        jolt.fetch_and_build(fast=True)
     build.build("template_release", "benches")
     output = cache.clone() / "build/bench"
     output.mkdir(parents=True, exist_ok=True)
@@ -35,7 +46,11 @@ def main(arguments: list[str]) -> int:
         result = output / f"{name}.json"
         print(f"== {name}", flush=True)
         environment = os.environ | {"TACTUS_BENCH_JSON": str(result)}
-        code = subprocess.run([program, *passed_on], env=environment).returncode
+        script = cache.clone() / "tests/bench" / f"{name}.gd"
+        if script.is_file():
+            code = run_in_godot(script, result)
+        else:
+            code = subprocess.run([program, *passed_on], env=environment).returncode
         if code != 0:
             return code
         if result.is_file():

@@ -18,6 +18,7 @@ def step(target: str) -> Step:
 
 
 def build(target: str, *what: str) -> None:
+    """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
     options = ["-s", f"-j{os.cpu_count() or 1}", f"target={target}", "progress=yes"]
     progress, printed = Progress(), []
     with subprocess.Popen(

@@ -9,14 +9,14 @@ from setup.steps import Step
 
 
 def main(command: str, arguments: list[str]) -> int:
-    steps.run(needed(command))
+    steps.run(needed(command, arguments))
     return COMMANDS[command](arguments)
 
 
-def needed(command: str) -> list[Step]:
+def needed(command: str, arguments: list[str]) -> list[Step]:
     plan = steps.dependencies()
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
-    if command == "bench":
+    if command == "bench" or any(argument.startswith("--sanitize") for argument in arguments):
         return plan
     if command in ("setup", "export", "addon", "test"):
         return [*plan, steps.export_template(), debug, release, imported]

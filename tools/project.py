@@ -10,7 +10,6 @@ from setup import cache, display, godot
 from setup.steps import Step
 
 FOLDER = cache.clone() / "demo_project"
-EXTENSION_LIST = FOLDER / ".godot/extension_list.cfg"
 
 
 def import_step() -> Step:
@@ -18,11 +17,18 @@ def import_step() -> Step:
 
 
 def import_resources() -> None:
+    import_into(FOLDER)
+    _stamp().write_text(_content())
+
+
+def import_into(folder: Path) -> None:
+    """Any project with the addon in it."""
     # The first scan would meet the scenes before the extension whose classes they use.
-    EXTENSION_LIST.parent.mkdir(exist_ok=True)
-    EXTENSION_LIST.write_text("res://addons/tactus/tactus.gdextension\n")
+    extension_list = folder / ".godot/extension_list.cfg"
+    extension_list.parent.mkdir(exist_ok=True)
+    extension_list.write_text("res://addons/tactus/tactus.gdextension\n")
     done = subprocess.run(
-        [str(godot.command()), "--headless", "--path", FOLDER, "--import"],
+        [str(godot.command()), "--headless", "--path", folder, "--import"],
         text=True,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -30,7 +36,6 @@ def import_resources() -> None:
     if done.returncode != 0:
         print(done.stdout, file=sys.stderr)
         raise RuntimeError("Godot could not import the project")
-    _stamp().write_text(_content())
 
 
 def _is_imported() -> bool:
@@ -82,9 +87,9 @@ def export() -> int:
     return 0
 
 
-def export_to(target: Path) -> None:
+def export_to(target: Path, folder: Path = FOLDER) -> None:
     """The program, with the extension's library beside it."""
-    command = [str(godot.command()), "--headless", "--path", FOLDER, "--export-release", "Linux", target]
+    command = [str(godot.command()), "--headless", "--path", folder, "--export-release", "Linux", target]
     done = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0 or not target.is_file():
         raise RuntimeError(f"Godot could not export the project:\n{done.stdout[-3000:]}")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace tactus {
 namespace {
@@ -45,22 +46,31 @@ bool DiscoveryReceiver::next_acknowledgement(DiscoveryAcknowledgement& acknowled
     return acknowledgements_.try_pop(acknowledgement);
 }
 
-std::optional<DiscoveryEvent> DiscoveryReceiver::next(Nanoseconds now) {
-    while (const Piece* piece = pieces_.front()) {
-        std::optional<DiscoveryEvent> event = take(*piece, now);
+std::optional<DiscoveryEvent> DiscoveryReceiver::next() {
+    for (std::size_t i = 0; i < settings_.pieces_waiting; ++i) {
+        if (std::optional<DiscoveryEvent> event = take_read()) {
+            return event;
+        }
+        const Piece* const piece = pieces_.front();
+        if (piece == nullptr) {
+            break;
+        }
+        std::optional<DiscoveryEvent> event = take(*piece);
         pieces_.pop();
         if (event) {
             return event;
         }
     }
-    return std::nullopt;
+    return take_read();
 }
 
-std::optional<DiscoveryEvent> DiscoveryReceiver::take(const Piece& piece, Nanoseconds now) {
+std::optional<DiscoveryEvent> DiscoveryReceiver::take(const Piece& piece) {
+    ++pieces_taken_;
     switch (piece.kind) {
         case Piece::Kind::fragment:
             ++counts_.pieces;
-            return take_fragment(piece, now);
+            take_fragment(piece);
+            return std::nullopt;
         case Piece::Kind::removal:
             return remove(piece);
         case Piece::Kind::restart:
@@ -68,123 +78,174 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::take(const Piece& piece, Nanose
     }
     objects_.clear();
     removed_.clear();
+    readings_.clear();
     incomplete_bytes_ = 0;
     return DiscoveryEvent{DiscoveryEvent::Kind::restarted, no_object, {}};
 }
 
-std::optional<DiscoveryEvent> DiscoveryReceiver::take_fragment(const Piece& piece, Nanoseconds now) {
-    Object* object = object_for(piece, now);
+void DiscoveryReceiver::take_fragment(const Piece& piece) {
+    Object* const object = object_for(piece);
     if (object == nullptr) {
-        return std::nullopt;
+        return;
     }
-    if (object->is_complete()) {
+    if (object->progress != Progress::gathering) {
         // Complete: its acknowledgement was lost. One answer for each time that it is told.
         ++counts_.repeated;
         if (object->verdict && piece.offset + piece.size == piece.total_bytes) {
             acknowledge(piece.object, object->hash, *object->verdict);
         }
-        return std::nullopt;
+        return;
     }
-    Assembly& assembly = object->assembly;
-    assembly.touched = now;
-    const std::size_t number = piece.offset / most_fragment_bytes;
-    if (assembly.have[number]) {
+    object->touched = pieces_taken_;
+    const std::uint32_t number = piece.offset / most_fragment_bytes;
+    if (object->pieces.contains(number)) {
         ++counts_.repeated;
-        return std::nullopt;
+        return;
     }
-    std::memcpy(assembly.bytes.data() + piece.offset, piece.bytes.data(), piece.size);
-    assembly.have[number] = true;
-    if (--assembly.missing > 0) {
-        return std::nullopt;
+    if (!make_room(object)) {
+        no_room_for(piece);
+        return;
     }
-    return finish(piece.object, *object);
+    object->pieces[number].assign(piece.bytes.begin(), piece.bytes.begin() + piece.size);
+    incomplete_bytes_ += most_fragment_bytes;
+    if (object->pieces.size() == (piece.total_bytes + most_fragment_bytes - 1) / most_fragment_bytes) {
+        begin_reading(piece.object, *object);
+    }
 }
 
 // The object that the piece describes, begun anew where it is the first piece of a new description. Null
 // where the piece is of no use.
-DiscoveryReceiver::Object* DiscoveryReceiver::object_for(const Piece& piece, Nanoseconds now) {
-    const auto found = objects_.find(piece.object);
-    bool known = found != objects_.end();
+DiscoveryReceiver::Object* DiscoveryReceiver::object_for(const Piece& piece) {
     if (is_outdated(piece)) {
         ++counts_.outdated;
         return nullptr;
     }
+    const auto found = objects_.find(piece.object);
+    const bool known = found != objects_.end();
     if (known && found->second.revision == piece.revision) {
         Object& object = found->second;
         if (object.hash == piece.hash && object.total_bytes == piece.total_bytes) {
             return &object;
         }
         ++counts_.wrong_hash;
-        if (object.is_complete()) {
+        if (object.progress != Progress::gathering) {
             return nullptr;
         }
     }
-    if (known && !found->second.is_complete()) {
-        release(found->second);
-        objects_.erase(found);
-        known = false;
-    }
-    if ((!known && objects_.size() >= settings_.most_objects) || !make_room(piece.total_bytes, now)) {
-        ++counts_.no_room;
-        if (piece.offset + piece.size == piece.total_bytes) {
-            acknowledge(piece.object, piece.hash, DiscoveryVerdict::no_room);
-        }
+    if (!known && !make_room(nullptr)) {
+        no_room_for(piece);
         return nullptr;
     }
     Object& object = objects_[piece.object];
-    begin(object, piece);
+    release(object);
+    object = {piece.revision, piece.hash, piece.total_bytes, Progress::gathering, {}, {}, pieces_taken_};
     return &object;
 }
 
-bool DiscoveryReceiver::make_room(std::size_t bytes, Nanoseconds now) {
-    if (incomplete_bytes_ + bytes <= settings_.most_incomplete_bytes) {
-        return true;
+void DiscoveryReceiver::no_room_for(const Piece& piece) {
+    ++counts_.no_room;
+    if (piece.offset + piece.size == piece.total_bytes) {
+        acknowledge(piece.object, piece.hash, DiscoveryVerdict::no_room);
     }
-    for (auto it = objects_.begin(); it != objects_.end();) {
-        const Assembly& assembly = it->second.assembly;
-        const bool stale = !it->second.is_complete() && now - assembly.touched > settings_.give_up_after;
-        if (stale) {
-            release(it->second);
-            ++counts_.unfinished;
-        }
-        it = stale ? objects_.erase(it) : std::next(it);
-    }
-    return incomplete_bytes_ + bytes <= settings_.most_incomplete_bytes;
 }
 
-void DiscoveryReceiver::begin(Object& object, const Piece& piece) {
-    object.revision = piece.revision;
-    object.hash = piece.hash;
-    object.total_bytes = piece.total_bytes;
-    object.verdict.reset();
-    Assembly& assembly = object.assembly;
-    assembly.missing = (piece.total_bytes + most_fragment_bytes - 1) / most_fragment_bytes;
-    assembly.bytes.assign(piece.total_bytes, std::byte{0});
-    assembly.have.assign(assembly.missing, false);
-    incomplete_bytes_ += piece.total_bytes;
+// For another object (null), or for a piece of `object`.
+bool DiscoveryReceiver::has_room(const Object* object) const {
+    if (object == nullptr) {
+        return objects_.size() < settings_.most_objects;
+    }
+    const bool has_most = object->pieces.size() * most_fragment_bytes > settings_.most_incomplete_bytes / 2;
+    const std::size_t room = settings_.most_incomplete_bytes + (has_most ? object->total_bytes : 0);
+    return incomplete_bytes_ + most_fragment_bytes <= room;
+}
+
+bool DiscoveryReceiver::make_room(const Object* object) {
+    while (!has_room(object)) {
+        auto oldest = objects_.end();
+        for (auto it = objects_.begin(); it != objects_.end(); ++it) {
+            const bool may_go = it->second.progress == Progress::gathering && &it->second != object;
+            if (may_go && (oldest == objects_.end() || it->second.touched < oldest->second.touched)) {
+                oldest = it;
+            }
+        }
+        if (oldest == objects_.end()) {
+            return false;
+        }
+        release(oldest->second);
+        objects_.erase(oldest);
+        ++counts_.unfinished;
+    }
+    return true;
 }
 
 // Forgets the pieces of what is incomplete.
 void DiscoveryReceiver::release(Object& object) {
-    incomplete_bytes_ -= object.assembly.bytes.size();
-    object.assembly = {};
+    incomplete_bytes_ -= object.pieces.size() * most_fragment_bytes;
+    object.pieces.clear();
 }
 
-std::optional<DiscoveryEvent> DiscoveryReceiver::finish(ObjectId id, Object& object) {
-    const std::vector<std::byte> bytes = std::move(object.assembly.bytes);
-    object.assembly = {};
-    incomplete_bytes_ -= bytes.size();
-    if (content_hash(bytes) != object.hash) {
+void DiscoveryReceiver::begin_reading(ObjectId id, Object& object) {
+    object.progress = Progress::reading;
+    auto reading = std::make_shared<Reading>();
+    reading->object = id;
+    reading->revision = object.revision;
+    reading->hash = object.hash;
+    reading->total_bytes = object.total_bytes;
+    reading->pieces = std::exchange(object.pieces, {});
+    readings_.push_back(reading);
+    if (run_) {
+        run_([reading] { read(*reading); });
+    } else {
+        read(*reading);
+    }
+}
+
+// On whatever thread: touches nothing but the reading.
+void DiscoveryReceiver::read(Reading& reading) {
+    std::vector<std::byte> bytes(reading.total_bytes);
+    for (const auto& [number, piece] : reading.pieces) {
+        std::memcpy(bytes.data() + number * most_fragment_bytes, piece.data(), piece.size());
+    }
+    if (content_hash(bytes) == reading.hash) {
+        const bool understood = decode_description(bytes, reading.description) == Refusal::none &&
+                                reading.description.object == reading.object;
+        reading.result = understood ? Reading::Result::good : Reading::Result::refused;
+    }
+    reading.done.store(true, std::memory_order_release);
+}
+
+std::optional<DiscoveryEvent> DiscoveryReceiver::take_read() {
+    while (!readings_.empty() && readings_.front()->done.load(std::memory_order_acquire)) {
+        const std::shared_ptr<Reading> reading = std::move(readings_.front());
+        readings_.pop_front();
+        incomplete_bytes_ -= reading->pieces.size() * most_fragment_bytes;
+        if (std::optional<DiscoveryEvent> event = accept(*reading)) {
+            return event;
+        }
+    }
+    return std::nullopt;
+}
+
+// Nothing where the object is described otherwise by now, or is not what it says.
+std::optional<DiscoveryEvent> DiscoveryReceiver::accept(Reading& reading) {
+    const auto found = objects_.find(reading.object);
+    if (found == objects_.end() || found->second.progress != Progress::reading ||
+        found->second.revision != reading.revision || found->second.hash != reading.hash) {
+        return std::nullopt;
+    }
+    if (reading.result == Reading::Result::wrong_hash) {
         ++counts_.wrong_hash;
-        objects_.erase(id);  // the next telling begins it again
+        objects_.erase(found);  // the next telling begins it again
         return std::nullopt;
     }
-    DiscoveryEvent event{DiscoveryEvent::Kind::described, id, {}};
-    if (decode_description(bytes, event.description) != Refusal::none || event.description.object != id) {
+    found->second.progress = Progress::complete;
+    if (reading.result == Reading::Result::refused) {
         ++counts_.refused;
-        answer(id, DiscoveryVerdict::refused);
+        answer(reading.object, DiscoveryVerdict::refused);
         return std::nullopt;
     }
+    DiscoveryEvent event{DiscoveryEvent::Kind::described, reading.object, std::move(reading.description)};
+    event.description.touch.texture = event.description.texture.get();
     return event;
 }
 
@@ -216,7 +277,7 @@ bool DiscoveryReceiver::is_outdated(const Piece& piece) const {
 
 void DiscoveryReceiver::answer(ObjectId object, DiscoveryVerdict verdict) {
     const auto found = objects_.find(object);
-    if (found != objects_.end() && found->second.is_complete()) {
+    if (found != objects_.end() && found->second.progress == Progress::complete) {
         found->second.verdict = verdict;
         acknowledge(object, found->second.hash, verdict);
     }

@@ -1,10 +1,18 @@
 // Puts the pieces of object descriptions together and says which objects the far side has.
 //
 // Threads: put(), put_restart() and next_acknowledgement() belong to the haptic thread and allocate nothing.
-// All else belongs to the owner, who builds what is described, off the loop. In virtual time both may be the
-// same thread.
+// All else belongs to the owner, who builds what is described, off the loop. Reading a description that is
+// complete takes a while for a large one: `run` may do it elsewhere. In virtual time all may be the same
+// thread.
+//
+// What a far side claims costs nothing: memory is taken for pieces that have come, and where there is no room
+// for more, what has waited longest for its next piece is given up.
 #pragma once
 
+#include <atomic>
+#include <deque>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -15,10 +23,10 @@
 namespace tactus {
 
 struct DiscoverySettings {
-    std::size_t pieces_waiting = 256;              // between haptic thread and owner; the rest is sent again
-    std::size_t most_objects = 4096;               // known or incomplete at once
-    std::size_t most_incomplete_bytes = 64 << 20;  // of all descriptions that are incomplete
-    Nanoseconds give_up_after = 10'000'000'000;    // an incomplete one that gets no more pieces
+    std::size_t pieces_waiting = 256;  // between haptic thread and owner; the rest is sent again
+    std::size_t most_objects = 4096;   // known or incomplete at once
+    // Of pieces of all descriptions that are not read yet. One that has got most of it may go on to its end.
+    std::size_t most_incomplete_bytes = 6 << 20;
 };
 
 struct DiscoveryEvent {
@@ -45,6 +53,9 @@ struct DiscoveryReceiverCounts {
 
 class DiscoveryReceiver {
 public:
+    // Does a job, now or later, on this thread or another one.
+    using Run = std::function<void(std::function<void()>)>;
+
     explicit DiscoveryReceiver(const DiscoverySettings& settings = {});
 
     // --- haptic thread
@@ -60,8 +71,11 @@ public:
 
     // --- owner
 
-    // What has happened, oldest first; nothing when all has been said. `now`: any steady clock.
-    std::optional<DiscoveryEvent> next(Nanoseconds now);
+    // Who reads descriptions; the caller of next() where nobody is set.
+    void set_run(Run run) { run_ = std::move(run); }
+
+    // What has happened; nothing when all has been said. The work of a call is bounded by `pieces_waiting`.
+    std::optional<DiscoveryEvent> next();
 
     // Whether the object described last under this id could be built. The far side is told.
     void answer(ObjectId object, DiscoveryVerdict verdict);
@@ -80,30 +94,44 @@ private:
         std::array<std::byte, most_fragment_bytes> bytes;
     };
 
-    struct Assembly {
-        std::vector<std::byte> bytes;
-        std::vector<bool> have;  // by piece
-        std::size_t missing = 0;
-        Nanoseconds touched = 0;
-    };
+    // Pieces that have come, by their number.
+    using Pieces = std::unordered_map<std::uint32_t, std::vector<std::byte>>;
+
+    enum class Progress : std::uint8_t { gathering, reading, complete };
 
     struct Object {
         std::uint32_t revision = 0;
         ContentHash hash{};
         std::uint32_t total_bytes = 0;
-        std::optional<DiscoveryVerdict> verdict;  // empty: incomplete, or being built
-        Assembly assembly;                        // empty: complete
-
-        bool is_complete() const { return assembly.bytes.empty(); }
+        Progress progress = Progress::gathering;
+        std::optional<DiscoveryVerdict> verdict;  // complete: empty while it is being built
+        Pieces pieces;                            // gathering
+        std::uint64_t touched = 0;                // when the last of them came, in pieces
     };
 
-    std::optional<DiscoveryEvent> take(const Piece& piece, Nanoseconds now);
-    std::optional<DiscoveryEvent> take_fragment(const Piece& piece, Nanoseconds now);
+    // A description that is being read. Shared with who does it.
+    struct Reading {
+        ObjectId object = no_object;
+        std::uint32_t revision = 0;
+        ContentHash hash{};
+        std::uint32_t total_bytes = 0;
+        Pieces pieces;
+        enum class Result : std::uint8_t { wrong_hash, refused, good } result = Result::wrong_hash;
+        ObjectDescription description;
+        std::atomic<bool> done{false};
+    };
+
+    std::optional<DiscoveryEvent> take(const Piece& piece);
+    void take_fragment(const Piece& piece);
     std::optional<DiscoveryEvent> remove(const Piece& piece);
-    std::optional<DiscoveryEvent> finish(ObjectId id, Object& object);
-    Object* object_for(const Piece& piece, Nanoseconds now);
-    bool make_room(std::size_t bytes, Nanoseconds now);
-    void begin(Object& object, const Piece& piece);
+    void begin_reading(ObjectId id, Object& object);
+    static void read(Reading& reading);
+    std::optional<DiscoveryEvent> take_read();
+    std::optional<DiscoveryEvent> accept(Reading& reading);
+    Object* object_for(const Piece& piece);
+    bool has_room(const Object* object) const;
+    bool make_room(const Object* object);
+    void no_room_for(const Piece& piece);
     void release(Object& object);
     bool is_outdated(const Piece& piece) const;
     void acknowledge(ObjectId object, const ContentHash& hash, DiscoveryVerdict verdict);
@@ -114,7 +142,10 @@ private:
     std::unordered_map<ObjectId, Object> objects_;
     // Revisions of removals: a delayed piece does not bring an object back.
     std::unordered_map<ObjectId, std::uint32_t> removed_;
-    std::size_t incomplete_bytes_ = 0;
+    std::deque<std::shared_ptr<Reading>> readings_;
+    std::size_t incomplete_bytes_ = 0;  // of pieces, those being read included
+    std::uint64_t pieces_taken_ = 0;
+    Run run_;
     DiscoveryReceiverCounts counts_;
 };
 

@@ -32,6 +32,7 @@ bool DiscoverySender::announce(PreparedDiscovery& prepared) {
     } else {
         set_progress(*entry, Progress::waiting);
     }
+    stop_telling(*entry);
     std::swap(entry->prepared, prepared);
     entry->revision = ++revision_;
     entry->offset = 0;
@@ -97,13 +98,27 @@ bool DiscoverySender::next(Nanoseconds now, Message& message) {
     for (std::size_t looked = 0; looked < entries_.size(); ++looked) {
         cursor_ = (cursor_ + 1) % entries_.size();
         Entry& entry = entries_[cursor_];
-        if ((waits(entry.progress) || entry.progress == Progress::no_room) && now >= entry.due) {
+        if (may_be_told(entry, now)) {
             fill(entry, now, message);
             ++counts_.pieces_sent;
             return true;
         }
     }
     return false;
+}
+
+// Removals always; of descriptions only so many at once.
+bool DiscoverySender::may_be_told(const Entry& entry, Nanoseconds now) const {
+    if ((!waits(entry.progress) && entry.progress != Progress::no_room) || now < entry.due) {
+        return false;
+    }
+    return entry.progress == Progress::removing || entry.under_way > 0 || under_way_ == 0 ||
+           under_way_ + entry.prepared.content->size() <= max_under_way;
+}
+
+void DiscoverySender::stop_telling(Entry& entry) {
+    under_way_ -= entry.under_way;
+    entry.under_way = 0;
 }
 
 void DiscoverySender::fill(Entry& entry, Nanoseconds now, Message& message) {
@@ -113,6 +128,9 @@ void DiscoverySender::fill(Entry& entry, Nanoseconds now, Message& message) {
         entry.due = now + repeat_after_;
         return;
     }
+    stop_telling(entry);
+    entry.under_way = prepared.content->size();
+    under_way_ += entry.under_way;
     const auto total = static_cast<std::uint32_t>(prepared.content->size());
     const auto size = std::min(static_cast<std::uint32_t>(most_fragment_bytes), total - entry.offset);
     message = DiscoveryFragment{prepared.object, entry.revision,
@@ -145,12 +163,14 @@ std::uint32_t& DiscoverySender::count_of(Progress progress) {
 }
 
 void DiscoverySender::set_progress(Entry& entry, Progress progress) {
+    stop_telling(entry);
     --count_of(entry.progress);
     entry.progress = progress;
     ++count_of(progress);
 }
 
 void DiscoverySender::drop(Entry& entry) {
+    stop_telling(entry);
     --count_of(entry.progress);
     if (&entry != &entries_.back()) {
         std::swap(entry, entries_.back());

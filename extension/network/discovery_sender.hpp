@@ -60,18 +60,25 @@ public:
 private:
     enum class Progress : std::uint8_t { waiting, known, refused, no_room, removing };
 
+    // Descriptions that are told at the same time: so few that the far side need not hold many incomplete
+    // ones (unit: bytes).
+    static constexpr std::size_t max_under_way = 4 << 20;
+
     struct Entry {
         PreparedDiscovery prepared;
         std::uint32_t revision = 0;
         Progress progress = Progress::waiting;
         std::uint32_t offset = 0;  // of the next piece
         Nanoseconds due = 0;
+        std::size_t under_way = 0;  // its bytes while it is being told
     };
 
     static bool waits(Progress progress) {
         return progress == Progress::waiting || progress == Progress::removing;
     }
     Entry* find(ObjectId object);
+    bool may_be_told(const Entry& entry, Nanoseconds now) const;
+    void stop_telling(Entry& entry);
     void set_progress(Entry& entry, Progress progress);
     std::uint32_t& count_of(Progress progress);
     void drop(Entry& entry);
@@ -81,6 +88,7 @@ private:
     std::size_t cursor_ = 0;
     std::uint32_t revision_ = 0;  // given last, of all objects
     Nanoseconds repeat_after_ = 200'000'000;
+    std::size_t under_way_ = 0;  // of all entries
     DiscoveryCounts counts_;
 };
 

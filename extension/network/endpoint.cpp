@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+
+#include "network/plausibility.hpp"
 
 namespace tactus {
 namespace {
@@ -11,6 +15,9 @@ namespace {
 constexpr Nanoseconds first_second = nanoseconds_per_second;
 constexpr Nanoseconds hurry = 5;  // times as many clock requests in it
 constexpr double smoothing = 1.0 / 16.0;
+
+// Nothing is held up for longer. Whoever still speaks of an epoch then was put aside by somebody else.
+constexpr Nanoseconds remembers_for = 5 * nanoseconds_per_second;
 
 }  // namespace
 
@@ -28,6 +35,10 @@ void Endpoint::begin_tick(Nanoseconds now) {
     if (alive && now - heard_at_ > settings_.vanish_after) {
         statistics_.peer = PeerState::vanished;
         ++statistics_.vanishings;
+    }
+    if (window_.newest() != 0 && now - admitted_at_ > settings_.vanish_after) {
+        // Should a sequence have been believed that was none, the true one is taken up again.
+        window_.forget();
     }
 }
 
@@ -56,17 +67,14 @@ const Endpoint::Received* Endpoint::receive() {
     return nullptr;
 }
 
-// Whether the packet belongs to the far side's present epoch and is here for the first time. Only a hello
-// begins an epoch.
+// Whether the packet belongs to the far side's present epoch and is here for the first time.
 bool Endpoint::admit(const PacketHeader& header) {
-    const bool hello = std::holds_alternative<Hello>(received_.packet.message);
-    const bool strange = header.epoch != statistics_.peer_epoch;
-    if (header.epoch == settings_.epoch || (strange && (!hello || was_before(header.epoch)))) {
-        ++statistics_.strange_epoch;
+    if (!admit_epoch(header)) {
         return false;
     }
-    if (strange) {
-        meet(header.epoch);
+    if (!is_plausible(header)) {
+        ++statistics_.implausible;
+        return false;
     }
     switch (window_.note(header.sequence)) {
         case SequenceWindow::Arrival::copy:
@@ -79,27 +87,80 @@ bool Endpoint::admit(const PacketHeader& header) {
             ++statistics_.late;
             break;
         case SequenceWindow::Arrival::newest:
+            newest_at_ = now_;
             break;
     }
+    ++epoch_packets_;
+    admitted_at_ = now_;
     statistics_.missing = window_.missing();
-    return statistics_.peer != PeerState::left;
+    return true;
+}
+
+// Only a hello of the other side begins an epoch. While the far side is heard another one has to prove that
+// it hears this side: who only throws packets in knows no epoch of this side.
+bool Endpoint::admit_epoch(const PacketHeader& header) {
+    const Hello* const hello = std::get_if<Hello>(&received_.packet.message);
+    if (header.epoch == settings_.epoch || was_before(header.epoch)) {
+        ++statistics_.strange_epoch;
+        return false;
+    }
+    if (hello != nullptr && hello->side == settings_.side) {
+        ++statistics_.implausible;
+        if (header.epoch != statistics_.peer_epoch && !hears_peer()) {
+            statistics_.peer = PeerState::wrong_side;
+            heard_at_ = now_;
+        }
+        return false;
+    }
+    if (header.epoch == statistics_.peer_epoch) {
+        return true;
+    }
+    const bool proves_itself = hello != nullptr && hello->heard_epoch == settings_.epoch;
+    if (hello == nullptr || (hears_peer() && !proves_itself)) {
+        ++statistics_.strange_epoch;
+        if (hello != nullptr) {
+            next_hello_ = now_;  // so that it hears this side
+        }
+        return false;
+    }
+    meet(header.epoch);
+    return true;
+}
+
+// An epoch is over for good when another one has proved itself: until then it may come back.
+void Endpoint::end_epoch_before() {
+    if (epoch_before_ != 0) {
+        past_[past_count_++ % most_past] = {std::exchange(epoch_before_, 0), now_};
+    }
+}
+
+// A sender gets ahead by what was lost, and by no more than it can have sent meanwhile.
+bool Endpoint::is_plausible(const PacketHeader& header) const {
+    if (window_.newest() == 0) {
+        return true;
+    }
+    const double could_send = to_seconds(now_ - newest_at_) * plausible::max_packets_per_second;
+    const double ahead = static_cast<double>(header.sequence) - static_cast<double>(window_.newest());
+    return ahead <= static_cast<double>(plausible::max_sequence_jump) + could_send;
 }
 
 bool Endpoint::was_before(std::uint64_t epoch) const {
-    const std::size_t known = std::min(past_count_, most_past);
-    return std::find(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(known), epoch) !=
-           past_.begin() + static_cast<std::ptrdiff_t>(known);
+    return std::ranges::any_of(past_, [this, epoch](const PastEpoch& past) {
+        return past.epoch == epoch && now_ - past.over_at < remembers_for;
+    });
 }
 
 void Endpoint::meet(std::uint64_t epoch) {
     if (statistics_.peer_epoch != 0) {
-        past_[past_count_++ % most_past] = statistics_.peer_epoch;
+        epoch_before_ = statistics_.peer_epoch;
         ++statistics_.peer_restarts;
     }
     statistics_.peer_epoch = epoch;
     statistics_.peer = PeerState::one_way;
     window_.forget();
-    hello_sequence_ = 0;
+    hello_sequence_ = bye_sequence_ = 0;
+    epoch_packets_ = reported_packets_ = reported_sequence_ = 0;
+    statistics_.lost_there = 0.0;
     clock_.forget();
     statistics_.clock = {};
     one_way_known_ = false;
@@ -110,18 +171,29 @@ void Endpoint::meet(std::uint64_t epoch) {
 bool Endpoint::take(Nanoseconds arrived) {
     const PacketHeader& header = received_.packet.header;
     const Message& message = received_.packet.message;
+    if (std::holds_alternative<Bye>(message)) {
+        statistics_.peer = PeerState::left;
+        bye_sequence_ = std::max(bye_sequence_, header.sequence);
+        left_at_ = now_;
+        return false;
+    }
+    if (statistics_.peer == PeerState::left) {
+        // Who has left says nothing more: a hello after it shows that the bye was none of its own.
+        const bool after = header.sequence > bye_sequence_ || now_ - left_at_ > settings_.vanish_after;
+        if (!std::holds_alternative<Hello>(message) || !after) {
+            return false;
+        }
+        bye_sequence_ = 0;
+        statistics_.peer = PeerState::one_way;
+    }
     heard_at_ = now_;
-    if (statistics_.peer == PeerState::vanished) {
+    if (statistics_.peer == PeerState::vanished || statistics_.peer == PeerState::wrong_side) {
         statistics_.peer = PeerState::one_way;  // until its next hello says more
         next_hello_ = now_;
     }
     note_one_way(header.sent_at, arrived);
     if (const auto* hello = std::get_if<Hello>(&message)) {
         take_hello(header, *hello);
-        return false;
-    }
-    if (std::holds_alternative<Bye>(message)) {
-        statistics_.peer = PeerState::left;
         return false;
     }
     if (const auto* request = std::get_if<ClockRequest>(&message)) {
@@ -132,20 +204,34 @@ bool Endpoint::take(Nanoseconds arrived) {
         take_answer(*clock_answer, arrived);
         return false;
     }
-    return statistics_.peer != PeerState::wrong_side;
+    return true;
 }
 
 void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
-    if (header.sequence < hello_sequence_) {
+    if (header.sequence < hello_sequence_ && hello_sequence_ - header.sequence < SequenceWindow::length) {
         return;  // overtaken by a newer one
     }
     hello_sequence_ = header.sequence;
     statistics_.peer_hello = hello;
-    if (hello.side == settings_.side) {
-        statistics_.peer = PeerState::wrong_side;
-    } else {
-        statistics_.peer = hello.heard_epoch == settings_.epoch ? PeerState::connected : PeerState::one_way;
+    statistics_.peer = hello.heard_epoch == settings_.epoch ? PeerState::connected : PeerState::one_way;
+    if (statistics_.peer == PeerState::connected) {
+        end_epoch_before();
+        note_report(hello);
     }
+}
+
+// What is lost on the way there, smoothed over about eight hellos. What was overtaken only comes later.
+void Endpoint::note_report(const Hello& hello) {
+    constexpr double share_of_newest = 1.0 / 8.0;
+    if (hello.heard_sequence > reported_sequence_ && hello.heard_sequence <= sequence_ &&
+        hello.heard_packets >= reported_packets_) {
+        const auto sent = static_cast<double>(hello.heard_sequence - reported_sequence_);
+        const auto came = static_cast<double>(hello.heard_packets - reported_packets_);
+        const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, 0.0, 1.0);
+        statistics_.lost_there += share_of_newest * (lost - statistics_.lost_there);
+    }
+    reported_sequence_ = hello.heard_sequence;
+    reported_packets_ = hello.heard_packets;
 }
 
 void Endpoint::answer(const ClockRequest& request, Nanoseconds arrived) {
@@ -190,6 +276,9 @@ bool Endpoint::send(const Message& message) {
 }
 
 void Endpoint::end_tick() {
+    if (leaves_) {
+        return;
+    }
     if (now_ >= next_hello_) {
         say_hello();
         next_hello_ = now_ + settings_.hello_every;
@@ -207,6 +296,8 @@ void Endpoint::say_hello() {
     own_hello_.scenario = settings_.scenario;
     own_hello_.period = settings_.period;
     own_hello_.heard_epoch = hears_peer() ? statistics_.peer_epoch : 0;
+    own_hello_.heard_packets = epoch_packets_;
+    own_hello_.heard_sequence = window_.newest();
     send(own_hello_);
 }
 
@@ -214,11 +305,12 @@ void Endpoint::leave() {
     for (int i = 0; i < 3; ++i) {
         send(Bye{});
     }
+    leaves_ = true;
 }
 
 void Endpoint::set_world(std::uint32_t object_count, const Vec3& gravity) {
     own_hello_.object_count = object_count;
-    own_hello_.gravity = gravity;
+    own_hello_.gravity = glm::clamp(gravity, -plausible::max_gravity, plausible::max_gravity);
 }
 
 void Endpoint::measure_rates(Nanoseconds now) {
@@ -233,6 +325,10 @@ void Endpoint::measure_rates(Nanoseconds now) {
     for (int i = 0; i < 4; ++i) {
         *rates[i] = static_cast<double>(totals[i] - rate_base_[i]) / to_seconds(elapsed);
         rate_base_[i] = totals[i];
+    }
+    const auto overhead = static_cast<double>(link_.overhead());
+    for (TrafficRate* const rate : {&statistics_.sent_rate, &statistics_.received_rate}) {
+        rate->bits_per_s = 8.0 * (rate->bytes + rate->packets * overhead);
     }
     rates_since_ = now;
 }

@@ -37,8 +37,9 @@ struct EndpointSettings {
 };
 
 struct TrafficRate {
-    double packets = 0.0;  // (unit: 1/seconds)
-    double bytes = 0.0;    // of datagrams (unit: bytes/second)
+    double packets = 0.0;     // (unit: 1/seconds)
+    double bytes = 0.0;       // of packets (unit: bytes/second)
+    double bits_per_s = 0.0;  // with all that the way adds to them, IP and UDP included
 };
 
 struct LinkStatistics {
@@ -58,11 +59,13 @@ struct LinkStatistics {
     std::uint64_t copies = 0;   // arrived again, dropped
     std::uint64_t too_old = 0;  // so late that nobody can tell whether it is a copy, dropped
     std::uint64_t strange_epoch = 0;  // from before the far side's start, or before its hello, dropped
+    std::uint64_t implausible = 0;    // of a sequence or a side that cannot be the far side's, dropped
     RefusalCounts refused;
     TrafficRate sent_rate;  // over the last whole second
     TrafficRate received_rate;
 
     ClockFigures clock;
+    double lost_there = 0.0;      // share of what was sent that the far side misses, of late, 0 … 1
     double one_way_delay = 0.0;   // of packets that came, smoothed; 0 without a clock (unit: nanoseconds)
     double one_way_jitter = 0.0;  // mean change of it from packet to packet (unit: nanoseconds)
 };
@@ -116,6 +119,10 @@ private:
     // True where the packet is the caller's business.
     bool take(Nanoseconds arrived);
     bool admit(const PacketHeader& header);
+    bool admit_epoch(const PacketHeader& header);
+    bool is_plausible(const PacketHeader& header) const;
+    void end_epoch_before();
+    void note_report(const Hello& hello);
     void take_hello(const PacketHeader& header, const Hello& hello);
     void answer(const ClockRequest& request, Nanoseconds arrived);
     void take_answer(const ClockAnswer& answer, Nanoseconds arrived);
@@ -132,26 +139,38 @@ private:
     SequenceWindow window_;
     Hello own_hello_;
     std::uint64_t hello_sequence_ = 0;  // of that
+    std::uint64_t bye_sequence_ = 0;    // 0: none
+    std::uint64_t epoch_packets_ = 0;   // of the far side's present epoch that have come
+    std::uint64_t reported_packets_ = 0, reported_sequence_ = 0;  // by its last hello
     Received received_;
     std::array<std::byte, most_datagram_bytes> buffer_;
 
     // Epochs that are over: a packet of theirs that was held up somewhere brings none of them back.
     static constexpr std::size_t most_past = 32;
-    std::array<std::uint64_t, most_past> past_{};
+    struct PastEpoch {
+        std::uint64_t epoch = 0;
+        Nanoseconds over_at = 0;
+    };
+    std::array<PastEpoch, most_past> past_{};
     std::size_t past_count_ = 0;
+    std::uint64_t epoch_before_ = 0;  // the one before the present one, which has not proved itself; 0: none
 
     Nanoseconds now_ = 0;        // of the tick
     Nanoseconds local_now_ = 0;  // on this side's clock
     int taken_this_tick_ = 0;
     std::uint64_t sequence_ = 0;
     Nanoseconds heard_at_ = 0;
-    Nanoseconds met_at_ = 0;  // when the present epoch was first heard
+    Nanoseconds left_at_ = 0;
+    Nanoseconds admitted_at_ = 0;
+    Nanoseconds newest_at_ = 0;  // when the highest sequence came
+    Nanoseconds met_at_ = 0;     // when the present epoch was first heard
     Nanoseconds next_hello_ = 0;
     Nanoseconds next_request_ = 0;
     std::uint32_t request_ = 0;
     Nanoseconds last_one_way_ = 0;
     bool one_way_known_ = false;
     bool ticked_ = false;
+    bool leaves_ = false;
 
     Nanoseconds rates_since_ = 0;
     std::uint64_t rate_base_[4] = {};  // packets and bytes sent, received

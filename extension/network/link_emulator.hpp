@@ -43,6 +43,7 @@ public:
         return inner_.send(datagram, now);
     }
     ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) override;
+    std::size_t overhead() const override { return inner_.overhead(); }
 
     const EmulatorCounts& counts() const { return counts_; }
 

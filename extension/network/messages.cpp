@@ -1,16 +1,15 @@
 #include "network/messages.hpp"
 
 #include <cstring>
+#include <glm/common.hpp>
 #include <numeric>
 #include <type_traits>
 
+#include "network/sample_fields.hpp"
 #include "network/wire_stream.hpp"
 
 namespace tactus {
 namespace {
-
-constexpr std::size_t header_bytes = 32;
-constexpr Nanoseconds longest_period = nanoseconds_per_second;
 
 template <typename Kind>
 consteval std::uint8_t type_of() {
@@ -22,7 +21,7 @@ consteval std::uint8_t type_of() {
         return number;
     }(static_cast<Message*>(nullptr));
 }
-static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<ForceSample>() == 10);
+static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<ForceSamples>() == 10);
 
 // One list of fields for each kind, for a WireWriter and const values or a WireReader and plain ones.
 
@@ -39,10 +38,15 @@ void fields(Stream& s, auto& m, const Hello&) {
     s.integer(m.scenario);
     s.require(m.scenario >= 1 && m.scenario <= 5);
     s.time(m.period);
-    s.require(m.period > 0 && m.period <= longest_period);
+    s.require(m.period > 0 && m.period <= plausible::max_period);
     s.integer(m.heard_epoch);
     s.integer(m.object_count);
-    s.vector(m.gravity);
+    s.vector(m.gravity, -plausible::max_gravity, plausible::max_gravity);
+    s.integer(m.oldest_version);
+    s.integer(m.newest_version);
+    s.require(m.oldest_version <= m.newest_version);
+    s.varint(m.heard_packets);
+    s.varint(m.heard_sequence);
 }
 
 template <typename Stream>
@@ -101,66 +105,64 @@ void fields(Stream& s, auto& m, const DiscoveryAcknowledgement&) {
 }
 
 template <typename Stream>
-void fields(Stream& s, auto& m, const ObjectState&) {
-    s.integer(m.object);
-    s.require(m.object != no_object);
-    s.flag(m.asleep);
-    s.pose(m.pose);
-    s.vector(m.linear_velocity);
-    s.vector(m.angular_velocity);
-}
-
-template <typename Stream>
 void fields(Stream& s, auto& m, const ObjectStates&) {
-    s.time(m.true_at);
-    s.integer(m.newest_operator_sample);
+    s.time_near(m.true_at);
+    s.varint(m.newest_operator_sample);
     s.integer(m.count);
-    s.require(m.count <= ObjectStates::most);
+    s.require(m.count <= ObjectStates::most && m.newest_operator_sample <= plausible::max_sequence);
     for (std::size_t i = 0; s.good() && i < m.count; ++i) {
-        fields(s, m.states[i], ObjectState{});
+        object_state_fields(s, m.states[i]);
     }
-}
-
-template <typename Stream>
-void fields(Stream& s, auto& m, const OperatorSample&) {
-    s.integer(m.sequence);
-    s.require(m.sequence != no_sample);
-    s.time(m.time);
-    s.integer(m.pointer);
-    s.flag(m.connected);
-    s.integer(m.buttons);
-    s.vector(m.position);
-    s.vector(m.velocity);
-    s.vector(m.force);
-    s.integer(m.nearest_object);
-    s.vector(m.position_in_object);
 }
 
 template <typename Stream>
 void fields(Stream& s, auto& m, const OperatorSamples&) {
+    std::uint64_t period = static_cast<std::uint64_t>(m.period);
+    s.varint(period);
+    s.require(period > 0 && period <= static_cast<std::uint64_t>(plausible::max_period));
     s.integer(m.count);
     s.require(m.count >= 1 && m.count <= OperatorSamples::most);
-    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
-        fields(s, m.samples[i], OperatorSample{});
+    if constexpr (Stream::reads) {
+        m.period = s.good() ? static_cast<Nanoseconds>(period) : 1;
     }
+    operator_sample_fields(s, m);
 }
 
 template <typename Stream>
-void fields(Stream& s, auto& m, const ForceSample&) {
-    s.integer(m.pointer);
-    s.time(m.true_at);
-    s.integer(m.newest_operator_sample);
-    s.vector(m.force);
-    s.vector(m.proxy);
-    s.integer(m.object);
+void fields(Stream& s, auto& m, const ForceSamples&) {
+    s.integer(m.count);
+    s.require(m.count >= 1 && m.count <= ForceSamples::most);
+    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
+        force_sample_fields(s, m.samples[i]);
+    }
 }
 
 template <typename Stream>
 void header_fields(Stream& s, auto& header) {
     s.integer(header.epoch);
-    s.integer(header.sequence);
-    s.time(header.sent_at);
-    s.require(header.epoch != 0 && header.sequence != 0);
+    s.varint(header.sequence);
+    std::int64_t time = header.sent_at;
+    s.folded_varint(time);
+    s.require(time >= -plausible::max_time && time <= plausible::max_time);
+    if constexpr (Stream::reads) {
+        header.sent_at = s.good() ? time : 0;
+    }
+    s.require(header.epoch != 0 && header.sequence != 0 && header.sequence <= plausible::max_sequence);
+    s.set_sent_at(header.sent_at);
+}
+
+// What later versions add to a message: a tag, a size and so many bytes, each skipped by who does not know
+// it.
+void skip_extensions(WireReader& reader) {
+    while (reader.good() && reader.remaining() > 0) {
+        std::uint8_t tag = 0, size = 0;
+        reader.integer(tag);
+        if (reader.good() && tag == 0) {
+            reader.refuse(Refusal::oversized);
+        }
+        reader.integer(size);
+        reader.bytes(size);
+    }
 }
 
 template <typename Kind>
@@ -186,56 +188,45 @@ std::uint64_t RefusalCounts::total() const {
     return std::accumulate(by_reason.begin() + 1, by_reason.end(), std::uint64_t{0});
 }
 
-std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into) {
-    const std::size_t room = std::min(into.size(), most_message_bytes);
-    if (room < header_bytes) {
-        return 0;
-    }
-    WireWriter body(into.subspan(header_bytes, room - header_bytes));
-    std::visit([&body]<typename Kind>(const Kind& kind) { fields(body, kind, kind); }, message);
+Vec3 position_as_sent(const Vec3& position) {
+    return glm::round(position / position_quantum) * position_quantum;
+}
 
-    WireWriter front(into.first(header_bytes));
-    front.integer(packet_magic);
-    front.integer(wire_version);
-    front.integer(static_cast<std::uint8_t>(message.index() + 1));
-    front.integer(static_cast<std::uint16_t>(body.written()));
-    front.integer(std::uint16_t{0});
-    header_fields(front, header);
-    return front.good() && body.good() ? header_bytes + body.written() : 0;
+Vec3 velocity_as_sent(const Vec3& velocity) {
+    return glm::round(velocity / velocity_quantum) * velocity_quantum;
+}
+
+std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into) {
+    WireWriter writer(into.first(std::min(into.size(), most_message_bytes)));
+    writer.integer(packet_magic);
+    writer.integer(wire_version);
+    writer.integer(static_cast<std::uint8_t>(message.index() + 1));
+    header_fields(writer, header);
+    std::visit([&writer]<typename Kind>(const Kind& kind) { fields(writer, kind, kind); }, message);
+    return writer.good() ? writer.written() : 0;
 }
 
 Refusal decode(std::span<const std::byte> datagram, Packet& packet) {
     WireReader reader(datagram);
-    std::uint16_t found_magic = 0, body_bytes = 0, reserved = 0;
+    std::uint16_t found_magic = 0;
     std::uint8_t version = 0, type = 0;
     reader.integer(found_magic);
     if (reader.good() && found_magic != packet_magic) {
         return found_magic == sealed_magic ? Refusal::sealed : Refusal::wrong_magic;
     }
     reader.integer(version);
-    if (reader.good() && version != wire_version) {
+    if (reader.good() && (version < oldest_wire_version || version > wire_version)) {
         return Refusal::wrong_version;
     }
     if (datagram.size() > most_message_bytes) {
         return Refusal::oversized;
     }
     reader.integer(type);
-    reader.integer(body_bytes);
-    reader.integer(reserved);
     header_fields(reader, packet.header);
-    if (!reader.good()) {
-        return reader.refusal();
-    }
-    if (reader.remaining() != body_bytes) {
-        return reader.remaining() < body_bytes ? Refusal::truncated : Refusal::oversized;
-    }
-    reader.require(reserved == 0);
     if (reader.good()) {
         read_message(reader, type, packet.message);
     }
-    if (reader.good() && reader.remaining() != 0) {
-        return Refusal::oversized;
-    }
+    skip_extensions(reader);
     return reader.refusal();
 }
 

@@ -23,7 +23,9 @@
 
 namespace tactus {
 
-inline constexpr std::uint8_t wire_version = 1;
+inline constexpr std::uint8_t wire_version = 2;
+// The oldest one that is still understood, both as reader and as writer.
+inline constexpr std::uint8_t oldest_wire_version = 2;
 
 // Given by the teleoperator. One that was removed may be given to another object, with a higher revision.
 using ObjectId = std::uint32_t;
@@ -49,6 +51,13 @@ struct Hello {
     std::uint64_t heard_epoch = 0;   // the epoch of the other side, as heard last; 0: never
     std::uint32_t object_count = 0;  // objects that the sender has described or is about to
     Vec3 gravity{0.0, -9.81, 0.0};   // (unit: meters per second squared)
+    // Versions that the sender speaks: the two use the newest that both do.
+    std::uint8_t oldest_version = oldest_wire_version;
+    std::uint8_t newest_version = wire_version;
+    // Of the other side's epoch: packets that have come, and the highest sequence among them. Tells it what
+    // is lost on its way here.
+    std::uint64_t heard_packets = 0;
+    std::uint64_t heard_sequence = 0;
 };
 
 // The sender stops: nothing of its epoch follows.
@@ -112,11 +121,11 @@ struct ObjectState {
 // Newest wins, for each object: the one with the later `true_at`. States of more objects than one message
 // holds follow in further messages of the same times.
 struct ObjectStates {
-    static constexpr std::size_t most = 10;
+    static constexpr std::size_t most = 16;
 
     Nanoseconds true_at = 0;                            // after the tick of this time
     SampleSequence newest_operator_sample = no_sample;  // that had been applied by then
-    std::uint16_t count = 0;                            // 0 … most
+    std::uint8_t count = 0;                             // 0 … most
     std::array<ObjectState, most> states{};
 };
 
@@ -134,15 +143,27 @@ struct OperatorSample {
     Vec3 position_in_object{0.0};  // of the hand, in the frame of the nearest object (unit: meters)
 };
 
-// The newest sample and, where the sender wants to survive losses, some older ones; in any order.
-struct OperatorSamples {
-    static constexpr std::size_t most = 9;
+// What is sent often is rounded to these.
+inline constexpr double position_quantum = 1e-9;  // (unit: meters)
+inline constexpr double velocity_quantum = 1e-6;  // (unit: meters per second)
+inline constexpr double force_quantum = 1e-4;     // (unit: newtons)
 
-    std::uint16_t count = 0;  // 1 … most
+// What the other side reads of a position, and of a velocity. Rounds once: of what it gives it gives the
+// same.
+Vec3 position_as_sent(const Vec3& position);
+Vec3 velocity_as_sent(const Vec3& velocity);
+
+// Of any pointers: the newest sample and, where the sender wants to survive losses, some older ones. What
+// follows a sample of the same pointer is told as what differs from it: newest first takes fewest bytes.
+struct OperatorSamples {
+    static constexpr std::size_t most = 16;
+
+    Nanoseconds period = 1'000'000;  // of the sender's tick, > 0
+    std::uint8_t count = 0;          // 1 … most
     std::array<OperatorSample, most> samples{};
 };
 
-// The force that the far side gives back (scenarios 2 and 3).
+// The force that the far side gives back to a pointer (scenarios 2 and 3).
 struct ForceSample {
     std::uint16_t pointer = 0;
     Nanoseconds true_at = 0;
@@ -152,8 +173,15 @@ struct ForceSample {
     ObjectId object = no_object;                        // that is touched
 };
 
+struct ForceSamples {
+    static constexpr std::size_t most = 16;
+
+    std::uint8_t count = 0;  // 1 … most
+    std::array<ForceSample, most> samples{};
+};
+
 using Message = std::variant<Hello, Bye, ClockRequest, ClockAnswer, DiscoveryFragment, ObjectRemoval,
-                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSample>;
+                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples>;
 
 struct Packet {
     PacketHeader header;

@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "network/endpoint.hpp"
-
 namespace tactus {
 namespace {
 
@@ -13,30 +11,25 @@ constexpr Nanoseconds publish_every = 50'000'000;
 
 std::string NetworkLink::open(const NetworkSettings& settings) {
     close();
-    std::optional<SecretKey> key;
+    UdpSettings udp = settings.udp;
     if (!settings.key.empty()) {
-        key = secret_key(settings.key);
-        if (!key) {
+        udp.secret = shared_secret(settings.key);
+        if (!udp.secret) {
             return "the key is too short: give 64 hexadecimal digits or at least 8 characters, the same on "
-                   "both "
-                   "sides";
+                   "both sides";
         }
     }
-    std::string error = udp_.open(settings.udp);
+    std::string error = udp_.open(udp);
     if (!error.empty()) {
         return error;
     }
     emulator_ = std::make_unique<LinkEmulator>(udp_, settings.conditions, settings.seed);
-    if (key) {
-        secure_ = std::make_unique<SecureLink>(*emulator_, *key, random_epoch());
-    }
     next_publish_ = std::numeric_limits<Nanoseconds>::min();
     return {};
 }
 
 void NetworkLink::close() {
     udp_.close();
-    secure_.reset();
     emulator_.reset();
 }
 
@@ -47,39 +40,27 @@ void NetworkLink::change(const LinkConditions& conditions) {
 }
 
 NetworkFigures NetworkLink::figures() {
-    loop_figures_.refresh();
-    const LoopFigures& loop = loop_figures_.front();
-    return {udp_.figures(), loop.emulator, secure_ != nullptr, loop.key_met, loop.secure};
-}
-
-Link* NetworkLink::outermost() {
-    return secure_ ? static_cast<Link*>(secure_.get()) : emulator_.get();
+    emulator_counts_.refresh();
+    return {udp_.figures(), emulator_counts_.front()};
 }
 
 bool NetworkLink::send(std::span<const std::byte> datagram, Nanoseconds now) {
-    Link* const link = outermost();
-    return link != nullptr && link->send(datagram, now);
+    return emulator_ && emulator_->send(datagram, now);
 }
 
 ReceivedDatagram NetworkLink::receive(std::span<std::byte> into, Nanoseconds now) {
-    Link* const link = outermost();
-    if (link == nullptr) {
+    if (!emulator_) {
         return {};
     }
     publish_when_due(now);
-    return link->receive(into, now);
+    return emulator_->receive(into, now);
 }
 
 void NetworkLink::publish_when_due(Nanoseconds now) {
-    if (now < next_publish_) {
-        return;
+    if (now >= next_publish_) {
+        next_publish_ = now + publish_every;
+        emulator_counts_.publish(emulator_->counts());
     }
-    next_publish_ = now + publish_every;
-    LoopFigures& figures = loop_figures_.back();
-    figures.emulator = emulator_->counts();
-    figures.key_met = secure_ && secure_->met();
-    figures.secure = secure_ ? secure_->counts() : SecureCounts{};
-    loop_figures_.publish();
 }
 
 }  // namespace tactus

@@ -1,4 +1,4 @@
-// The way to the far side as a scene asks for it: a socket, an emulated network on what comes in, and a key,
+// The way to the far side as a scene asks for it: a socket, a key, and an emulated network on what comes in,
 // each only where it is wanted.
 //
 // Threads: open(), close(), change() and figures() belong to the owner, send() and receive() to the haptic
@@ -9,24 +9,20 @@
 #include <string>
 
 #include "network/link_emulator.hpp"
-#include "network/secure_link.hpp"
 #include "network/udp_link.hpp"
 
 namespace tactus {
 
 struct NetworkSettings {
     UdpSettings udp;
-    std::string key;            // see secret_key(); empty: packets are not sealed
-    LinkConditions conditions;  // emulated on what comes in, sealed or not
+    std::string key;            // see shared_secret(); empty: nothing is sealed, and it stays on this machine
+    LinkConditions conditions;  // emulated on what comes in, when it has been opened
     std::uint64_t seed = 1;     // of the emulation
 };
 
 struct NetworkFigures {
     UdpFigures udp;
     EmulatorCounts emulator;
-    bool sealed = false;   // with a key
-    bool key_met = false;  // the far side has shown that it has the same key
-    SecureCounts secure;
 };
 
 class NetworkLink final : public Link {
@@ -43,21 +39,14 @@ public:
 
     bool send(std::span<const std::byte> datagram, Nanoseconds now) override;
     ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) override;
+    std::size_t overhead() const override { return udp_.overhead(); }
 
 private:
-    struct LoopFigures {
-        EmulatorCounts emulator;
-        bool key_met = false;
-        SecureCounts secure;
-    };
-
-    Link* outermost();
     void publish_when_due(Nanoseconds now);
 
     UdpLink udp_;
     std::unique_ptr<LinkEmulator> emulator_;
-    std::unique_ptr<SecureLink> secure_;  // null: no key
-    TripleBuffer<LoopFigures> loop_figures_;
+    TripleBuffer<EmulatorCounts> emulator_counts_;
     Nanoseconds next_publish_ = 0;
 };
 

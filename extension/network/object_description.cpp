@@ -150,7 +150,7 @@ void shape_fields(auto& s, auto& shape, const CylinderShape&) {
 void shape_fields(auto& s, auto& shape, const PlaneShape&) {
     s.vector(shape.normal, -1.0 - quaternion_tolerance, 1.0 + quaternion_tolerance);
     s.require(std::abs(glm::length(shape.normal) - 1.0) < quaternion_tolerance);
-    s.real(shape.offset, -most_wire_length, most_wire_length);
+    s.real(shape.offset, -max_wire_length, max_wire_length);
 }
 void shape_fields(auto& s, auto& shape, const ConvexHullShape&) {
     shared(s, shape.hull, [](auto& stream, auto& mesh) { mesh_fields(stream, mesh); });
@@ -162,7 +162,7 @@ void shape_fields(auto& s, auto& shape, const MeshShape&) {
 void shape_fields(auto& s, auto& shape, const HeightFieldShape&) {
     const std::size_t size = grid_size(s, shape.columns, shape.rows, 2);
     s.vector(shape.scale);
-    constexpr auto most = static_cast<float>(most_wire_length);
+    constexpr auto most = static_cast<float>(max_wire_length);
     shared(s, shape.heights,
            [size](auto& stream, auto& heights) { height_list(stream, heights, size, -most, most); });
 }
@@ -214,12 +214,13 @@ template <typename Stream>
 void body_fields(Stream& s, auto& body) {
     s.choice(body.motion, Motion::Dynamic);
     s.flag(body.may_move);
-    s.pose(body.pose);
-    s.vector(body.linear_velocity);
-    s.vector(body.angular_velocity);
+    s.vector(body.pose.position, -plausible::max_position, plausible::max_position);
+    s.rotation(body.pose.rotation);
+    s.vector(body.linear_velocity, -plausible::max_speed, plausible::max_speed);
+    s.vector(body.angular_velocity, -plausible::max_angular_speed, plausible::max_angular_speed);
     not_negative(s, body.mass);
     s.require(body.mass > 0.0 || body.motion == Motion::Static);
-    optional_vector(s, body.center_of_mass, -most_wire_length);
+    optional_vector(s, body.center_of_mass, -max_wire_length);
     optional_vector(s, body.inertia, std::numeric_limits<double>::min());
     not_negative(s, body.material.friction);
     s.real(body.material.restitution, 0.0, 1.0);

@@ -43,6 +43,11 @@ public:
         return Arrival::late;
     }
 
+    // Whether note() would answer `copy` or `too_old`.
+    bool has_come(std::uint64_t sequence) const {
+        return newest_ != 0 && sequence <= newest_ && (newest_ - sequence >= length || is_set(sequence));
+    }
+
     std::uint64_t newest() const { return newest_; }
 
     // Sent since the first one seen and not here: lost, or still on the way.
@@ -66,9 +71,10 @@ private:
         set(to);
     }
 
-    std::uint64_t& word(std::uint64_t sequence) { return came_[sequence % length / word_bits]; }
+    static std::size_t index(std::uint64_t sequence) { return sequence % length / word_bits; }
+    std::uint64_t& word(std::uint64_t sequence) { return came_[index(sequence)]; }
     static std::uint64_t bit(std::uint64_t sequence) { return std::uint64_t{1} << (sequence % word_bits); }
-    bool is_set(std::uint64_t sequence) { return (word(sequence) & bit(sequence)) != 0; }
+    bool is_set(std::uint64_t sequence) const { return (came_[index(sequence)] & bit(sequence)) != 0; }
     void set(std::uint64_t sequence) { word(sequence) |= bit(sequence); }
     void clear(std::uint64_t sequence) { word(sequence) &= ~bit(sequence); }
 

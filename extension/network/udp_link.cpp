@@ -1,98 +1,49 @@
 #include "network/udp_link.hpp"
 
-#include <fcntl.h>
-#include <netdb.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
+#include <cstring>
 
 #include "realtime/clock.hpp"
 #include "realtime/realtime_thread.hpp"
 
 namespace tactus {
+
+// Datagrams of one system call.
+struct UdpLink::Batch {
+    static constexpr std::size_t size = 64;
+
+    // One byte more than a datagram may have shows that it has more.
+    std::array<std::array<std::byte, most_datagram_bytes + 1>, size> bytes;
+    std::array<iovec, size> parts;
+    std::array<mmsghdr, size> messages;
+    std::array<std::byte, most_datagram_bytes> sealed;
+
+    Batch() {
+        for (std::size_t i = 0; i < size; ++i) {
+            parts[i] = {bytes[i].data(), bytes[i].size()};
+            messages[i] = {};
+            messages[i].msg_hdr.msg_iov = &parts[i];
+            messages[i].msg_hdr.msg_iovlen = 1;
+        }
+    }
+};
+
 namespace {
 
-// Room in the system for a few hundred datagrams while the thread is not let onto a processor.
-constexpr int system_buffer_bytes = 1 << 20;
+constexpr Nanoseconds publish_every = 20'000'000;
+constexpr Nanoseconds try_others_every = nanoseconds_per_second;
 
-// Of what has come in before what is to be sent is looked at again.
-constexpr int most_at_once = 64;
+// More than these at once come from no honest side: the next ones may wait until `look_out` is over.
+constexpr std::size_t a_flood = 8;
 
-using Addresses = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
-
-Addresses resolve(const std::string& host, std::uint16_t port, int family, bool own, std::string& error) {
-    addrinfo hints{};
-    hints.ai_family = family;
-    hints.ai_socktype = SOCK_DGRAM;
-    hints.ai_flags = AI_NUMERICSERV | (own ? AI_PASSIVE : 0);
-    addrinfo* found = nullptr;
-    const int code =
-        getaddrinfo(host.empty() ? nullptr : host.c_str(), std::to_string(port).c_str(), &hints, &found);
-    if (code != 0) {
-        error = "the address \"" + host + "\" is not known: " + gai_strerror(code);
-        found = nullptr;
-    }
-    return {found, &freeaddrinfo};
-}
-
-std::string bind_error(std::uint16_t port, int error) {
-    const std::string place = "port " + std::to_string(port);
-    if (error == EADDRINUSE) {
-        return place + " is in use by another program: end that one or choose another port";
-    }
-    if (error == EACCES) {
-        return place + " is reserved for the system: choose one from 1024 to 65535";
-    }
-    if (error == EADDRNOTAVAIL) {
-        return "the local address is not one of this machine: leave it empty to listen on all of its "
-               "addresses";
-    }
-    return place + " cannot be used: " + std::strerror(error);
-}
-
-std::uint16_t bound_port(int socket) {
-    sockaddr_storage address{};
-    socklen_t size = sizeof address;
-    if (getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
-        return 0;
-    }
-    return ntohs(address.ss_family == AF_INET6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
-                                               : reinterpret_cast<const sockaddr_in&>(address).sin_port);
-}
-
-// A socket bound here and connected there, so that the system drops what comes from anywhere else and says
-// when nobody listens. -1 and `error` where it cannot be.
-int connected_socket(const UdpSettings& settings, std::string& error) {
-    const Addresses there = resolve(settings.remote_address, settings.remote_port, AF_UNSPEC, false, error);
-    if (there == nullptr) {
-        return -1;
-    }
-    const Addresses here =
-        resolve(settings.local_address, settings.local_port, there->ai_family, true, error);
-    if (here == nullptr) {
-        return -1;
-    }
-    const int made = socket(there->ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (made < 0) {
-        error = std::string("the system gives no socket: ") + std::strerror(errno);
-        return -1;
-    }
-    setsockopt(made, SOL_SOCKET, SO_RCVBUF, &system_buffer_bytes, sizeof system_buffer_bytes);
-    setsockopt(made, SOL_SOCKET, SO_SNDBUF, &system_buffer_bytes, sizeof system_buffer_bytes);
-    if (bind(made, here->ai_addr, here->ai_addrlen) != 0) {
-        error = bind_error(settings.local_port, errno);
-    } else if (connect(made, there->ai_addr, there->ai_addrlen) != 0) {
-        error = "there is no way to \"" + settings.remote_address + "\": " + std::strerror(errno);
-    } else {
-        return made;
-    }
-    ::close(made);
-    return -1;
-}
+// Batches of one round: what the system holds, and then what is to be sent is looked at again.
+constexpr int max_batches = 16;
 
 // Counts up what one thread writes and others read.
 void count(std::atomic<std::uint64_t>& counter) {
@@ -101,20 +52,36 @@ void count(std::atomic<std::uint64_t>& counter) {
 
 }  // namespace
 
+// --- the owner
+
+UdpLink::UdpLink() = default;
+UdpLink::~UdpLink() {
+    close();
+}
+
 std::string UdpLink::open(const UdpSettings& settings) {
     close();
-    if (settings.remote_address.empty() || settings.remote_port == 0) {
-        return "the far side has no address: set its address and its port";
+    UdpSockets opened = open_udp_sockets({settings.local_address, settings.local_port},
+                                         {settings.remote_address, settings.remote_port}, !settings.secret);
+    if (opened.sockets.empty()) {
+        return opened.error;
     }
-    std::string error;
-    socket_ = connected_socket(settings, error);
-    if (socket_ < 0) {
-        return error;
-    }
+    sockets_ = std::move(opened);
     settings_ = settings;
-    local_port_ = bound_port(socket_);
     outgoing_ = std::make_unique<DatagramRing>(settings.capacity);
     incoming_ = std::make_unique<DatagramRing>(settings.capacity);
+    batch_ = std::make_unique<Batch>();
+    if (settings.secret) {
+        jobs_ = std::make_unique<JobThread>();
+        secure_ = std::make_unique<SecureSession>(
+            *settings.secret, random_identity(),
+            [jobs = jobs_.get()](std::function<void()> job) { jobs->add(std::move(job)); });
+    }
+    overhead_.store(udp_overhead(sockets_.sockets.front().family) + (secure_ ? SecureSession::overhead : 0));
+    limit_ = RateLimit(one_every, burst);
+    chosen_ = sockets_.sockets.size() == 1 && sockets_.sockets[0].remotes.size() == 1 ? 0 : undecided;
+    next_try_ = monotonic_now() + try_others_every;
+    next_publish_ = 0;
     stop_event_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     stop_requested_.store(false);
     state_.store(UdpState::open);
@@ -135,15 +102,39 @@ void UdpLink::close() {
         pthread_join(thread_, nullptr);
         running_ = false;
     }
-    for (int* file : {&socket_, &stop_event_}) {
-        if (*file >= 0) {
-            ::close(*file);
-            *file = -1;
-        }
+    for (const UdpSocket& socket : sockets_.sockets) {
+        ::close(socket.file);
     }
-    local_port_ = 0;
+    sockets_ = {};
+    if (stop_event_ >= 0) {
+        ::close(stop_event_);
+        stop_event_ = -1;
+    }
+    jobs_.reset();
+    secure_.reset();
     state_.store(UdpState::closed);
 }
+
+UdpFigures UdpLink::figures() {
+    const auto read = [](const std::atomic<std::uint64_t>& counter) {
+        return counter.load(std::memory_order_relaxed);
+    };
+    secure_figures_.refresh();
+    const SecureFigures& secure = secure_figures_.front();
+    return {state_.load(std::memory_order_relaxed),
+            read(sent_),
+            read(received_),
+            read(no_room_to_send_),
+            read(no_room_to_take_),
+            read(oversized_),
+            read(unreachable_),
+            read(too_many_),
+            settings_.secret.has_value(),
+            secure.met,
+            secure.counts};
+}
+
+// --- the haptic thread
 
 bool UdpLink::send(std::span<const std::byte> datagram, Nanoseconds now) {
     if (outgoing_ == nullptr || !put_newest(*outgoing_, datagram, now)) {
@@ -165,18 +156,7 @@ ReceivedDatagram UdpLink::receive(std::span<std::byte> into, Nanoseconds) {
     return received;
 }
 
-UdpFigures UdpLink::figures() const {
-    const auto read = [](const std::atomic<std::uint64_t>& counter) {
-        return counter.load(std::memory_order_relaxed);
-    };
-    return {state_.load(std::memory_order_relaxed),
-            read(sent_),
-            read(received_),
-            read(no_room_to_send_),
-            read(no_room_to_take_),
-            read(oversized_),
-            read(unreachable_)};
-}
+// --- the network thread
 
 void* UdpLink::run_thread(void* self) {
     static_cast<UdpLink*>(self)->run();
@@ -192,9 +172,8 @@ void UdpLink::run() {
     const RealtimeReport report = make_thread_realtime(request);
     while (!stop_requested_.load(std::memory_order_relaxed)) {
         send_waiting();
-        if (!receive_waiting()) {
-            wait_for_work();
-        }
+        say_what_is_due();
+        wait_for_work(receive_waiting());
     }
     send_waiting();  // a bye that was said just before
     release_realtime(report);
@@ -202,48 +181,144 @@ void UdpLink::run() {
 
 void UdpLink::send_waiting() {
     while (const Datagram* oldest = outgoing_->front()) {
-        if (::send(socket_, oldest->bytes.data(), oldest->size, MSG_DONTWAIT | MSG_NOSIGNAL) >= 0) {
+        const std::span<const std::byte> plain = std::span(oldest->bytes).first(oldest->size);
+        if (!secure_) {
+            send_to_far_side(plain);
+        } else if (const std::size_t size = secure_->seal(plain, batch_->sealed); size > 0) {
+            send_to_far_side(std::span(batch_->sealed).first(size));
+        }
+        outgoing_->pop();
+    }
+}
+
+void UdpLink::say_what_is_due() {
+    const Nanoseconds now = monotonic_now();
+    if (secure_) {
+        for (int i = 0; i < 3; ++i) {
+            if (const std::size_t size = secure_->due(batch_->sealed, now); size > 0) {
+                send_to_far_side(std::span(batch_->sealed).first(size));
+            }
+        }
+    }
+    try_other_addresses(now);
+    publish(now);
+}
+
+// Until it is known where the far side is, everywhere it may be.
+void UdpLink::send_to_far_side(std::span<const std::byte> datagram) {
+    for (std::size_t i = 0; i < sockets_.sockets.size(); ++i) {
+        if (chosen_ != undecided && chosen_ != i) {
+            continue;
+        }
+        if (::send(sockets_.sockets[i].file, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL) >=
+            0) {
             count(sent_);
         } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
             no_room_to_send_.fetch_add(1, std::memory_order_relaxed);
         } else {
             note_error(errno);
         }
-        outgoing_->pop();
     }
 }
 
-// Whether there may be more.
-bool UdpLink::receive_waiting() {
-    Datagram datagram;
-    for (int i = 0; i < most_at_once; ++i) {
-        const ssize_t size =
-            recv(socket_, datagram.bytes.data(), datagram.bytes.size(), MSG_DONTWAIT | MSG_TRUNC);
-        if (size < 0) {
-            if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
-                note_error(errno);
+std::size_t UdpLink::receive_waiting() {
+    std::size_t received = 0;
+    for (std::size_t i = 0; i < sockets_.sockets.size(); ++i) {
+        for (int batch = 0; batch < max_batches; ++batch) {
+            const std::size_t came = receive_from(i);
+            received += came;
+            if (came < Batch::size) {
+                break;
             }
-            return false;
-        }
-        datagram.arrived = monotonic_now();
-        datagram.size = static_cast<std::size_t>(size);
-        if (datagram.size > most_datagram_bytes) {
-            oversized_.fetch_add(1, std::memory_order_relaxed);
-        } else if (datagram.size == 0) {
-            continue;
-        } else if (incoming_->try_push(datagram)) {
-            count(received_);
-            state_.store(UdpState::open, std::memory_order_relaxed);
-        } else {
-            count(no_room_to_take_);
         }
     }
-    return true;
+    return received;
+}
+
+std::size_t UdpLink::receive_from(std::size_t which) {
+    const int came =
+        recvmmsg(sockets_.sockets[which].file, batch_->messages.data(), Batch::size, MSG_DONTWAIT, nullptr);
+    if (came < 0) {
+        if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
+            note_error(errno);
+        }
+        return 0;
+    }
+    const Nanoseconds arrived = monotonic_now();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(came); ++i) {
+        const std::size_t size = batch_->messages[i].msg_len;
+        if (size > most_datagram_bytes) {
+            oversized_.fetch_add(1, std::memory_order_relaxed);
+        } else if (size > 0) {
+            take(which, std::span(batch_->bytes[i]).first(size), arrived);
+        }
+    }
+    return static_cast<std::size_t>(came);
+}
+
+void UdpLink::take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived) {
+    // What names another session is dropped unopened; the rest has to keep to the rate.
+    if (secure_ && !secure_->concerns(datagram)) {
+        return;
+    }
+    if (!limit_.pass(arrived)) {
+        count(too_many_);
+        return;
+    }
+    Datagram opened;
+    opened.arrived = arrived;
+    if (secure_) {
+        const std::uint64_t believed = secure_->counts().opened;
+        opened.size = secure_->open(datagram, opened.bytes, arrived);
+        if (secure_->counts().opened > believed) {
+            decide_for(which);
+        }
+    } else {
+        opened.size = datagram.size();
+        std::memcpy(opened.bytes.data(), datagram.data(), datagram.size());
+        decide_for(which);
+    }
+    if (opened.size == 0) {
+        return;
+    }
+    if (incoming_->try_push(opened)) {
+        count(received_);
+    } else {
+        count(no_room_to_take_);
+    }
+}
+
+void UdpLink::decide_for(std::size_t which) {
+    state_.store(UdpState::open, std::memory_order_relaxed);
+    if (chosen_ == undecided) {
+        chosen_ = which;
+        overhead_.store(
+            udp_overhead(sockets_.sockets[which].family) + (secure_ ? SecureSession::overhead : 0),
+            std::memory_order_relaxed);
+    }
+}
+
+void UdpLink::try_other_addresses(Nanoseconds now) {
+    if (chosen_ != undecided || now < next_try_) {
+        return;
+    }
+    next_try_ = now + try_others_every;
+    for (UdpSocket& socket : sockets_.sockets) {
+        try_next_remote(socket);
+    }
+}
+
+void UdpLink::publish(Nanoseconds now) {
+    if (!secure_ || now < next_publish_) {
+        return;
+    }
+    next_publish_ = now + publish_every;
+    secure_figures_.publish({secure_->met(), secure_->counts()});
 }
 
 // An unreachable far side is asked on: it may be about to start.
 void UdpLink::note_error(int error) {
-    if (error == ECONNREFUSED || error == EHOSTUNREACH || error == ENETUNREACH) {
+    if (error == ECONNREFUSED || error == EHOSTUNREACH || error == ENETUNREACH || error == ENETDOWN) {
         count(unreachable_);
         state_.store(UdpState::unreachable, std::memory_order_relaxed);
     } else {
@@ -251,14 +326,17 @@ void UdpLink::note_error(int error) {
     }
 }
 
-void UdpLink::wait_for_work() {
-    pollfd files[2] = {{socket_, POLLIN, 0}, {stop_event_, POLLIN, 0}};
+void UdpLink::wait_for_work(std::size_t received) {
     const timespec timeout = to_timespec(settings_.look_out);
-    ppoll(files, 2, &timeout, nullptr);
-    if ((files[0].revents & (POLLERR | POLLNVAL)) != 0 && state_.load() == UdpState::failed) {
-        // Nothing to wait for any more; do not spin.
-        ppoll(&files[1], 1, &timeout, nullptr);
+    // Nothing to wait for where a socket has failed, and too much where there is a flood: do not spin.
+    const bool waits_for_sockets =
+        received < a_flood && state_.load(std::memory_order_relaxed) != UdpState::failed;
+    std::array<pollfd, 3> files{{{stop_event_, POLLIN, 0}}};
+    nfds_t watched = 1;
+    for (std::size_t i = 0; waits_for_sockets && i < sockets_.sockets.size(); ++i) {
+        files[watched++] = {sockets_.sockets[i].file, POLLIN, 0};
     }
+    ppoll(files.data(), watched, &timeout, nullptr);
 }
 
 }  // namespace tactus

@@ -1,10 +1,14 @@
-// A link over UDP.
+// A link over UDP, under a secret where there is one.
 //
 // Threads: open() and close() belong to the owner; send() and receive() to the haptic thread; figures() to
-// anybody. The link has a thread of its own that owns the socket, and it alone makes system calls: the haptic
-// thread only touches two rings. Since waking a sleeping thread is a system call as well, nobody wakes it: it
-// wakes by itself, at once when a datagram comes in, and every `look_out` to see what there is to send. That
-// is what sending takes longer for.
+// the owner. The link has a thread of its own that owns the sockets and the secure session, and it alone
+// makes system calls and opens what is sealed: the haptic thread only touches two rings. Since waking a
+// sleeping thread is a system call as well, nobody wakes it: it wakes by itself, at once when a datagram
+// comes in, and every `look_out` to see what there is to send. That is what sending takes longer for.
+//
+// A flood costs the haptic thread nothing and the network thread little: what comes is taken in batches, at
+// most one every `look_out`, and what is not sealed for this session, or comes faster than any honest side
+// sends, is dropped before anything is done for it.
 #pragma once
 
 #include <pthread.h>
@@ -12,20 +16,27 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "network/job_thread.hpp"
 #include "network/memory_link.hpp"
+#include "network/rate_limit.hpp"
+#include "network/secure_session.hpp"
+#include "network/udp_sockets.hpp"
+#include "realtime/triple_buffer.hpp"
 
 namespace tactus {
 
 struct UdpSettings {
-    std::string local_address;       // a number or name of this machine; empty: any
-    std::uint16_t local_port = 0;    // 0: any that is free
-    std::string remote_address;      // a number or name; only what comes from there is taken
-    std::uint16_t remote_port = 0;   // of the far side, > 0
-    Nanoseconds look_out = 200'000;  // > 0
-    std::size_t capacity = 1024;     // datagrams that wait, each way
-    int fifo_priority = 60;          // below the haptic thread's; 0: the ordinary scheduler
+    std::string local_address;           // a number or name of this machine; empty: any (see `secret`)
+    std::uint16_t local_port = 0;        // 0: any that is free
+    std::string remote_address;          // a number or name; only what comes from there is taken
+    std::uint16_t remote_port = 0;       // of the far side, > 0
+    std::optional<SharedSecret> secret;  // none: nothing is sealed, and only this machine is talked to
+    Nanoseconds look_out = 200'000;      // > 0
+    std::size_t capacity = 1024;         // datagrams that wait, each way
+    int fifo_priority = 60;              // below the haptic thread's; 0: the ordinary scheduler
 };
 
 enum class UdpState : std::uint8_t {
@@ -43,12 +54,16 @@ struct UdpFigures {
     std::uint64_t no_room_to_take = 0;  // lost: the haptic thread did not come to take them
     std::uint64_t oversized = 0;        // longer than most_datagram_bytes, dropped
     std::uint64_t unreachable = 0;      // times that the far machine said so
+    std::uint64_t too_many = 0;         // came faster than any honest side sends, dropped
+    bool sealed = false;                // under a secret
+    bool met = false;                   // the far side has shown that it knows the same secret
+    SecureCounts secure;
 };
 
 class UdpLink final : public Link {
 public:
-    UdpLink() = default;
-    ~UdpLink() override { close(); }
+    UdpLink();
+    ~UdpLink() override;
     UdpLink(const UdpLink&) = delete;
     UdpLink& operator=(const UdpLink&) = delete;
 
@@ -56,38 +71,67 @@ public:
     std::string open(const UdpSettings& settings);
     void close();
 
-    std::uint16_t local_port() const { return local_port_; }  // 0 while closed
+    std::uint16_t local_port() const { return sockets_.local_port; }  // 0 while closed
 
     bool send(std::span<const std::byte> datagram, Nanoseconds now) override;
     ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) override;
+    std::size_t overhead() const override { return overhead_.load(std::memory_order_relaxed); }
 
-    UdpFigures figures() const;
+    UdpFigures figures();
 
 private:
+    struct Batch;
+    struct SecureFigures {
+        bool met = false;
+        SecureCounts counts;
+    };
+    // A second of the most that an honest side sends passes at once.
+    static constexpr Nanoseconds one_every = 50'000;
+    static constexpr std::int64_t burst = 512;
+    static constexpr std::size_t undecided = ~std::size_t{0};
+
     static void* run_thread(void* self);
     void run();
     void send_waiting();
-    bool receive_waiting();
+    void say_what_is_due();
+    void send_to_far_side(std::span<const std::byte> datagram);
+    std::size_t receive_waiting();
+    std::size_t receive_from(std::size_t which);
+    void take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived);
+    void decide_for(std::size_t which);
+    void try_other_addresses(Nanoseconds now);
+    void publish(Nanoseconds now);
     void note_error(int error);
-    void wait_for_work();
+    void wait_for_work(std::size_t received);
 
     UdpSettings settings_;
-    int socket_ = -1;
+    UdpSockets sockets_;
     int stop_event_ = -1;
-    std::uint16_t local_port_ = 0;
     pthread_t thread_{};
     bool running_ = false;
     std::atomic<bool> stop_requested_{false};
     std::unique_ptr<DatagramRing> outgoing_;
     std::unique_ptr<DatagramRing> incoming_;
 
+    // Of the network thread.
+    std::unique_ptr<Batch> batch_;
+    std::unique_ptr<SecureSession> secure_;  // null: no secret
+    std::unique_ptr<JobThread> jobs_;        // makes its keys
+    RateLimit limit_{one_every, burst};
+    std::size_t chosen_ = undecided;  // the socket that the far side was heard on
+    Nanoseconds next_try_ = 0;
+    Nanoseconds next_publish_ = 0;
+    TripleBuffer<SecureFigures> secure_figures_;
+
     std::atomic<UdpState> state_{UdpState::closed};
+    std::atomic<std::size_t> overhead_{28};
     std::atomic<std::uint64_t> sent_{0};
     std::atomic<std::uint64_t> received_{0};
     std::atomic<std::uint64_t> no_room_to_send_{0};
     std::atomic<std::uint64_t> no_room_to_take_{0};
     std::atomic<std::uint64_t> oversized_{0};
     std::atomic<std::uint64_t> unreachable_{0};
+    std::atomic<std::uint64_t> too_many_{0};
 };
 
 }  // namespace tactus

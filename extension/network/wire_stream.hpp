@@ -15,6 +15,7 @@
 
 #include "core/math/pose.hpp"
 #include "network/messages.hpp"
+#include "network/plausibility.hpp"
 
 namespace tactus {
 
@@ -24,11 +25,16 @@ static_assert(std::endian::native == std::endian::little, "the copies below woul
 inline constexpr std::uint16_t packet_magic = 0x4354;
 inline constexpr std::uint16_t sealed_magic = 0x5354;
 
-// What any honest sender stays within. Times: so that no sum of four overflows. Quaternions: single precision
-// leaves 1e-7, a damaged one is far off.
-inline constexpr Nanoseconds most_wire_time = Nanoseconds{1} << 60;  // either sign; 36 years
-inline constexpr double most_wire_length = 1e9;                      // of any component of any vector
-inline constexpr double quaternion_tolerance = 1e-3;                 // of the norm from 1
+inline constexpr double quaternion_tolerance = 1e-3;  // of the norm from 1: a damaged one is far off
+inline constexpr double max_wire_length = 1e9;  // of what is neither a position nor a speed (unit: meters)
+
+// Small numbers of either sign become small ones without: 0, -1, 1, -2, … -> 0, 1, 2, 3, …
+constexpr std::uint64_t folded(std::int64_t value) {
+    return (static_cast<std::uint64_t>(value) << 1) ^ static_cast<std::uint64_t>(value >> 63);
+}
+constexpr std::int64_t unfolded(std::uint64_t value) {
+    return static_cast<std::int64_t>((value >> 1) ^ (~(value & 1) + 1));
+}
 
 class WireStream {
 public:
@@ -46,6 +52,10 @@ public:
         }
     }
 
+    // When the packet is sent: times in it are told from there.
+    void set_sent_at(Nanoseconds time) { sent_at_ = time; }
+    Nanoseconds sent_at() const { return sent_at_; }
+
 protected:
     template <std::floating_point Real>
     void check_real(Real value, Real least, Real most) {
@@ -62,6 +72,7 @@ protected:
 
 private:
     Refusal refusal_ = Refusal::none;
+    Nanoseconds sent_at_ = 0;
 };
 
 class WireWriter : public WireStream {
@@ -79,6 +90,19 @@ public:
     void integer(Integer value) {
         put(&value, sizeof value);
     }
+    // As few bytes as it takes: seven bits in each, the lowest first, the top bit says that more follow.
+    void varint(std::uint64_t value) {
+        for (; value >= 0x80u; value >>= 7) {
+            integer(static_cast<std::uint8_t>(value | 0x80u));
+        }
+        integer(static_cast<std::uint8_t>(value));
+    }
+    void folded_varint(std::int64_t value) { varint(folded(value)); }
+    void time_near(Nanoseconds value) {
+        const Nanoseconds age = value - sent_at();
+        require(age >= -plausible::max_age && age <= plausible::max_age);
+        folded_varint(age);
+    }
     void flag(bool value) { integer(static_cast<std::uint8_t>(value)); }
     template <typename Enum>
     void choice(Enum value, Enum last) {
@@ -86,7 +110,7 @@ public:
         integer(static_cast<std::uint8_t>(value));
     }
     void time(Nanoseconds value) {
-        require(value >= -most_wire_time && value <= most_wire_time);
+        require(value >= -plausible::max_time && value <= plausible::max_time);
         integer(value);
     }
     template <std::floating_point Real>
@@ -94,7 +118,7 @@ public:
         check_real(value, least, most);
         put(&value, sizeof value);
     }
-    void vector(const Vec3& value, double least = -most_wire_length, double most = most_wire_length) {
+    void vector(const Vec3& value, double least = -max_wire_length, double most = max_wire_length) {
         real(value.x, least, most);
         real(value.y, least, most);
         real(value.z, least, most);
@@ -144,6 +168,35 @@ public:
     void integer(Integer& value) {
         take(&value, sizeof value);
     }
+    void varint(std::uint64_t& value) {
+        constexpr int bits = 64;
+        value = 0;
+        for (int shift = 0; good(); shift += 7) {
+            std::uint8_t byte = 0;
+            integer(byte);
+            const std::uint64_t part = byte & 0x7fu;
+            // No bit beyond the last one, and no byte that says nothing.
+            require(shift < bits && part << shift >> shift == part && (byte != 0 || shift == 0));
+            if (!good()) {
+                break;
+            }
+            value |= part << shift;
+            if (byte < 0x80u) {
+                return;
+            }
+        }
+    }
+    void folded_varint(std::int64_t& value) {
+        std::uint64_t number = 0;
+        varint(number);
+        value = unfolded(number);
+    }
+    void time_near(Nanoseconds& value) {
+        std::int64_t age = 0;
+        folded_varint(age);
+        require(age >= -plausible::max_age && age <= plausible::max_age);
+        value = good() ? sent_at() + age : 0;
+    }
     void flag(bool& value) {
         std::uint8_t byte = 0;
         integer(byte);
@@ -159,14 +212,14 @@ public:
     }
     void time(Nanoseconds& value) {
         integer(value);
-        require(value >= -most_wire_time && value <= most_wire_time);
+        require(value >= -plausible::max_time && value <= plausible::max_time);
     }
     template <std::floating_point Real>
     void real(Real& value, Real least, Real most) {
         take(&value, sizeof value);
         check_real(value, least, most);
     }
-    void vector(Vec3& value, double least = -most_wire_length, double most = most_wire_length) {
+    void vector(Vec3& value, double least = -max_wire_length, double most = max_wire_length) {
         real(value.x, least, most);
         real(value.y, least, most);
         real(value.z, least, most);

@@ -32,8 +32,11 @@ struct BuiltDraft {
 
 BuiltDraft build_draft(const MeshDraft& draft, const ParallelRunner& run) {
     const BuiltMesh built = draft.source->built(draft.scaling, run);
-    BuiltDraft result{{draft.pose, built.tree, built.tree->center(), built.tree->radius(), nullptr},
-                      {MeshShape{built.mesh, draft.smooth_below}, draft.pose}};
+    const bool closed = is_closed(*built.mesh);
+    const bool one_sided = draft.one_sided && closed;
+    BuiltDraft result{
+        {draft.pose, built.tree, built.tree->center(), built.tree->radius(), nullptr, closed, one_sided},
+        {MeshShape{built.mesh, draft.smooth_below, one_sided}, draft.pose}};
     if (draft.smooth_below > 0.0) {
         result.part.smooth_normals = std::make_shared<const std::vector<CornerNormals>>(
             smooth_normals(*built.mesh, draft.smooth_below));
@@ -50,6 +53,11 @@ std::vector<BuiltDraft> build_drafts(const std::vector<MeshDraft>& drafts, const
             problems.push_back(std::move(problem));
         } else {
             built.push_back(build_draft(draft, run));
+            if (draft.one_sided && !built.back().part.closed) {
+                problems.push_back(draft.owner +
+                                   "it is touched from both sides, because its mesh has no inside: close its "
+                                   "holes and turn all its triangles alike, or switch 'one_sided' off");
+            }
         }
     }
     return built;
@@ -91,7 +99,7 @@ std::size_t triangle_count(const BodyReading& reading) {
     return count;
 }
 
-BuiltBody build_body(const Session& session, const BodyPlan& plan, const ParallelRunner& run) {
+BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
     BuiltBody result;
     result.problems = plan.reading.problems;
     const std::vector<BuiltDraft> colliding = build_drafts(plan.reading.meshes, run, result.problems);
@@ -134,7 +142,7 @@ BuiltBody build_body(const Session& session, const BodyPlan& plan, const Paralle
     description.may_move = plan.may_move;
     description.linear_velocity = from_godot(plan.linear_velocity);
     description.angular_velocity = from_godot(plan.angular_velocity);
-    result.body = session.prepare_body(addition, run);
+    result.body = Session::prepare_body(addition, run);
     result.addition = std::move(addition);
     return result;
 }

@@ -30,6 +30,6 @@ struct BuiltBody {
 std::size_t triangle_count(const BodyReading& reading);
 
 // Any thread but the haptic one. Bodies of the same mesh and scale share one tree.
-BuiltBody build_body(const Session& session, const BodyPlan& plan, const ParallelRunner& run);
+BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run);
 
 }  // namespace tactus

@@ -4,10 +4,10 @@
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/core/object.hpp>
 
+#include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/shape_reading.hpp"
-#include "nodes/touch_values.hpp"
 
 namespace tactus {
 
@@ -64,18 +64,32 @@ void BodyMirror::remove(Session& session) {
     }
 }
 
+// Godot tells of changes of what it is made of from now on.
+void BodyMirror::listen(const MirrorContext& context) {
+    CollisionObject3D& node = *body();
+    if (ObjectDB::get_instance(watch_) == nullptr) {
+        watch_ = BodyWatch::put_into(node, context.news);
+    }
+    std::vector<Ref<Resource>> resources;
+    for (const Ref<Shape3D>& shape : shapes_of(node)) {
+        resources.push_back(shape);
+    }
+    if (const Ref<PhysicsMaterial> material = material_of(node); material.is_valid()) {
+        resources.push_back(material);
+    }
+    BodyWatch::listen_to(watch_, resources);
+}
+
 // Reads the body as it is and has a twin of it built: at once where that takes no time.
 void BodyMirror::plan(Session& session, const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
+    place_problem_.clear();
+    was_nowhere_ = !problem_of_place(node.get_global_transform()).empty();
     key_ = shape_key(node);
     mesh_changes_ = HapticMesh::changes();
     makings_ = read_makings(node);
-    for (const Ref<Shape3D>& shape : shapes_of(node)) {
-        if (!shape->is_connected("changed", context.on_shape_change)) {
-            shape->connect("changed", context.on_shape_change);
-        }
-    }
+    listen(context);
     shapes_ = read_shapes(node);
     if (handle_ == no_handle) {
         remember_place(node);
@@ -90,12 +104,15 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
         hold_still_in_godot(node);
     }
     if (triangle_count(shapes_) <= most_triangles_at_once) {
-        job->built = build_body(session, job->plan, run_serially);
+        job->built = build_body(job->plan, run_serially);
         job->done = true;
         take_ready(session, context);
     } else {
-        context.workers->add([job, &session, run = context.workers->runner()] {
-            job->built = build_body(session, job->plan, run);
+        context.workers->add([job, run = context.workers->runner()] {
+            // Nobody else holds it: nobody waits for it any more.
+            if (job.use_count() > 1) {
+                job->built = build_body(job->plan, run);
+            }
             job->done.store(true, std::memory_order_release);
         });
     }
@@ -107,8 +124,11 @@ void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
     }
     const std::shared_ptr<Job> job = std::move(job_);
     job_.reset();
-    remove(session);
     problems_ = std::move(job->built.problems);
+    if (deform(session, *job)) {
+        return;
+    }
+    remove(session);
     if (!job->built.buildable) {
         return;
     }
@@ -121,8 +141,23 @@ void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
     shown_from_ = context.takes_effect;
     values_ = job->plan.values;
     addition_ = std::move(job->built.addition);
+    made_of_ = job->plan.makings;
     revision_ = next_revision();
     catch_up(session, job->plan);
+}
+
+// Where only corners of its meshes have moved, the twin stays and takes the new form: whoever touches it is
+// taken along.
+bool BodyMirror::deform(Session& session, Job& job) {
+    const BodyAddition& now = job.built.addition;
+    if (handle_ == no_handle || !job.built.buildable || !job.built.body.error.empty() ||
+        !(job.plan.makings == made_of_) || !is_deformation(*addition_.touch, *now.touch)) {
+        return false;
+    }
+    session.deform_body(handle_, std::move(job.built.body));
+    addition_ = std::move(job.built.addition);
+    revision_ = next_revision();
+    return true;
 }
 
 // What has changed while the twin was built.
@@ -143,7 +178,8 @@ void BodyMirror::catch_up(Session& session, const BodyPlan& plan) {
 }
 
 bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) {
-    if (!tried_ || !(read_makings(node) == makings_) || !(shape_key(node) == key_)) {
+    const bool is_back = was_nowhere_ && problem_of_place(node.get_global_transform()).empty();
+    if (!tried_ || is_back || !(read_makings(node) == makings_) || !(shape_key(node) == key_)) {
         return true;
     }
     if (!shapes_changed && mesh_changes_ == HapticMesh::changes()) {
@@ -153,9 +189,12 @@ bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) 
     return !same_shapes(read_shapes(node), shapes_);
 }
 
-void BodyMirror::send_values(Session& session, const BodyDefaults& defaults) {
+void BodyMirror::send_values(Session& session, const MirrorContext& context) {
     const BodyValues before = values_;
-    values_ = read_values(*body(), defaults);
+    values_ = read_values(*body(), context.defaults);
+    if (values_.material != before.material) {
+        listen(context);
+    }
     bool described_anew = false;
     const auto changes = [&described_anew](bool differs) {
         described_anew = described_anew || differs;
@@ -199,10 +238,20 @@ BodyAddition BodyMirror::addition() const {
     return now;
 }
 
+std::vector<std::string> BodyMirror::problems() const {
+    std::vector<std::string> all = problems_;
+    if (!place_problem_.empty()) {
+        all.push_back(place_problem_);
+    }
+    return all;
+}
+
 void BodyMirror::send_motion(Session& session, double seconds, std::uint64_t takes_effect) {
     CollisionObject3D& node = *body();
-    if (!(node.get_global_transform() == place_) && node.get_global_transform().is_finite()) {
-        place_ = node.get_global_transform();
+    const Transform3D place = node.get_global_transform();
+    place_problem_ = problem_of_place(place);
+    if (!(place == place_) && place_problem_.empty()) {
+        place_ = place;
         if (values_.motion == Motion::Dynamic) {
             session.teleport_body(handle_, pose_of(place_));
             shown_from_ = takes_effect;
@@ -236,30 +285,44 @@ void BodyMirror::synchronise(Session& session, const MirrorContext& context, dou
     }
     if (handle_ != no_handle) {
         hold_still_in_godot(*node);
-        send_values(session, context.defaults);
+        send_values(session, context);
         send_motion(session, seconds, context.takes_effect);
     }
 }
 
+bool BodyMirror::follow(Session& session, const MirrorContext& context, double seconds) {
+    if (handle_ == no_handle || body() == nullptr) {
+        return false;
+    }
+    send_motion(session, seconds, context.takes_effect);
+    return !place_problem_.empty();
+}
+
+// Moving the node may call a script, which may let it go.
 void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
-    CollisionObject3D* node = body();
-    auto* rigid = Object::cast_to<RigidBody3D>(node);
-    if (rigid == nullptr || values_.motion != Motion::Dynamic || tick < shown_from_ ||
-        state.changed_at == shown_change_) {
+    if (!place_problem_.empty() || state.changed_at == shown_change_ || values_.motion != Motion::Dynamic ||
+        tick < shown_from_) {
+        return;
+    }
+    auto* rigid = Object::cast_to<RigidBody3D>(body());
+    if (rigid == nullptr) {
         return;
     }
     shown_change_ = state.changed_at;
     const Transform3D pose = to_godot(state.pose);
-    rigid->set_global_transform(Transform3D(pose.basis * key_.scaling, pose.origin));
     rigid->set_linear_velocity(to_godot(state.linear_velocity));
     rigid->set_angular_velocity(to_godot(state.angular_velocity));
-    remember_place(*rigid);
+    rigid->set_global_transform(Transform3D(pose.basis * key_.scaling, pose.origin));
+    if (ObjectDB::get_instance(id_) != nullptr && rigid->is_inside_tree()) {
+        remember_place(*rigid);
+    }
 }
 
 void BodyMirror::release(Session& session) {
     remove(session);
     job_.reset();
     tried_ = false;
+    BodyWatch::take_out(std::exchange(watch_, 0));
     if (auto* rigid = Object::cast_to<RigidBody3D>(body())) {
         PhysicsServer3D::get_singleton()->body_set_mode(rigid->get_rid(), own_mode(*rigid));
     }

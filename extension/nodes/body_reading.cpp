@@ -20,22 +20,19 @@ using namespace godot;
 
 namespace {
 
+// A frame scaled more than this is a mistake: single precision has seven digits for all of it.
+constexpr real_t min_scale = 1e-6F;
+constexpr real_t max_scale = 1e6F;
+
+// As the physics has it (unit: meters).
+constexpr real_t max_distance = 1e7F;
+
 using Axis = PhysicsServer3D::BodyAxis;
 
 constexpr Axis axes[6] = {PhysicsServer3D::BODY_AXIS_LINEAR_X,  PhysicsServer3D::BODY_AXIS_LINEAR_Y,
                           PhysicsServer3D::BODY_AXIS_LINEAR_Z,  PhysicsServer3D::BODY_AXIS_ANGULAR_X,
                           PhysicsServer3D::BODY_AXIS_ANGULAR_Y, PhysicsServer3D::BODY_AXIS_ANGULAR_Z};
 constexpr std::uint32_t all_turns = 0b111000;
-
-Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
-    if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
-        return rigid->get_physics_material_override();
-    }
-    if (const auto* still = Object::cast_to<StaticBody3D>(&body)) {  // an AnimatableBody3D is one, too
-        return still->get_physics_material_override();
-    }
-    return Ref<PhysicsMaterial>();
-}
 
 void read_touch(const Ref<PhysicsMaterial>& material, const BodyDefaults& defaults, BodyValues& values) {
     if (const auto* haptic = Object::cast_to<HapticMaterial>(material.ptr())) {
@@ -76,6 +73,33 @@ std::string name_of_owner(const Object* owner) {
 }
 
 }  // namespace
+
+Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
+    if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
+        return rigid->get_physics_material_override();
+    }
+    if (const auto* still = Object::cast_to<StaticBody3D>(&body)) {  // an AnimatableBody3D is one, too
+        return still->get_physics_material_override();
+    }
+    return Ref<PhysicsMaterial>();
+}
+
+std::string problem_of_place(const Transform3D& place) {
+    if (!place.is_finite()) {
+        return "its transform is not made of finite numbers: reset it in the inspector";
+    }
+    const Vector3 scale = place.basis.get_scale().abs();
+    for (const real_t factor : {scale.x, scale.y, scale.z}) {
+        if (!(factor >= min_scale && factor <= max_scale)) {
+            return "it is scaled by " + from_godot(String::num(static_cast<double>(factor))) +
+                   " along an axis, and that cannot be touched: scale it by something between 1e-6 and 1e6";
+        }
+    }
+    const Vector3 far = place.origin.abs();
+    return std::max({far.x, far.y, far.z}) > max_distance
+               ? "it stands farther from the origin than 10,000 km: move it nearer"
+               : std::string();
+}
 
 bool is_solid_body(const Object* object) {
     return Object::cast_to<RigidBody3D>(object) != nullptr ||
@@ -138,9 +162,8 @@ std::vector<Ref<Shape3D>> shapes_of(CollisionObject3D& body) {
 BodyReading read_shapes(CollisionObject3D& body) {
     BodyReading reading;
     const Transform3D transform = body.get_global_transform();
-    if (!transform.is_finite() || transform.basis.determinant() == 0) {
-        reading.problems.push_back(
-            "its transform is scaled to zero or not made of finite numbers: reset it in the inspector");
+    if (std::string problem = problem_of_place(transform); !problem.empty()) {
+        reading.problems.push_back(std::move(problem));
         return reading;
     }
     const Basis scaling = shape_key(body).scaling;
@@ -164,6 +187,11 @@ BodyReading read_shapes(CollisionObject3D& body) {
             draft.owner = name_of_owner(mesh);
         }
         reading.touched = std::move(touched.meshes);
+    }
+    if (is_rigid(body) && body.has_method("_integrate_forces")) {
+        reading.problems.push_back(
+            "its script has _integrate_forces(), which is not called while a HapticWorld moves the body: use "
+            "_process() and HapticWorld.apply_force()");
     }
     reading.touchable = !reading.shapes.empty() || !reading.meshes.empty() || !reading.touched.empty();
     if (!reading.touchable && reading.problems.empty()) {
@@ -197,6 +225,7 @@ std::vector<std::string> problems_of(const BodyReading& reading) {
 BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaults) {
     BodyValues values;
     const Ref<PhysicsMaterial> material = material_of(body);
+    values.material = material.is_valid() ? material->get_instance_id() : 0;
     values.motion = motion_of(body);
     read_touch(material, defaults, values);
     if (material.is_valid()) {
@@ -220,11 +249,10 @@ BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaul
 
 BodyMakings read_makings(const CollisionObject3D& body) {
     BodyMakings makings;
-    const auto* physics_body = Object::cast_to<PhysicsBody3D>(&body);
-    for (std::uint32_t i = 0; physics_body != nullptr && i < 6; ++i) {
-        makings.locks |= physics_body->get_axis_lock(axes[i]) ? 1u << i : 0u;
-    }
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            makings.locks |= rigid->get_axis_lock(axes[i]) ? 1u << i : 0u;
+        }
         makings.mass = rigid->get_mass();
         const HapticMesh* mesh = haptic_mesh_of(body);
         if (mesh != nullptr && mesh->is_giving_mass()) {

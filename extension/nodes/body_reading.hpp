@@ -2,6 +2,7 @@
 #pragma once
 
 #include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/variant/string.hpp>
@@ -39,6 +40,9 @@ struct ShapeKey {
     }
 };
 
+// What keeps a body from being touched where it stands, and what to do; empty where nothing does.
+std::string problem_of_place(const godot::Transform3D& place);
+
 // Whether a world mirrors this object at all: areas are not solid.
 bool is_solid_body(const godot::Object* object);
 
@@ -69,6 +73,7 @@ std::string problem_of(const MeshDraft& draft);  // empty where the triangles ar
 
 // What a running body can take over as it is, without being made anew.
 struct BodyValues {
+    std::uint64_t material = 0;  // instance id of its PhysicsMaterial; 0: none
     Motion motion = Motion::Static;
     TouchMaterial touch;
     std::shared_ptr<const HeightImage> texture;  // null: none
@@ -80,6 +85,8 @@ struct BodyValues {
     godot::Vector3 constant_force;   // at the centre of mass, in the world (unit: newtons)
     godot::Vector3 constant_torque;  // in the world (unit: newton meters)
 };
+// Of any of the bodies that can have one.
+godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& body);
 BodyValues read_values(const godot::CollisionObject3D& body, const BodyDefaults& defaults);
 
 // What a body is made from: a change makes it anew.

@@ -1,18 +1,21 @@
 #include "nodes/haptic_device.hpp"
 
 #include <cmath>
+#include <godot_cpp/classes/control.hpp>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/viewport.hpp>
-#include <godot_cpp/core/class_db.hpp>
 
 #include "devices/path_device.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
 
 namespace tactus {
 
@@ -26,16 +29,51 @@ constexpr double nearest_depth = 0.02;
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
+// The share of the view that a control covers which nobody means to click beside.
+constexpr double covers_view = 0.9;
+
+// Whether the control takes all that the mouse does over most of the view.
+bool takes_mouse(const Control& control) {
+    const Vector2 own = control.get_global_rect().size;
+    const Vector2 view = control.get_viewport_rect().size;
+    return control.get_mouse_filter() == Control::MOUSE_FILTER_STOP && control.is_visible_in_tree() &&
+           static_cast<double>(own.x * own.y) > covers_view * static_cast<double>(view.x * view.y);
+}
+
+const Control* control_over_view(const Node& node) {
+    const auto* control = Object::cast_to<Control>(&node);
+    if (control != nullptr && takes_mouse(*control)) {
+        return control;
+    }
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (const Control* below = control_over_view(*node.get_child(i))) {
+            return below;
+        }
+    }
+    return nullptr;
+}
+
 }  // namespace
 
 void HapticDevice::changed() {
+    path_problem_ = path_.is_valid() ? path_->get_problem() : String();
     port_.reset();
     mouse_.reset();
     arm_.reset();
     update_configuration_warnings();
 }
 
+HapticDevice::Driver HapticDevice::driver() const {
+    if (driver_ != DRIVER_AUTOMATIC) {
+        return driver_;
+    }
+    return path_.is_valid() ? DRIVER_PATH : DRIVER_MOUSE;
+}
+
 void HapticDevice::set_driver(Driver driver) {
+    if (!is_one_of(*this, "driver", driver, DRIVER_AUTOMATIC, "DRIVER")) {
+        return;
+    }
     driver_ = driver;
     notify_property_list_changed();
     changed();
@@ -117,8 +155,11 @@ String HapticDevice::problem() const {
         return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another "
                "driver";
     }
-    if (follows_path() && !path_->get_problem().is_empty()) {
-        return "its path cannot be followed: " + path_->get_problem();
+    if (follows_path() && !path_problem_.is_empty()) {
+        return "its path cannot be followed: " + path_problem_;
+    }
+    if (is_inside_tree() && !get_global_transform().is_finite()) {
+        return "its transform is not made of finite numbers: reset it in the inspector";
     }
     if (is_inside_tree() && get_global_transform().basis.determinant() == 0) {
         return "it is scaled to zero: give it and the nodes above it a scale that is not zero";
@@ -137,20 +178,53 @@ String HapticDevice::get_state_text() const {
     return state_.connected ? "connected" : "waiting for the first tick";
 }
 
+String HapticDevice::problem_of_mouse() const {
+    const bool is_edited = Engine::get_singleton()->is_editor_hint();
+    const Node* scene = is_edited ? get_tree()->get_edited_scene_root() : nullptr;
+    const bool has_camera = is_edited ? scene != nullptr && !scene->find_children("*", "Camera3D").is_empty()
+                                      : get_viewport()->get_camera_3d() != nullptr;
+    if (!has_camera) {
+        return "the mouse needs a camera to move the hand before: add a Camera3D that sees the hand, and "
+               "make "
+               "it current";
+    }
+    const Control* over = nullptr;
+    if (is_edited) {
+        over = control_over_view(*scene);
+    } else if (const Control* hovered = get_viewport()->gui_get_hovered_control();
+               hovered != nullptr && takes_mouse(*hovered)) {
+        over = hovered;
+    }
+    return over == nullptr ? String()
+                           : "the control '" + String(over->get_name()) +
+                                 "' lies over the view and takes the mouse: set its 'mouse_filter' to Ignore";
+}
+
+String HapticDevice::hindrance() const {
+    return is_inside_tree() && driver() == DRIVER_MOUSE ? problem_of_mouse() : String();
+}
+
 PackedStringArray HapticDevice::_get_configuration_warnings() const {
     PackedStringArray warnings;
     const String wrong = problem();
     if (!wrong.is_empty()) {
         warnings.push_back("This HapticDevice does nothing: " + wrong + ".");
     }
-    if (is_inside_tree()) {
-        const Vector3 scale = get_global_transform().basis.get_scale().abs();
-        if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
-            std::abs(scale.x - scale.z) > even_scale * scale.x) {
-            warnings.push_back(
-                "This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
-                "evenly.");
-        }
+    if (!is_inside_tree()) {
+        return warnings;
+    }
+    if (const String hindered = hindrance(); !hindered.is_empty()) {
+        warnings.push_back("The hand of this HapticDevice will not move: " + hindered + ".");
+    }
+    if (const String lost = problem_without_world(*this); !lost.is_empty()) {
+        warnings.push_back("This HapticDevice does nothing: " + lost + ".");
+    }
+    const Vector3 scale = get_global_transform().basis.get_scale().abs();
+    if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
+        std::abs(scale.x - scale.z) > even_scale * scale.x) {
+        warnings.push_back(
+            "This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
+            "evenly.");
     }
     return warnings;
 }
@@ -159,19 +233,33 @@ std::shared_ptr<Device> HapticDevice::port() {
     if (!problem().is_empty()) {
         return nullptr;
     }
-    if (port_ == nullptr && driver_ == DRIVER_PATH) {
+    if (port_ == nullptr && driver() == DRIVER_PATH) {
         port_ = std::make_shared<PathDevice>(path_->hand_path());
     }
-    if (port_ == nullptr && driver_ == DRIVER_ARM) {
+    if (port_ == nullptr && driver() == DRIVER_ARM) {
         arm_ = std::make_shared<SimulatedArm>(path_->hand_path(), arm_settings_);
         port_ = arm_;
     }
-    if (port_ == nullptr && driver_ == DRIVER_MOUSE) {
+    if (port_ == nullptr && driver() == DRIVER_MOUSE) {
         mouse_ = std::make_shared<MouseDevice>(MouseDevice::Settings{});
         port_ = mouse_;
         mouse_target_ = from_godot(get_global_position());
     }
     return port_;
+}
+
+void HapticDevice::take_state(const DeviceState& state) {
+    const DeviceState before = std::exchange(state_, state);
+    if (before.connected != state.connected) {
+        post_signal(*this, state.connected ? "connected" : "disconnected");
+    }
+    const std::uint32_t changed = before.buttons ^ state.buttons;
+    for (int64_t button = 0; changed >> button != 0; ++button) {
+        if ((changed >> button & 1u) != 0) {
+            const bool pressed = (state.buttons >> button & 1u) != 0;
+            post_signal(*this, pressed ? "button_pressed" : "button_released", {button});
+        }
+    }
 }
 
 Workspace HapticDevice::workspace() const {
@@ -213,11 +301,9 @@ void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {
 }
 
 void HapticDevice::_notification(int what) {
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
     if (what == NOTIFICATION_ENTER_TREE) {
         Roll<HapticDevice>::enter(this);
+        watch_warnings(*this);
     } else if (what == NOTIFICATION_EXIT_TREE) {
         Roll<HapticDevice>::leave(this);
         changed();
@@ -229,66 +315,10 @@ void HapticDevice::_validate_property(PropertyInfo& property) const {
     const bool of_path = property.name == StringName("path");
     const bool of_mouse = property.name == StringName("wheel_step");
     const bool of_arm = String(property.name).begins_with("arm_");
-    if ((of_path && !follows_path()) || (of_mouse && driver_ != DRIVER_MOUSE) ||
-        (of_arm && driver_ != DRIVER_ARM)) {
+    if ((of_path && !follows_path() && driver_ != DRIVER_AUTOMATIC) ||
+        (of_mouse && driver() != DRIVER_MOUSE) || (of_arm && driver() != DRIVER_ARM)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }
-}
-
-void HapticDevice::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticDevice::_get_configuration_warnings);
-    ClassDB::bind_method(D_METHOD("set_driver", "driver"), &HapticDevice::set_driver);
-    ClassDB::bind_method(D_METHOD("get_driver"), &HapticDevice::get_driver);
-    ClassDB::bind_method(D_METHOD("set_path", "path"), &HapticDevice::set_path);
-    ClassDB::bind_method(D_METHOD("get_path_resource"), &HapticDevice::get_path_resource);
-    ClassDB::bind_method(D_METHOD("set_wheel_step", "meters"), &HapticDevice::set_wheel_step);
-    ClassDB::bind_method(D_METHOD("get_wheel_step"), &HapticDevice::get_wheel_step);
-    ClassDB::bind_method(D_METHOD("set_arm_mass", "kilograms"), &HapticDevice::set_arm_mass);
-    ClassDB::bind_method(D_METHOD("get_arm_mass"), &HapticDevice::get_arm_mass);
-    ClassDB::bind_method(D_METHOD("set_arm_damping", "newton_seconds_per_meter"),
-                         &HapticDevice::set_arm_damping);
-    ClassDB::bind_method(D_METHOD("get_arm_damping"), &HapticDevice::get_arm_damping);
-    ClassDB::bind_method(D_METHOD("set_arm_stiffness", "newtons_per_meter"),
-                         &HapticDevice::set_arm_stiffness);
-    ClassDB::bind_method(D_METHOD("get_arm_stiffness"), &HapticDevice::get_arm_stiffness);
-    ClassDB::bind_method(D_METHOD("set_force_limit", "newtons"), &HapticDevice::set_force_limit);
-    ClassDB::bind_method(D_METHOD("get_force_limit"), &HapticDevice::get_force_limit);
-    ClassDB::bind_method(D_METHOD("set_clutch", "held"), &HapticDevice::set_clutch);
-    ClassDB::bind_method(D_METHOD("is_clutch_held"), &HapticDevice::is_clutch_held);
-    ClassDB::bind_method(D_METHOD("is_device_connected"), &HapticDevice::is_device_connected);
-    ClassDB::bind_method(D_METHOD("get_hand_position"), &HapticDevice::get_hand_position);
-    ClassDB::bind_method(D_METHOD("get_hand_velocity"), &HapticDevice::get_hand_velocity);
-    ClassDB::bind_method(D_METHOD("get_force"), &HapticDevice::get_force);
-    ClassDB::bind_method(D_METHOD("get_buttons"), &HapticDevice::get_buttons);
-    ClassDB::bind_method(D_METHOD("get_state_text"), &HapticDevice::get_state_text);
-    ClassDB::bind_method(D_METHOD("aim_mouse", "screen_position", "depth_change"), &HapticDevice::aim_mouse,
-                         DEFVAL(0.0));
-    ClassDB::bind_method(D_METHOD("_path_changed"), &HapticDevice::changed);
-
-    ADD_PROPERTY(
-        PropertyInfo(Variant::INT, "driver", PROPERTY_HINT_ENUM, "Scripted path,Mouse,Simulated arm"),
-        "set_driver", "get_driver");
-    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "path", PROPERTY_HINT_RESOURCE_TYPE, "HapticPath"), "set_path",
-                 "get_path_resource");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "wheel_step", PROPERTY_HINT_RANGE, "0.001,0.1,0.001,suffix:m"),
-                 "set_wheel_step", "get_wheel_step");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "arm_mass", PROPERTY_HINT_RANGE, "0.05,5,0.01,or_greater,suffix:kg"),
-        "set_arm_mass", "get_arm_mass");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "arm_damping", PROPERTY_HINT_RANGE, "0,100,0.1,or_greater,suffix:N s/m"),
-        "set_arm_damping", "get_arm_damping");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "arm_stiffness", PROPERTY_HINT_RANGE, "0,1000,1,or_greater,suffix:N/m"),
-        "set_arm_stiffness", "get_arm_stiffness");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "force_limit", PROPERTY_HINT_RANGE, "0,20,0.1,or_greater,suffix:N"),
-        "set_force_limit", "get_force_limit");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "clutch"), "set_clutch", "is_clutch_held");
-
-    BIND_ENUM_CONSTANT(DRIVER_PATH);
-    BIND_ENUM_CONSTANT(DRIVER_MOUSE);
-    BIND_ENUM_CONSTANT(DRIVER_ARM);
 }
 
 }  // namespace tactus

@@ -20,7 +20,7 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
-    enum Driver { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM };
+    enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC };
 
     void set_driver(Driver driver);
     Driver get_driver() const { return driver_; }
@@ -54,11 +54,13 @@ public:
 
     // --- for the world that runs it
 
+    // Why its hand does not move, though it could, and what to do; empty where nothing is in the way.
+    godot::String hindrance() const;
     // Null where the driver has nothing to work with; another one after a change of driver or path.
     std::shared_ptr<Device> port();
     Workspace workspace() const;
-    void take_state(const DeviceState& state) { state_ = state; }
-    void clear_state() { state_ = {}; }
+    void take_state(const DeviceState& state);
+    void clear_state() { take_state({}); }
 
 protected:
     static void _bind_methods();
@@ -69,10 +71,14 @@ private:
     godot::String problem() const;
     void changed();
     void arm_changed();
-    bool follows_path() const { return driver_ == DRIVER_PATH || driver_ == DRIVER_ARM; }
+    // The one that is meant where that is left open.
+    Driver driver() const;
+    bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
+    godot::String problem_of_mouse() const;
 
-    Driver driver_ = DRIVER_PATH;
+    Driver driver_ = DRIVER_AUTOMATIC;
     godot::Ref<HapticPath> path_;
+    godot::String path_problem_;  // why it cannot be followed; empty where it can
     double wheel_step_ = 0.01;
     ArmSettings arm_settings_;
     double force_limit_ = 8.0;

@@ -3,9 +3,11 @@
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/texture2d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
+#include <map>
 #include <memory>
 
 #include "core/haptics/touch_material.hpp"
+#include "nodes/value_rows.hpp"
 
 namespace tactus {
 
@@ -15,7 +17,7 @@ class HapticMaterial : public godot::PhysicsMaterial {
     GDCLASS(HapticMaterial, godot::PhysicsMaterial)
 
 public:
-    enum Preset {
+    enum Preset : int64_t {
         PRESET_CUSTOM,
         PRESET_RUBBER,
         PRESET_ICE,
@@ -24,9 +26,16 @@ public:
         PRESET_SPONGE,
     };
 
-    // Fills all values; PRESET_CUSTOM changes none.
+    static std::span<const ValueRow<TouchMaterial>> rows();
+    void set_value(int64_t index, const godot::Variant& value) {
+        tactus::set_value(*this, rows(), index, touch_, value);
+    }
+    godot::Variant get_value(int64_t index) const { return tactus::get_value(rows(), index, touch_); }
+
+    // All values become the preset's, or those that they were when it was left. Nothing is forgotten: what
+    // the material had before comes back with the preset that it had before.
     void set_preset(Preset preset);
-    // The preset whose values these are.
+    // The one that was chosen; where none was, the one whose values these are.
     Preset get_preset() const;
 
     void set_texture_image(const godot::Ref<godot::Texture2D>& texture);
@@ -41,17 +50,19 @@ protected:
     static void _bind_methods();
 
 private:
-    template <double TouchMaterial::* member>
-    void set_value(double value);
-    template <double TouchMaterial::* member>
-    double get_value() const {
-        return touch_.*member;
-    }
-    template <double TouchMaterial::* member>
-    static void bind_value(const char* name, const char* hint);
     void texture_changed();
 
+    struct PresetValues {
+        TouchMaterial touch;
+        double friction = 1.0;  // between bodies, as PhysicsMaterial has it
+        double bounce = 0.0;
+    };
+    static PresetValues values_of(Preset preset);
+    PresetValues values() const { return {touch_, get_friction(), get_bounce()}; }
+
     TouchMaterial touch_;
+    Preset preset_ = PRESET_CUSTOM;
+    std::map<Preset, PresetValues> left_;  // as they were when another preset was chosen
     godot::Ref<godot::Texture2D> texture_;
     mutable std::shared_ptr<const HeightImage> heights_;  // read once, when somebody asks
 };

@@ -2,7 +2,6 @@
 
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
-#include <godot_cpp/core/class_db.hpp>
 #include <numbers>
 #include <unordered_map>
 
@@ -10,6 +9,7 @@
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/messages.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 
@@ -23,6 +23,11 @@ std::uint64_t change_count = 0;
 
 std::uint64_t HapticMesh::changes() {
     return change_count;
+}
+
+// Millions of triangles take longer to let go than a frame has.
+HapticMesh::~HapticMesh() {
+    Workers::discard([source = std::move(source_), former = std::move(former_)] {});
 }
 
 void HapticMesh::forget_triangles() {
@@ -70,6 +75,13 @@ void HapticMesh::set_smoothing_angle(double angle) {
     }
 }
 
+void HapticMesh::set_one_sided(bool one_sided) {
+    if (one_sided_ != one_sided) {
+        one_sided_ = one_sided;
+        ++change_count;
+    }
+}
+
 void HapticMesh::set_use_library_mass(bool use) {
     use_library_mass_ = use;
     update_configuration_warnings();
@@ -90,12 +102,12 @@ double HapticMesh::library_mass(const Basis& body_scale) const {
 // Each mesh is read by the first node that asks; when it changes, by the first that asks again.
 std::shared_ptr<MeshSource> HapticMesh::source() const {
     static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> by_mesh;
-    static std::unordered_map<std::uint32_t, std::weak_ptr<MeshSource>> by_name;
+    static std::unordered_map<std::string, std::weak_ptr<MeshSource>> by_name;
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
     std::weak_ptr<MeshSource>& known =
-        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[library_mesh_.hash()];
+        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[from_godot(library_mesh_)];
     source_ = known.lock();
     if (source_ != nullptr && source_ != former_) {
         former_.reset();
@@ -131,8 +143,12 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
     } else if (local.basis.determinant() == 0) {
         reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
     } else {
-        reading.meshes.push_back(
-            {triangles, without_rounding(scaling_of(local.basis)), pose_of(local), smoothing_angle_, {}});
+        reading.meshes.push_back({triangles,
+                                  without_rounding(scaling_of(local.basis)),
+                                  pose_of(local),
+                                  smoothing_angle_,
+                                  one_sided_,
+                                  {}});
     }
     return reading;
 }
@@ -195,34 +211,6 @@ void HapticMesh::_validate_property(PropertyInfo& property) const {
     if (property.name == StringName("library_mesh")) {
         property.hint_string = String(",").join(mesh_library_names());
     }
-}
-
-void HapticMesh::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticMesh::_get_configuration_warnings);
-    ClassDB::bind_method(D_METHOD("set_mesh", "mesh"), &HapticMesh::set_mesh);
-    ClassDB::bind_method(D_METHOD("get_mesh"), &HapticMesh::get_mesh);
-    ClassDB::bind_method(D_METHOD("set_library_mesh", "name"), &HapticMesh::set_library_mesh);
-    ClassDB::bind_method(D_METHOD("get_library_mesh"), &HapticMesh::get_library_mesh);
-    ClassDB::bind_method(D_METHOD("set_use_library_mass", "use"), &HapticMesh::set_use_library_mass);
-    ClassDB::bind_method(D_METHOD("is_using_library_mass"), &HapticMesh::is_using_library_mass);
-    ClassDB::bind_method(D_METHOD("set_smoothing_angle", "angle"), &HapticMesh::set_smoothing_angle);
-    ClassDB::bind_method(D_METHOD("get_smoothing_angle"), &HapticMesh::get_smoothing_angle);
-    ClassDB::bind_method(D_METHOD("get_library_mass"), &HapticMesh::get_library_mass);
-    ClassDB::bind_method(D_METHOD("get_library_source"), &HapticMesh::get_library_source);
-    ClassDB::bind_method(D_METHOD("_resource_changed"), &HapticMesh::resource_changed);
-    ClassDB::bind_static_method("HapticMesh", D_METHOD("get_library_names"), &HapticMesh::get_library_names);
-    ClassDB::bind_static_method("HapticMesh", D_METHOD("create_library_mesh", "name"),
-                                &HapticMesh::create_library_mesh);
-
-    ADD_PROPERTY(PropertyInfo(Variant::OBJECT, "mesh", PROPERTY_HINT_RESOURCE_TYPE, "Mesh"), "set_mesh",
-                 "get_mesh");
-    ADD_PROPERTY(PropertyInfo(Variant::STRING, "library_mesh", PROPERTY_HINT_ENUM_SUGGESTION, ""),
-                 "set_library_mesh", "get_library_mesh");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "use_library_mass"), "set_use_library_mass",
-                 "is_using_library_mass");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "smoothing_angle", PROPERTY_HINT_RANGE, "0,180,0.1,radians_as_degrees"),
-        "set_smoothing_angle", "get_smoothing_angle");
 }
 
 }  // namespace tactus

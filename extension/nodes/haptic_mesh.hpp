@@ -16,6 +16,8 @@ class HapticMesh : public godot::Node3D {
     GDCLASS(HapticMesh, godot::Node3D)
 
 public:
+    ~HapticMesh() override;
+
     void set_mesh(const godot::Ref<godot::Mesh>& mesh);
     godot::Ref<godot::Mesh> get_mesh() const { return mesh_; }
     void set_library_mesh(const godot::String& name);
@@ -24,6 +26,9 @@ public:
     // (unit: radians, 0 to pi)
     void set_smoothing_angle(double angle);
     double get_smoothing_angle() const { return smoothing_angle_; }
+
+    void set_one_sided(bool one_sided);
+    bool is_one_sided() const { return one_sided_; }
 
     void set_use_library_mass(bool use);
     bool is_using_library_mass() const { return use_library_mass_; }
@@ -62,6 +67,7 @@ private:
     godot::Ref<godot::Mesh> mesh_;
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;
+    bool one_sided_ = false;
     bool use_library_mass_ = false;
     mutable std::optional<double> known_mass_;    // of the library's mesh, looked up once
     mutable std::shared_ptr<MeshSource> source_;  // read once, when somebody asks

@@ -1,7 +1,5 @@
 #include "nodes/haptic_path.hpp"
 
-#include <godot_cpp/core/class_db.hpp>
-
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
@@ -12,6 +10,8 @@ using namespace godot;
 
 namespace {
 
+constexpr int64_t max_waves = 1'000'000;
+
 constexpr int line_steps = 600;  // points of a drawn path: 3 mm apart on the path of the thesis
 
 bool starts_with(const StringName& name, const char* prefix) {
@@ -21,13 +21,16 @@ bool starts_with(const StringName& name, const char* prefix) {
 }  // namespace
 
 void HapticPath::set_form(Form form) {
+    if (!is_one_of(*this, "form", form, FORM_POINTS, "FORM")) {
+        return;
+    }
     change(form_, form);
     notify_property_list_changed();
 }
 
 void HapticPath::set_center(const Vector3& center) {
     if (!center.is_finite()) {
-        refuse(*this, "center", center, "made of finite numbers");
+        refuse(*this, "circle_center", center, "made of finite numbers");
         return;
     }
     change(circle_.centre, from_godot(center));
@@ -39,7 +42,7 @@ Vector3 HapticPath::get_center() const {
 
 void HapticPath::set_radius(double radius) {
     if (!is_at_least_zero(radius)) {
-        refuse(*this, "radius", radius, "a finite number, 0 or more");
+        refuse(*this, "circle_radius", radius, "a finite number, 0 or more");
         return;
     }
     change(circle_.radius, radius);
@@ -47,7 +50,7 @@ void HapticPath::set_radius(double radius) {
 
 void HapticPath::set_amplitude(double amplitude) {
     if (!is_at_least_zero(amplitude)) {
-        refuse(*this, "amplitude", amplitude, "a finite number, 0 or more");
+        refuse(*this, "circle_amplitude", amplitude, "a finite number, 0 or more");
         return;
     }
     change(circle_.amplitude, amplitude);
@@ -55,18 +58,18 @@ void HapticPath::set_amplitude(double amplitude) {
 
 void HapticPath::set_turn_time(double seconds) {
     if (!(seconds >= 1e-3 && seconds <= 1e6)) {
-        refuse(*this, "turn_time", seconds, "between 0.001 and 1,000,000 seconds");
+        refuse(*this, "circle_turn_time", seconds, "between 0.001 and 1,000,000 seconds");
         return;
     }
     change(circle_.turn_time, from_seconds(seconds));
 }
 
-void HapticPath::set_waves(int waves) {
-    if (waves < 0) {
-        refuse(*this, "waves", waves, "0 or more");
+void HapticPath::set_waves(int64_t waves) {
+    if (waves < 0 || waves > max_waves) {
+        refuse(*this, "circle_waves", waves, "between 0 and 1,000,000");
         return;
     }
-    change(circle_.waves, waves);
+    change(circle_.waves, static_cast<int>(waves));
 }
 
 void HapticPath::set_points(const PackedVector3Array& points) {
@@ -76,7 +79,9 @@ void HapticPath::set_times(const PackedFloat64Array& times) {
     change(times_, times);
 }
 void HapticPath::set_interpolation(Interpolation interpolation) {
-    change(interpolation_, interpolation);
+    if (is_one_of(*this, "points_interpolation", interpolation, INTERPOLATION_SMOOTH, "INTERPOLATION")) {
+        change(interpolation_, interpolation);
+    }
 }
 void HapticPath::set_loop(bool loop) {
     change(loop_, loop);
@@ -141,66 +146,6 @@ void HapticPath::_validate_property(PropertyInfo& property) const {
     if ((of_circle && form_ != FORM_CIRCLE_WAVE) || (of_points && form_ != FORM_POINTS)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }
-}
-
-void HapticPath::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("set_form", "form"), &HapticPath::set_form);
-    ClassDB::bind_method(D_METHOD("get_form"), &HapticPath::get_form);
-    ClassDB::bind_method(D_METHOD("set_center", "center"), &HapticPath::set_center);
-    ClassDB::bind_method(D_METHOD("get_center"), &HapticPath::get_center);
-    ClassDB::bind_method(D_METHOD("set_radius", "radius"), &HapticPath::set_radius);
-    ClassDB::bind_method(D_METHOD("get_radius"), &HapticPath::get_radius);
-    ClassDB::bind_method(D_METHOD("set_amplitude", "amplitude"), &HapticPath::set_amplitude);
-    ClassDB::bind_method(D_METHOD("get_amplitude"), &HapticPath::get_amplitude);
-    ClassDB::bind_method(D_METHOD("set_turn_time", "seconds"), &HapticPath::set_turn_time);
-    ClassDB::bind_method(D_METHOD("get_turn_time"), &HapticPath::get_turn_time);
-    ClassDB::bind_method(D_METHOD("set_waves", "waves"), &HapticPath::set_waves);
-    ClassDB::bind_method(D_METHOD("get_waves"), &HapticPath::get_waves);
-    ClassDB::bind_method(D_METHOD("set_points", "points"), &HapticPath::set_points);
-    ClassDB::bind_method(D_METHOD("get_points"), &HapticPath::get_points);
-    ClassDB::bind_method(D_METHOD("set_times", "times"), &HapticPath::set_times);
-    ClassDB::bind_method(D_METHOD("get_times"), &HapticPath::get_times);
-    ClassDB::bind_method(D_METHOD("set_interpolation", "interpolation"), &HapticPath::set_interpolation);
-    ClassDB::bind_method(D_METHOD("get_interpolation"), &HapticPath::get_interpolation);
-    ClassDB::bind_method(D_METHOD("set_loop", "loop"), &HapticPath::set_loop);
-    ClassDB::bind_method(D_METHOD("is_looping"), &HapticPath::is_looping);
-    ClassDB::bind_method(D_METHOD("get_problem"), &HapticPath::get_problem);
-    ClassDB::bind_method(D_METHOD("get_duration"), &HapticPath::get_duration);
-    ClassDB::bind_method(D_METHOD("sample", "time"), &HapticPath::sample);
-    ClassDB::bind_method(D_METHOD("sample_velocity", "time"), &HapticPath::sample_velocity);
-    ClassDB::bind_method(D_METHOD("create_line_mesh", "thickness"), &HapticPath::create_line_mesh,
-                         DEFVAL(0.002));
-
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "form", PROPERTY_HINT_ENUM, "Circle and wave,Points"), "set_form",
-                 "get_form");
-    ADD_GROUP("Circle and Wave", "circle_");
-    ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "circle_center", PROPERTY_HINT_NONE, "suffix:m"),
-                 "set_center", "get_center");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "circle_radius", PROPERTY_HINT_RANGE, "0,1,0.001,or_greater,suffix:m"),
-        "set_radius", "get_radius");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "circle_amplitude", PROPERTY_HINT_RANGE,
-                              "0,0.5,0.001,or_greater,suffix:m"),
-                 "set_amplitude", "get_amplitude");
-    ADD_PROPERTY(PropertyInfo(Variant::FLOAT, "circle_turn_time", PROPERTY_HINT_RANGE,
-                              "0.1,60,0.1,or_greater,suffix:s"),
-                 "set_turn_time", "get_turn_time");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "circle_waves", PROPERTY_HINT_RANGE, "0,20,1,or_greater"),
-                 "set_waves", "get_waves");
-    ADD_GROUP("Points", "points_");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::PACKED_VECTOR3_ARRAY, "points_positions", PROPERTY_HINT_NONE, "suffix:m"),
-        "set_points", "get_points");
-    ADD_PROPERTY(PropertyInfo(Variant::PACKED_FLOAT64_ARRAY, "points_times", PROPERTY_HINT_NONE, "suffix:s"),
-                 "set_times", "get_times");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "points_interpolation", PROPERTY_HINT_ENUM, "Linear,Smooth"),
-                 "set_interpolation", "get_interpolation");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "points_loop"), "set_loop", "is_looping");
-
-    BIND_ENUM_CONSTANT(FORM_CIRCLE_WAVE);
-    BIND_ENUM_CONSTANT(FORM_POINTS);
-    BIND_ENUM_CONSTANT(INTERPOLATION_LINEAR);
-    BIND_ENUM_CONSTANT(INTERPOLATION_SMOOTH);
 }
 
 }  // namespace tactus

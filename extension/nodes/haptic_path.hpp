@@ -15,8 +15,8 @@ class HapticPath : public godot::Resource {
     GDCLASS(HapticPath, godot::Resource)
 
 public:
-    enum Form { FORM_CIRCLE_WAVE, FORM_POINTS };
-    enum Interpolation { INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH };
+    enum Form : int64_t { FORM_CIRCLE_WAVE, FORM_POINTS };
+    enum Interpolation : int64_t { INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH };
 
     void set_form(Form form);
     Form get_form() const { return form_; }
@@ -29,7 +29,7 @@ public:
     double get_amplitude() const { return circle_.amplitude; }
     void set_turn_time(double seconds);
     double get_turn_time() const { return to_seconds(circle_.turn_time); }
-    void set_waves(int waves);
+    void set_waves(int64_t waves);
     int get_waves() const { return circle_.waves; }
 
     void set_points(const godot::PackedVector3Array& points);

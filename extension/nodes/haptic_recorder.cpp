@@ -4,7 +4,6 @@
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
-#include <godot_cpp/core/class_db.hpp>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -12,6 +11,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "session/record_csv.hpp"
 
 namespace tactus {
@@ -190,6 +190,9 @@ void HapticRecorder::write_trace() {
 
 void HapticRecorder::_notification(int what) {
     if (Engine::get_singleton()->is_editor_hint()) {
+        if (what == NOTIFICATION_ENTER_TREE) {
+            watch_warnings(*this);
+        }
         return;
     }
     if (what == NOTIFICATION_ENTER_TREE) {
@@ -201,42 +204,6 @@ void HapticRecorder::_notification(int what) {
         stop();
         Roll<HapticRecorder>::leave(this);
     }
-}
-
-void HapticRecorder::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticRecorder::_get_configuration_warnings);
-    ClassDB::bind_method(D_METHOD("set_proxy", "path"), &HapticRecorder::set_proxy);
-    ClassDB::bind_method(D_METHOD("get_proxy"), &HapticRecorder::get_proxy);
-    ClassDB::bind_method(D_METHOD("set_object", "path"), &HapticRecorder::set_object);
-    ClassDB::bind_method(D_METHOD("get_object"), &HapticRecorder::get_object);
-    ClassDB::bind_method(D_METHOD("set_csv_path", "path"), &HapticRecorder::set_csv_path);
-    ClassDB::bind_method(D_METHOD("get_csv_path"), &HapticRecorder::get_csv_path);
-    ClassDB::bind_method(D_METHOD("set_trace_path", "path"), &HapticRecorder::set_trace_path);
-    ClassDB::bind_method(D_METHOD("get_trace_path"), &HapticRecorder::get_trace_path);
-    ClassDB::bind_method(D_METHOD("set_trace_seconds", "seconds"), &HapticRecorder::set_trace_seconds);
-    ClassDB::bind_method(D_METHOD("get_trace_seconds"), &HapticRecorder::get_trace_seconds);
-    ClassDB::bind_method(D_METHOD("set_autostart", "autostart"), &HapticRecorder::set_autostart);
-    ClassDB::bind_method(D_METHOD("is_autostart"), &HapticRecorder::is_autostart);
-    ClassDB::bind_method(D_METHOD("start"), &HapticRecorder::start);
-    ClassDB::bind_method(D_METHOD("stop"), &HapticRecorder::stop);
-    ClassDB::bind_method(D_METHOD("is_recording"), &HapticRecorder::is_recording);
-    ClassDB::bind_method(D_METHOD("get_rows"), &HapticRecorder::get_rows);
-    ClassDB::bind_method(D_METHOD("get_lost_rows"), &HapticRecorder::get_lost_rows);
-
-    ADD_PROPERTY(
-        PropertyInfo(Variant::NODE_PATH, "proxy", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "ProxyPointer"),
-        "set_proxy", "get_proxy");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::NODE_PATH, "object", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "PhysicsBody3D"),
-        "set_object", "get_object");
-    ADD_PROPERTY(PropertyInfo(Variant::STRING, "csv_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.csv"),
-                 "set_csv_path", "get_csv_path");
-    ADD_PROPERTY(PropertyInfo(Variant::STRING, "trace_path", PROPERTY_HINT_GLOBAL_SAVE_FILE, "*.json"),
-                 "set_trace_path", "get_trace_path");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "trace_seconds", PROPERTY_HINT_RANGE, "0.1,60,0.1,or_greater,suffix:s"),
-        "set_trace_seconds", "get_trace_seconds");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "autostart"), "set_autostart", "is_autostart");
 }
 
 }  // namespace tactus

@@ -4,7 +4,7 @@
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
-#include <godot_cpp/core/class_db.hpp>
+#include <godot_cpp/core/error_macros.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
 
 #include "nodes/conversions.hpp"
@@ -14,7 +14,10 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
 #include "nodes/world_run.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 
@@ -23,6 +26,10 @@ using namespace godot;
 namespace {
 
 constexpr double report_interval = 1.0;  // (unit: seconds)
+
+constexpr double max_gravity = 1000.0;  // (unit: meters per square second)
+
+constexpr double max_advance = 3600.0;  // (unit: seconds)
 
 // Frames take turns of very different length; a body that moves on Godot's side is given at least this long
 // for its way (unit: seconds).
@@ -37,7 +44,7 @@ constexpr StatusWord status_words[] = {
     {session_step_pairs_full, "too many bodies near each other at once: some contacts were lost"},
     {session_step_contacts_full, "too many contacts at once: some were lost"},
     {session_step_memory_full, "the physics step needed more memory than it had set aside"},
-    {session_full, "a body, device or proxy found no place: raise most_bodies or remove some"},
+    {session_full, "a body, device or proxy found no place: raise max_bodies or remove some"},
     {session_force_limited, "a force was longer than its device's limit and was shortened"},
     {session_proxy_unfinished, "a proxy needed more than one tick to find its place"},
     {session_record_lost, "a recorder could not keep up"},
@@ -77,8 +84,13 @@ Dictionary distribution(const DurationHistogram& periods) {
     return result;
 }
 
-bool is_mirrored(const Node* node) {
-    return is_solid_body(node) || Object::cast_to<Joint3D>(node) != nullptr;
+bool has_body(const Node& node) {
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (is_solid_body(node.get_child(i)) || has_body(*node.get_child(i))) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Bodies that the editor already knows cannot be touched, each with what to do.
@@ -98,6 +110,9 @@ void find_problems(const Node& node, PackedStringArray& problems) {
                                    "' does not join as it should: " + to_godot(problem) + ".");
             }
         }
+        if (const String problem = problem_of_kind(*child); !problem.is_empty()) {
+            problems.push_back("'" + String(child->get_name()) + "' cannot be touched: " + problem + ".");
+        }
         find_problems(*child, problems);
     }
 }
@@ -110,25 +125,35 @@ HapticWorld::~HapticWorld() = default;
 // --- properties
 // ------------------------------------------------------------------------------------------------------
 
-void HapticWorld::set_tick_rate(int hertz) {
+void HapticWorld::change(Change what) {
+    change_ = std::max(change_, what);
+}
+
+template <class Value>
+void HapticWorld::exchange(Value& property, const Value& value, Change what) {
+    if (property != value) {
+        property = value;
+        change(what);
+    }
+}
+
+void HapticWorld::set_tick_rate(int64_t hertz) {
     if (hertz < 10 || hertz > 20000) {
         refuse(*this, "tick_rate", hertz, "between 10 and 20,000 Hz");
         return;
     }
-    tick_rate_ = hertz;
-    restart();
+    exchange(tick_rate_, static_cast<int>(hertz), Change::world);
 }
 
 void HapticWorld::set_clock(Clock clock) {
-    if (clock_ != clock) {
-        clock_ = clock;
-        restart();
+    if (is_one_of(*this, "clock", clock, CLOCK_STEPPED, "CLOCK")) {
+        exchange(clock_, clock, Change::world);
     }
 }
 
 void HapticWorld::set_gravity(const Vector3& gravity) {
-    if (!gravity.is_finite()) {
-        refuse(*this, "gravity", gravity, "made of finite numbers");
+    if (!gravity.is_finite() || static_cast<double>(gravity.length()) > max_gravity) {
+        refuse(*this, "gravity", gravity, "made of finite numbers, and no longer than 1,000 m/s²");
         return;
     }
     gravity_ = gravity;
@@ -137,41 +162,44 @@ void HapticWorld::set_gravity(const Vector3& gravity) {
     }
 }
 
-void HapticWorld::set_most_bodies(int count) {
+void HapticWorld::set_max_bodies(int64_t count) {
     if (count < 1 || count > 65536) {
-        refuse(*this, "most_bodies", count, "between 1 and 65,536");
+        refuse(*this, "max_bodies", count, "between 1 and 65,536");
         return;
     }
-    most_bodies_ = count;
-    restart();
+    exchange(max_bodies_, static_cast<int>(count), Change::world);
 }
 
-void HapticWorld::set_realtime_priority(int priority) {
+void HapticWorld::set_realtime_priority(int64_t priority) {
     if (priority < 0 || priority > 99) {
         refuse(*this, "realtime_priority", priority, "between 0 (ordinary scheduling) and 99");
         return;
     }
-    realtime_priority_ = priority;
-    restart();
+    exchange(realtime_priority_, static_cast<int>(priority), Change::loop);
 }
 
-void HapticWorld::set_processor(int processor) {
-    if (processor < last_processor) {
+void HapticWorld::set_processor(int64_t processor) {
+    if (processor < last_processor || processor > 4095) {
         refuse(*this, "processor", processor, "-2 (the last one), -1 (any), or a processor's number");
         return;
     }
-    processor_ = processor;
-    restart();
+    exchange(processor_, static_cast<int>(processor), Change::loop);
 }
 
 void HapticWorld::set_lock_memory(bool lock) {
-    lock_memory_ = lock;
-    restart();
+    exchange(lock_memory_, lock, Change::loop);
 }
 
 void HapticWorld::set_measure_baseline(bool measure) {
-    measure_baseline_ = measure;
-    restart();
+    exchange(measure_baseline_, measure, Change::loop);
+}
+
+bool HapticWorld::_set(const StringName& name, const Variant& value) {
+    if (name != StringName("most_bodies")) {
+        return false;
+    }
+    set_max_bodies(static_cast<int64_t>(value));
+    return true;
 }
 
 TouchMaterial HapticWorld::default_touch() const {
@@ -215,30 +243,40 @@ void HapticWorld::start() {
     }
     RunSettings settings;
     settings.real_time = clock_ == CLOCK_REAL_TIME;
-    settings.baseline = settings.real_time && measure_baseline_;
     settings.session.period = nanoseconds_per_second / tick_rate_;
-    settings.session.most_bodies = static_cast<std::uint32_t>(most_bodies_);
+    settings.session.most_bodies = static_cast<std::uint32_t>(max_bodies_);
     settings.session.most_parts = 4 * settings.session.most_bodies;
     settings.session.physics.gravity = from_godot(gravity_);
-    settings.loop.period = settings.session.period;
-    settings.loop.realtime.fifo_priority = realtime_priority_;
-    settings.loop.realtime.lock_memory = lock_memory_;
-    settings.loop.realtime.cpu = processor_;
     settings.link = MMTLink::of(*this);
     // Both sides of a teleoperation have to come to the same result.
     settings.session.full_rate_bodies = settings.link != nullptr ? 0 : settings.session.full_rate_bodies;
-    run_ = std::make_unique<WorldRun>(*this, settings);
-    Roll<HapticWorld>::enter(this);
+    change_ = Change::none;
     owed_seconds_ = 0.0;
+    run_ = std::make_shared<WorldRun>(*this, settings);
+    Roll<HapticWorld>::enter(this);
     run_->synchronise(shortest_way);
-    if (settings.real_time && can_process()) {
-        if (const std::string error = run_->start_loop(); !error.empty()) {
-            UtilityFunctions::push_error(name_of(*this),
-                                         ": the haptic loop could not start: ", to_godot(error), ".");
-        }
+    start_loop();
+    set_process(true);
+    post_signal(*this, "started");
+}
+
+TickLoopSettings HapticWorld::loop_settings() const {
+    TickLoopSettings settings;
+    settings.period = nanoseconds_per_second / tick_rate_;
+    settings.realtime.fifo_priority = realtime_priority_;
+    settings.realtime.lock_memory = lock_memory_;
+    settings.realtime.cpu = processor_;
+    return settings;
+}
+
+void HapticWorld::start_loop() {
+    if (clock_ != CLOCK_REAL_TIME || !can_process()) {
+        return;
     }
-    set_process(settings.real_time);
-    emit_signal("started");
+    if (const std::string error = run_->start_loop(loop_settings(), measure_baseline_); !error.empty()) {
+        UtilityFunctions::push_error(name_of(*this), ": the haptic loop could not start: ", to_godot(error),
+                                     ".");
+    }
 }
 
 void HapticWorld::stop() {
@@ -246,15 +284,25 @@ void HapticWorld::stop() {
         return;
     }
     Roll<HapticWorld>::leave(this);
-    run_.reset();
-    emit_signal("stopped");
+    run_->end();
+    Workers::discard([run = std::move(run_)]() mutable { run.reset(); });
+    post_signal(*this, "stopped");
 }
 
-void HapticWorld::restart() {
-    if (run_ != nullptr) {
-        stop();
-        start();
+// The old run goes when the new one stands: trees and meshes that both need are built once.
+void HapticWorld::catch_up() {
+    const Change what = std::exchange(change_, Change::none);
+    if (run_ == nullptr || what == Change::none) {
+        return;
     }
+    if (what == Change::loop) {
+        run_->stop_loop();
+        start_loop();
+        return;
+    }
+    const std::shared_ptr<WorldRun> before = run_;
+    stop();
+    start();
 }
 
 void HapticWorld::_notification(int what) {
@@ -262,6 +310,9 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_ENTER_TREE:
             get_tree()->connect("node_added", Callable(this, "_node_added"));
             get_tree()->connect("node_removed", Callable(this, "_node_removed"));
+            if (Engine::get_singleton()->is_editor_hint()) {
+                watch_warnings(*this);
+            }
             break;
         case NOTIFICATION_POST_ENTER_TREE:
             if (!Engine::get_singleton()->is_editor_hint()) {
@@ -279,8 +330,8 @@ void HapticWorld::_notification(int what) {
             }
             break;
         case NOTIFICATION_UNPAUSED:
-            if (run_ != nullptr && clock_ == CLOCK_REAL_TIME) {
-                run_->start_loop();
+            if (run_ != nullptr) {
+                start_loop();
             }
             break;
         default:
@@ -288,20 +339,13 @@ void HapticWorld::_notification(int what) {
     }
 }
 
-// In the editor what comes and goes changes what there is to warn of.
 void HapticWorld::node_added(Node* node) {
-    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
-        update_configuration_warnings();
-    }
-    if (run_ != nullptr && is_mirrored(node)) {
-        run_->bodies_changed();
+    if (run_ != nullptr) {
+        run_->scene_changed(*node);
     }
 }
 
 void HapticWorld::node_removed(Node* node) {
-    if (Engine::get_singleton()->is_editor_hint() && is_ancestor_of(node)) {
-        update_configuration_warnings();
-    }
     if (run_ == nullptr) {
         return;
     }
@@ -314,16 +358,10 @@ void HapticWorld::node_removed(Node* node) {
     } else if (auto* link = Object::cast_to<MMTLink>(node)) {
         run_->forget(link);
         if (link->is_networked() && is_ancestor_of(link)) {
-            call_deferred("_link_changed");
+            link_changed();
         }
-    } else if (is_mirrored(node)) {
-        run_->bodies_changed();
-    }
-}
-
-void HapticWorld::shape_changed() {
-    if (run_ != nullptr) {
-        run_->shapes_changed();
+    } else {
+        run_->scene_changed(*node);
     }
 }
 
@@ -336,13 +374,17 @@ void HapticWorld::finish_recording(HapticRecorder* recorder) {
 // --- time
 // ------------------------------------------------------------------------------------------------------------
 
+// Scripts that are called on the way, when bodies move, may stop the world: the run stays until its work is
+// done.
 void HapticWorld::_process(double seconds) {
-    if (run_ == nullptr || clock_ != CLOCK_REAL_TIME) {
+    catch_up();
+    const std::shared_ptr<WorldRun> run = run_;
+    if (run == nullptr || clock_ != CLOCK_REAL_TIME) {
         return;
     }
-    run_->synchronise(std::max(seconds, shortest_way));
+    run->synchronise(std::max(seconds, shortest_way));
     report_status(seconds);
-    run_->show();  // last: it emits signals, and what they call may remove this node
+    run->show();
 }
 
 int64_t HapticWorld::advance(double seconds) {
@@ -351,17 +393,23 @@ int64_t HapticWorld::advance(double seconds) {
     ERR_FAIL_COND_V_MSG(
         clock_ != CLOCK_STEPPED, 0,
         "This HapticWorld runs in real time: set its clock to CLOCK_STEPPED to advance it by hand.");
-    ERR_FAIL_COND_V_MSG(!is_at_least_zero(seconds), 0,
-                        "The time to advance must be a finite number, 0 or more.");
+    ERR_FAIL_COND_V_MSG(!(seconds >= 0.0 && seconds <= max_advance), 0,
+                        "The time to advance must be between 0 and 3,600 s.");
+    ERR_FAIL_COND_V_MSG(run_->is_busy(), 0,
+                        "This HapticWorld is moving its bodies: advance it when that is done, for example "
+                        "with call_deferred().");
+    catch_up();
+    const std::shared_ptr<WorldRun> run = run_;
     // A hundredth of a tick covers what adding up many small times loses to rounding.
     constexpr double rounding = 0.01;
     owed_seconds_ += seconds;
     const auto ticks = static_cast<int64_t>(owed_seconds_ * tick_rate_ + rounding);
     owed_seconds_ -= static_cast<double>(ticks) / tick_rate_;
-    run_->synchronise(std::max(seconds, 1.0 / tick_rate_));
-    run_->advance(ticks);
+    run->synchronise(std::max(seconds, 1.0 / tick_rate_));
+    run->advance(ticks);
     report_status(seconds);
-    run_->show();
+    run->show();
+    deliver_signals();  // last: what they call may free this node
     return ticks;
 }
 
@@ -372,7 +420,7 @@ void HapticWorld::report_status(double seconds) {
     }
     since_report_ = 0.0;
     if (const TickStatus status = run_->take_status(); status != 0) {
-        emit_signal("status_reported", static_cast<int64_t>(status), status_text(status));
+        post_signal(*this, "status_reported", {static_cast<int64_t>(status), status_text(status)});
     }
 }
 
@@ -384,57 +432,7 @@ int64_t HapticWorld::get_ticks() const {
 }
 
 double HapticWorld::get_time() const {
-    return static_cast<double>(get_ticks()) / tick_rate_;
-}
-
-Dictionary HapticWorld::get_statistics() const {
-    Dictionary result;
-    if (run_ == nullptr) {
-        return result;
-    }
-    result["ticks"] = get_ticks();
-    result["bodies"] = static_cast<int64_t>(run_->body_count());
-    result["trees_building"] = static_cast<int64_t>(run_->trees_building());
-    const SessionSnapshot& snapshot = run_->session().snapshot();
-    result["awake_bodies"] = static_cast<int64_t>(snapshot.awake_bodies);
-    result["slowed_bodies"] = static_cast<int64_t>(snapshot.slowed_bodies);
-    result["physics_steps"] = static_cast<int64_t>(snapshot.physics_steps);
-    if (clock_ != CLOCK_REAL_TIME) {
-        return result;
-    }
-    const TickFigures figures = run_->loop().statistics().figures();
-    result["measured_ticks"] = static_cast<int64_t>(figures.ticks);
-    result["mean_period_us"] = figures.mean_period_us;
-    result["tick_period_p10_us"] = figures.period_p10_us;
-    result["tick_period_p50_us"] = figures.period_p50_us;
-    result["tick_period_p90_us"] = figures.period_p90_us;
-    result["tick_period_p99_us"] = figures.period_p99_us;
-    result["tick_period_p999_us"] = figures.period_p999_us;
-    result["tick_period_max_us"] = figures.period_max_us;
-    result["tick_lateness_p50_us"] = figures.lateness_p50_us;
-    result["tick_lateness_p99_us"] = figures.lateness_p99_us;
-    result["tick_lateness_max_us"] = figures.lateness_max_us;
-    result["tick_compute_p50_us"] = figures.compute_p50_us;
-    result["tick_compute_p90_us"] = figures.compute_p90_us;
-    result["tick_compute_p99_us"] = figures.compute_p99_us;
-    result["tick_compute_p999_us"] = figures.compute_p999_us;
-    result["tick_compute_max_us"] = figures.compute_max_us;
-    result["missed_deadlines"] = static_cast<int64_t>(figures.missed_deadlines);
-    result["time_lost_us"] = static_cast<double>(run_->loop().time_lost()) * 1e-3;
-    result["realtime"] = to_godot(run_->loop().realtime_report().text);
-    result["fifo"] = run_->loop().realtime_report().fifo;
-    result["memory_locked"] = run_->loop().realtime_report().memory_locked;
-    if (const BaselineLoop* baseline = run_->baseline()) {
-        const TickFigures bare = baseline->statistics().figures();
-        result["baseline_mean_period_us"] = bare.mean_period_us;
-        result["baseline_period_p50_us"] = bare.period_p50_us;
-        result["baseline_period_p90_us"] = bare.period_p90_us;
-        result["baseline_period_p99_us"] = bare.period_p99_us;
-        result["baseline_period_p999_us"] = bare.period_p999_us;
-        result["baseline_period_max_us"] = bare.period_max_us;
-        result["baseline_missed_deadlines"] = static_cast<int64_t>(bare.missed_deadlines);
-    }
-    return result;
+    return run_ != nullptr ? to_seconds(run_->now()) : 0.0;
 }
 
 void HapticWorld::reset_statistics() {
@@ -474,73 +472,10 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
         return warnings;
     }
     find_problems(*this, warnings);
+    if (!has_body(*this)) {
+        warnings.push_back("This HapticWorld is empty: " + problem_of_emptiness(*this) + ".");
+    }
     return warnings;
-}
-
-void HapticWorld::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("get_warnings"), &HapticWorld::_get_configuration_warnings);
-    ClassDB::bind_method(D_METHOD("set_tick_rate", "hertz"), &HapticWorld::set_tick_rate);
-    ClassDB::bind_method(D_METHOD("get_tick_rate"), &HapticWorld::get_tick_rate);
-    ClassDB::bind_method(D_METHOD("set_clock", "clock"), &HapticWorld::set_clock);
-    ClassDB::bind_method(D_METHOD("get_clock"), &HapticWorld::get_clock);
-    ClassDB::bind_method(D_METHOD("set_gravity", "gravity"), &HapticWorld::set_gravity);
-    ClassDB::bind_method(D_METHOD("get_gravity"), &HapticWorld::get_gravity);
-    ClassDB::bind_method(D_METHOD("set_default_material", "material"), &HapticWorld::set_default_material);
-    ClassDB::bind_method(D_METHOD("get_default_material"), &HapticWorld::get_default_material);
-    ClassDB::bind_method(D_METHOD("set_most_bodies", "count"), &HapticWorld::set_most_bodies);
-    ClassDB::bind_method(D_METHOD("get_most_bodies"), &HapticWorld::get_most_bodies);
-    ClassDB::bind_method(D_METHOD("set_realtime_priority", "priority"), &HapticWorld::set_realtime_priority);
-    ClassDB::bind_method(D_METHOD("get_realtime_priority"), &HapticWorld::get_realtime_priority);
-    ClassDB::bind_method(D_METHOD("set_processor", "processor"), &HapticWorld::set_processor);
-    ClassDB::bind_method(D_METHOD("get_processor"), &HapticWorld::get_processor);
-    ClassDB::bind_method(D_METHOD("set_lock_memory", "lock"), &HapticWorld::set_lock_memory);
-    ClassDB::bind_method(D_METHOD("is_locking_memory"), &HapticWorld::is_locking_memory);
-    ClassDB::bind_method(D_METHOD("set_measure_baseline", "measure"), &HapticWorld::set_measure_baseline);
-    ClassDB::bind_method(D_METHOD("is_measuring_baseline"), &HapticWorld::is_measuring_baseline);
-    ClassDB::bind_method(D_METHOD("advance", "seconds"), &HapticWorld::advance);
-    ClassDB::bind_method(D_METHOD("is_running"), &HapticWorld::is_running);
-    ClassDB::bind_method(D_METHOD("get_ticks"), &HapticWorld::get_ticks);
-    ClassDB::bind_method(D_METHOD("get_time"), &HapticWorld::get_time);
-    ClassDB::bind_method(D_METHOD("get_statistics"), &HapticWorld::get_statistics);
-    ClassDB::bind_method(D_METHOD("reset_statistics"), &HapticWorld::reset_statistics);
-    ClassDB::bind_method(D_METHOD("get_period_distribution"), &HapticWorld::get_period_distribution);
-    ClassDB::bind_method(D_METHOD("get_baseline_period_distribution"),
-                         &HapticWorld::get_baseline_period_distribution);
-    ClassDB::bind_method(D_METHOD("get_problems"), &HapticWorld::get_problems);
-    ClassDB::bind_method(D_METHOD("_node_added", "node"), &HapticWorld::node_added);
-    ClassDB::bind_method(D_METHOD("_node_removed", "node"), &HapticWorld::node_removed);
-    ClassDB::bind_method(D_METHOD("_shape_changed"), &HapticWorld::shape_changed);
-    ClassDB::bind_method(D_METHOD("_link_changed"), &HapticWorld::link_changed);
-
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "tick_rate", PROPERTY_HINT_RANGE,
-                              "100,4000,1,or_less,or_greater,suffix:Hz"),
-                 "set_tick_rate", "get_tick_rate");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "clock", PROPERTY_HINT_ENUM, "Real time,Stepped"), "set_clock",
-                 "get_clock");
-    ADD_PROPERTY(PropertyInfo(Variant::VECTOR3, "gravity", PROPERTY_HINT_NONE, String::utf8("suffix:m/s²")),
-                 "set_gravity", "get_gravity");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::OBJECT, "default_material", PROPERTY_HINT_RESOURCE_TYPE, "HapticMaterial"),
-        "set_default_material", "get_default_material");
-    ADD_GROUP("Limits", "");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "most_bodies", PROPERTY_HINT_RANGE, "1,65536,1"),
-                 "set_most_bodies", "get_most_bodies");
-    ADD_GROUP("Haptic Thread", "");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "realtime_priority", PROPERTY_HINT_RANGE, "0,99,1"),
-                 "set_realtime_priority", "get_realtime_priority");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "processor", PROPERTY_HINT_RANGE, "-2,63,1,or_greater"),
-                 "set_processor", "get_processor");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "lock_memory"), "set_lock_memory", "is_locking_memory");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "measure_baseline"), "set_measure_baseline",
-                 "is_measuring_baseline");
-
-    ADD_SIGNAL(MethodInfo("started"));
-    ADD_SIGNAL(MethodInfo("stopped"));
-    ADD_SIGNAL(MethodInfo("status_reported", PropertyInfo(Variant::INT, "flags"),
-                          PropertyInfo(Variant::STRING, "text")));
-
-    BIND_ENUM_CONSTANT(CLOCK_REAL_TIME);
-    BIND_ENUM_CONSTANT(CLOCK_STEPPED);
 }
 
 }  // namespace tactus

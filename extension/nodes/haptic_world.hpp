@@ -1,13 +1,15 @@
 #pragma once
 
+#include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 
 #include "core/haptics/touch_material.hpp"
 #include "nodes/haptic_material.hpp"
-#include "realtime/realtime_thread.hpp"
+#include "realtime/tick_loop.hpp"
 
 namespace tactus {
 
@@ -20,12 +22,12 @@ class HapticWorld : public godot::Node3D {
     GDCLASS(HapticWorld, godot::Node3D)
 
 public:
-    enum Clock { CLOCK_REAL_TIME, CLOCK_STEPPED };
+    enum Clock : int64_t { CLOCK_REAL_TIME, CLOCK_STEPPED };
 
     HapticWorld();
     ~HapticWorld() override;
 
-    void set_tick_rate(int hertz);
+    void set_tick_rate(int64_t hertz);
     int get_tick_rate() const { return tick_rate_; }
     void set_clock(Clock clock);
     Clock get_clock() const { return clock_; }
@@ -33,11 +35,11 @@ public:
     godot::Vector3 get_gravity() const { return gravity_; }
     void set_default_material(const godot::Ref<HapticMaterial>& material) { default_material_ = material; }
     godot::Ref<HapticMaterial> get_default_material() const { return default_material_; }
-    void set_most_bodies(int count);
-    int get_most_bodies() const { return most_bodies_; }
-    void set_realtime_priority(int priority);
+    void set_max_bodies(int64_t count);
+    int get_max_bodies() const { return max_bodies_; }
+    void set_realtime_priority(int64_t priority);
     int get_realtime_priority() const { return realtime_priority_; }
-    void set_processor(int processor);
+    void set_processor(int64_t processor);
     int get_processor() const { return processor_; }
     void set_lock_memory(bool lock);
     bool is_locking_memory() const { return lock_memory_; }
@@ -54,6 +56,22 @@ public:
     godot::Dictionary get_baseline_period_distribution() const;
     godot::PackedStringArray get_problems() const;
 
+    // Bodies of this world, as RigidBody3D has it. Forces act for the time of one frame.
+    using Body = godot::CollisionObject3D;
+    void apply_central_impulse(Body* body, const godot::Vector3& impulse);
+    void apply_impulse(Body* body, const godot::Vector3& impulse, const godot::Vector3& position);
+    void apply_torque_impulse(Body* body, const godot::Vector3& impulse);
+    void apply_central_force(Body* body, const godot::Vector3& force);
+    void apply_force(Body* body, const godot::Vector3& force, const godot::Vector3& position);
+    void apply_torque(Body* body, const godot::Vector3& torque);
+    // What is there to touch: of all bodies of this world whose layers are in the mask.
+    godot::Dictionary get_nearest_surface(const godot::Vector3& point, double max_distance,
+                                          int64_t mask) const;
+    godot::Dictionary intersect_ray(const godot::Vector3& from, const godot::Vector3& to, int64_t mask) const;
+    godot::TypedArray<Body> intersect_sphere(const godot::Vector3& center, double radius, int64_t mask) const;
+    godot::Vector3 get_linear_velocity(Body* body) const;
+    godot::Vector3 get_angular_velocity(Body* body) const;
+
     void _process(double seconds) override;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
@@ -63,8 +81,8 @@ public:
     static HapticWorld* of(const godot::Node* node);
     // The nearest one above, whether it runs or not.
     static HapticWorld* above(const godot::Node* node);
-    // It becomes a side of a teleoperation, or none, or another one.
-    void link_changed() { restart(); }
+    // It becomes a side of a teleoperation, or none, or another one: it starts anew.
+    void link_changed() { change(Change::world); }
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder* recorder);
     TouchMaterial default_touch() const;
@@ -73,29 +91,44 @@ public:
 protected:
     static void _bind_methods();
     void _notification(int what);
+    // Properties of older scenes.
+    bool _set(const godot::StringName& name, const godot::Variant& value);
 
 private:
+    // What a change of a property asks for. It is done at the beginning of the next frame, or of advance():
+    // many changes at once are one start, and none happens while something of the world is in use.
+    enum class Change { none, loop, world };
+
+    bool can_push(const char* method, const Body* body, const godot::Vector3& with,
+                  const godot::Vector3& at = {}) const;
+    bool can_ask(const char* method, const godot::Vector3& where, double size) const;
     void start();
     void stop();
-    void restart();
+    void change(Change what);
+    template <class Value>
+    void exchange(Value& property, const Value& value, Change what);
+    void catch_up();
+    void start_loop();
+    TickLoopSettings loop_settings() const;
     void node_added(godot::Node* node);
     void node_removed(godot::Node* node);
-    void shape_changed();
     void report_status(double seconds);
 
     int tick_rate_ = 1000;
     Clock clock_ = CLOCK_REAL_TIME;
     godot::Vector3 gravity_;
     godot::Ref<HapticMaterial> default_material_;
-    int most_bodies_ = 1024;
+    int max_bodies_ = 1024;
     int realtime_priority_ = 70;
     int processor_ = last_processor;
     bool lock_memory_ = true;
     bool measure_baseline_ = false;
 
-    std::unique_ptr<WorldRun> run_;  // null while nothing runs: in the editor, always
-    double owed_seconds_ = 0.0;      // of stepped time, less than a tick
-    double since_report_ = 0.0;      // (unit: seconds)
+    // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
+    std::shared_ptr<WorldRun> run_;
+    Change change_ = Change::none;
+    double owed_seconds_ = 0.0;  // of stepped time, less than a tick
+    double since_report_ = 0.0;  // (unit: seconds)
 };
 
 }  // namespace tactus

@@ -73,6 +73,7 @@ public:
     NetworkFigures figures() override { return link_.figures(); }
     bool send(std::span<const std::byte> datagram, Nanoseconds now) override;
     ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) override;
+    std::size_t overhead() const override { return link_.overhead(); }
 
 private:
     Nanoseconds ahead(Nanoseconds now) const;
@@ -94,6 +95,10 @@ public:
 
     bool send(std::span<const std::byte> datagram, Nanoseconds now) override;
     ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) override;
+    std::size_t overhead() const override {
+        const LinkWay* const way = used_.load(std::memory_order_relaxed);
+        return way != nullptr ? way->overhead() : Link::overhead();
+    }
 
 private:
     std::atomic<LinkWay*> wanted_{nullptr};

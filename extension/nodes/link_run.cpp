@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
+#include "network/key_source.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
@@ -92,10 +93,18 @@ LinkRun::LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std:
     }
 }
 
-LinkRun::~LinkRun() {
+LinkRun::~LinkRun() = default;
+
+void LinkRun::end() {
     if (node_ != nullptr) {
         node_->clear_report();
     }
+    node_ = nullptr;
+    route_.put(nullptr);
+    route_.take();
+    opening_.reset();
+    past_way_.reset();
+    way_.reset();
 }
 
 void LinkRun::attach(Session& session) {
@@ -169,14 +178,21 @@ void LinkRun::look_after_way(Workers& workers, const LinkMoment& moment) {
 }
 
 void LinkRun::open(Workers& workers, const LinkMoment& moment) {
-    const NetworkSettings settings = node_->network_settings();
+    NetworkSettings settings = node_->network_settings();
     keep_trace();
     if (node_->partner_node() != nullptr) {
         put(std::make_unique<InProcessWay>(node_->wire(), operator_, settings.conditions, settings.seed));
         return;
     }
+    KeySource key = read_key(from_godot(node_->get_key_file()));
+    if (!key.error.empty()) {
+        way_error_ = std::move(key.error);
+        next_try_ = moment.now + try_again_after;
+        return;
+    }
+    settings.key = std::move(key.text);
     opening_ = std::make_shared<Opening>();
-    opening_->settings = settings;
+    opening_->settings = std::move(settings);
     opening_->way = std::make_unique<UdpWay>(ahead_);
     workers.add([opening = opening_] {
         opening->error = opening->way->open(opening->settings);
@@ -237,6 +253,10 @@ void LinkRun::synchronise(Workers& workers, const LinkMoment& moment) {
         figures_ = way_->figures();
     }
     note_refusals(moment.now);
+    if (builder_ != nullptr && !builds_elsewhere_ && !moment.waits) {
+        builds_elsewhere_ = true;
+        builder_->set_run([&workers](std::function<void()> job) { workers.add(std::move(job)); });
+    }
     if (builder_ != nullptr && builder_->update(moment.now, port_->statistics.front().link)) {
         for (ModelNews& news : view_->update(builder_->objects())) {
             object_news_.push_back(std::move(news));
@@ -295,14 +315,14 @@ std::vector<std::string> LinkRun::problems() const {
 // Which of the counters for what is not believed have grown.
 void LinkRun::note_refusals(Nanoseconds now) {
     const LinkStatistics& link = port_->statistics.front().link;
-    const bool unmet = figures_.sealed && !figures_.key_met;
+    const bool unmet = figures_.udp.sealed && !figures_.udp.met;
     const std::array<std::uint64_t, 4> counts = {
-        unmet ? figures_.secure.wrong_key : 0, unmet ? figures_.secure.not_sealed : 0,
+        unmet ? figures_.udp.secure.wrong_key : 0, unmet ? figures_.udp.secure.not_sealed : 0,
         link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version)};
     constexpr const char* words[] = {
-        "the far side has another key: set the same 'key' on both sides",
-        "the far side has no key: set the same 'key' on both sides, or none",
-        "the far side has a key and this side has none: set the same 'key' on both sides",
+        "the far side has another key: give both sides the same",
+        "the far side has no key: give both sides the same, or none",
+        "the far side has a key and this side has none: give both sides the same",
         "the far side speaks another version of the protocol: install the same version of Tactus on both "
         "sides",
     };

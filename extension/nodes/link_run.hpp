@@ -16,7 +16,7 @@
 #include "nodes/link_route.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/model_view.hpp"
-#include "nodes/workers.hpp"
+#include "realtime/workers.hpp"
 #include "session/environment_teller.hpp"
 #include "session/model_builder.hpp"
 #include "session/session.hpp"
@@ -57,6 +57,9 @@ public:
 
     // The far side is told in the next tick, which is this side's last.
     void leave();
+
+    // Nothing ticks any more: ports are free again, and the node is told.
+    void end();
 
     // What the node is to be told, to be passed to it when nothing of the run is used any more.
     struct News {
@@ -108,6 +111,7 @@ private:
     LinkRoute route_;
     std::unique_ptr<ModelView> view_;            // operator
     std::unique_ptr<ModelBuilder> builder_;      // operator
+    bool builds_elsewhere_ = false;              // in real time it does not hold frames up
     std::unique_ptr<EnvironmentTeller> teller_;  // far side
     std::unordered_map<SessionHandle, Telling> tellings_;
 

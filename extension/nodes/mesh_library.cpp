@@ -62,8 +62,17 @@ LibraryMesh load_library_mesh(const String& name) {
         return {nullptr, from_godot("the mesh library has no mesh '" + name + "': choose one of " +
                                     all_names() + ", or put " + name + ".obj into " + mesh_library_folder())};
     }
-    const std::string text = from_godot(FileAccess::get_file_as_string(path));
-    ObjResult read = read_obj_text(text);
+    // As bytes, not as a string of the engine's: that would take four times as much, and again for its UTF-8.
+    const godot::Ref<FileAccess> file = FileAccess::open(path, FileAccess::READ);
+    const auto size = file.is_valid() ? static_cast<std::int64_t>(file->get_length()) : 0;
+    if (size > static_cast<std::int64_t>(ObjLimits{}.bytes)) {
+        return {nullptr, from_godot(path) + ": the file has " + std::to_string(size) +
+                             " bytes, the limit is " + std::to_string(ObjLimits{}.bytes) +
+                             ": split it into several meshes"};
+    }
+    const godot::PackedByteArray bytes = size > 0 ? file->get_buffer(size) : godot::PackedByteArray();
+    ObjResult read =
+        read_obj_text({reinterpret_cast<const char*>(bytes.ptr()), static_cast<std::size_t>(bytes.size())});
     if (read.error.empty()) {
         read.error = check_mesh(read.mesh);
     }

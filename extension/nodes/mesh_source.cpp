@@ -8,6 +8,7 @@
 
 #include "core/geometry/mesh_check.hpp"
 #include "nodes/mesh_reading.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 
@@ -15,8 +16,9 @@ using namespace godot;
 
 namespace {
 
-// The tree that is touched now and the one before: more would only be kept for nothing.
-constexpr std::size_t most_former_trees = 2;
+// The tree that is touched now, the one before, on the way from which the loop may still be, and one that it
+// has let go of: more would only be kept for nothing.
+constexpr std::size_t most_former_trees = 3;
 
 bool is_of_triangles(const Ref<Mesh>& mesh) {
     if (Object::cast_to<PrimitiveMesh>(mesh.ptr()) != nullptr) {
@@ -36,17 +38,21 @@ bool is_of_triangles(const Ref<Mesh>& mesh) {
 // Godot's get_faces() knows strips, too, but builds a tree of its own: for a large mesh that takes seconds.
 MeshSource::MeshSource(const Ref<Mesh>& mesh) {
     if (!is_of_triangles(mesh)) {
-        add_surface({mesh->get_faces(), PackedInt32Array()});
+        add_surface({mesh->get_faces(), PackedInt32Array(), {}});
         return;
     }
     for (int32_t i = 0; i < mesh->get_surface_count(); ++i) {
-        const Array surface = mesh->surface_get_arrays(i);
-        add_surface({surface[Mesh::ARRAY_VERTEX], surface[Mesh::ARRAY_INDEX]});
+        if (std::optional<SurfaceBytes> bytes = SurfaceBytes::take(mesh, i)) {
+            add_surface({{}, {}, std::move(bytes)});
+        } else {
+            const Array surface = mesh->surface_get_arrays(i);
+            add_surface({surface[Mesh::ARRAY_VERTEX], surface[Mesh::ARRAY_INDEX], {}});
+        }
     }
 }
 
 MeshSource::MeshSource(const PackedVector3Array& faces) {
-    add_surface({faces, PackedInt32Array()});
+    add_surface({faces, PackedInt32Array(), {}});
 }
 
 MeshSource::MeshSource(Checked checked) : is_checked_(true), checked_(std::move(checked)) {
@@ -54,7 +60,9 @@ MeshSource::MeshSource(Checked checked) : is_checked_(true), checked_(std::move(
 }
 
 void MeshSource::add_surface(Surface surface) {
-    const int64_t corners = surface.indices.is_empty() ? surface.corners.size() : surface.indices.size();
+    const int64_t listed = surface.bytes ? surface.bytes->corner_count() : surface.corners.size();
+    const int64_t named = surface.bytes ? surface.bytes->index_count() : surface.indices.size();
+    const int64_t corners = named == 0 ? listed : named;
     triangle_count_ += static_cast<std::size_t>(corners / 3);
     surfaces_.push_back(std::move(surface));
 }
@@ -91,24 +99,31 @@ const MeshSource::Checked& MeshSource::triangles() {
     is_checked_ = true;
     MeshCollector collector;
     for (const Surface& surface : surfaces_) {
-        collector.add(surface.corners, surface.indices);
+        surface.bytes ? collector.add(surface.bytes->corners(), surface.bytes->indices())
+                      : collector.add(surface.corners, surface.indices);
     }
-    auto mesh = std::make_shared<TriangleMesh>(collector.take());
+    const auto mesh = Workers::freed_aside(collector.take());
     checked_.error = check_mesh(*mesh);
-    checked_.mesh = checked_.error.empty() ? std::move(mesh) : nullptr;
+    checked_.mesh = checked_.error.empty() ? mesh : nullptr;
     return checked_;
 }
 
-// A tree that only we hold is of no body any more; where the corners alone have moved, it serves again.
+// Where the corners alone have moved, the tree keeps its form. One that only we hold is of no body any more
+// and serves again; else a new one is made beside it, and bodies are swept along the way from one to the
+// other.
 std::shared_ptr<TriangleTree> MeshSource::refitted(const Basis& scaling, const TriangleMesh& mesh,
                                                    const ParallelRunner& run) {
-    const auto free = std::ranges::find_if(former_, [&](const Former& former) {
-        return former.tree.use_count() == 1 && former.scaling == scaling &&
-               former.mesh->vertices.size() == mesh.vertices.size() &&
-               former.mesh->triangles == mesh.triangles;
+    std::erase_if(former_, [&](const Former& former) {
+        return former.scaling == scaling && (former.mesh->vertices.size() != mesh.vertices.size() ||
+                                             former.mesh->triangles != mesh.triangles);
     });
+    const auto is_like = [&](const Former& former) { return former.scaling == scaling; };
+    const auto free = std::ranges::find_if(
+        former_, [&](const Former& former) { return is_like(former) && former.tree.use_count() == 1; });
     if (free == former_.end()) {
-        return nullptr;
+        const auto touched = std::ranges::find_if(former_, is_like);
+        return touched == former_.end() ? nullptr
+                                        : std::make_shared<TriangleTree>(touched->tree->refitted(mesh, run));
     }
     std::atomic_thread_fence(std::memory_order_acquire);  // use_count() is relaxed
     std::shared_ptr<TriangleTree> tree = std::move(free->tree);
@@ -127,11 +142,10 @@ BuiltMesh MeshSource::built(const Basis& scaling, const ParallelRunner& run) {
         }
     }
     const std::shared_ptr<const TriangleMesh> whole = triangles().mesh;
-    const auto mesh =
-        scaling == Basis() ? whole : std::make_shared<const TriangleMesh>(scaled(*whole, scaling));
+    const auto mesh = scaling == Basis() ? whole : Workers::freed_aside(scaled(*whole, scaling));
     std::shared_ptr<TriangleTree> tree = refitted(scaling, *mesh, run);
     if (tree == nullptr) {
-        tree = std::make_shared<TriangleTree>(TriangleTree::build(*mesh, run));
+        tree = Workers::freed_aside(TriangleTree::build(*mesh, run));
     }
     kept_.push_back({scaling, mesh, tree});
     return {mesh, std::move(tree)};

@@ -13,10 +13,12 @@
 #include <godot_cpp/variant/packed_vector3_array.hpp>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/geometry/touch_shape.hpp"
+#include "nodes/surface_bytes.hpp"
 
 namespace tactus {
 
@@ -51,7 +53,8 @@ public:
 private:
     struct Surface {
         godot::PackedVector3Array corners;
-        godot::PackedInt32Array indices;  // into corners; empty: each corner in turn
+        godot::PackedInt32Array indices;    // into corners; empty: each corner in turn
+        std::optional<SurfaceBytes> bytes;  // instead of both
     };
     // One scale. The tree is weakly held: it lives as long as a body is made of it.
     struct Kept {

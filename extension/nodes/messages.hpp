@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
+#include <string>
 #include <unordered_set>
 
 namespace tactus {
@@ -33,7 +34,19 @@ inline godot::String name_of(const godot::Object& object) {
 inline void refuse(const godot::Object& who, const char* property, const godot::Variant& value,
                    const char* wanted) {
     godot::UtilityFunctions::push_error(name_of(who), ": ", property, " = ", value,
-                                        " was refused, the old value stays: it must be ", wanted, ".");
+                                        " was refused, the old value stays: it must be ",
+                                        godot::String::utf8(wanted), ".");
+}
+
+// Whether the value is one of an enum's, counted from 0 to `last`; says why not.
+template <class Enum>
+bool is_one_of(const godot::Object& who, const char* property, Enum value, Enum last, const char* constants) {
+    const auto number = static_cast<int64_t>(value);
+    if (number >= 0 && number <= static_cast<int64_t>(last)) {
+        return true;
+    }
+    refuse(who, property, number, (std::string("one of the constants ") + constants + "_…").c_str());
+    return false;
 }
 
 // Says each text once.
@@ -41,14 +54,14 @@ class Complaints {
 public:
     void say(const godot::Node& node, const godot::String& text) {
         const godot::String whole = name_of(node) + ": " + text;
-        if (said_.insert(whole.hash()).second) {
+        if (said_.insert(whole.utf8().get_data()).second) {
             godot::UtilityFunctions::push_warning(whole);
         }
     }
     void forget() { said_.clear(); }
 
 private:
-    std::unordered_set<std::uint32_t> said_;
+    std::unordered_set<std::string> said_;
 };
 
 }  // namespace tactus

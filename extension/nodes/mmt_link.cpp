@@ -7,6 +7,8 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
 
 namespace tactus {
 
@@ -90,12 +92,12 @@ void MMTLink::set_local_address(const String& address) {
     way_changed();
 }
 
-void MMTLink::set_local_port(int port) {
+void MMTLink::set_local_port(int64_t port) {
     if (port < 0 || port > 65535) {
         refuse(*this, "local_port", port, "0 (the side's usual one) or a port, 1 to 65535");
         return;
     }
-    local_port_ = port;
+    local_port_ = static_cast<int>(port);
     way_changed();
 }
 
@@ -104,32 +106,39 @@ void MMTLink::set_remote_address(const String& address) {
     way_changed();
 }
 
-void MMTLink::set_remote_port(int port) {
+void MMTLink::set_remote_port(int64_t port) {
     if (port < 0 || port > 65535) {
         refuse(*this, "remote_port", port, "0 (the far side's usual one) or a port, 1 to 65535");
         return;
     }
-    remote_port_ = port;
+    remote_port_ = static_cast<int>(port);
     way_changed();
 }
 
-void MMTLink::set_key(const String& key) {
-    key_ = key;
+void MMTLink::set_key_file(const String& path) {
+    const String file = path.strip_edges();
+    if (!file.is_empty() && !file.begins_with("/")) {
+        refuse(
+            *this, "key_file", file,
+            "the absolute path of a file outside of the project, since a scene is shared and a key is not");
+        return;
+    }
+    key_file_ = file;
     way_changed();
 }
 
-void MMTLink::set_control_scheme(int scheme) {
-    if (scheme < 0 || scheme > static_cast<int>(ControlScheme::position_force_relative)) {
-        refuse(*this, "control_scheme", scheme, "one of the constants CONTROL_…");
+void MMTLink::set_control_scheme(int64_t scheme) {
+    if (!is_one_of(*this, "control_scheme", scheme,
+                   static_cast<int64_t>(ControlScheme::position_force_relative), "CONTROL")) {
         return;
     }
     control_ = static_cast<ControlScheme>(scheme);
     changed();
 }
 
-void MMTLink::set_correction_scheme(int scheme) {
-    if (scheme < 0 || scheme > static_cast<int>(Correction::stealthy_turn)) {
-        refuse(*this, "correction_scheme", scheme, "one of the constants CORRECTION_…");
+void MMTLink::set_correction_scheme(int64_t scheme) {
+    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::stealthy_turn),
+                   "CORRECTION")) {
         return;
     }
     correction_ = static_cast<Correction>(scheme);
@@ -217,7 +226,6 @@ NetworkSettings MMTLink::network_settings() const {
     settings.udp.local_port = static_cast<std::uint16_t>(local_port_ > 0 ? local_port_ : own);
     settings.udp.remote_address = from_godot(remote_address_);
     settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_ > 0 ? remote_port_ : other);
-    settings.key = from_godot(key_);
     settings.conditions = conditions();
     settings.seed = seed_;
     return settings;
@@ -278,19 +286,14 @@ String MMTLink::get_state_text() const {
     return fails_by_itself ? problem() : report_.text;
 }
 
-// Handlers may free this node: nothing of it is used after the last signal, and each is sent by what its id
-// still stands for.
 void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>& news) {
     const LinkReport before = std::exchange(report_, report);
     const bool was_connected = before.state == STATE_CONNECTED;
     const bool is_connected = report.state == STATE_CONNECTED;
     const bool restarted = report.teleop.link.peer_restarts > restarts_seen_;
     restarts_seen_ = report.teleop.link.peer_restarts;
-    const std::uint64_t id = get_instance_id();
-    const auto say = [id](const char* signal, const auto&... values) {
-        if (Object* self = ObjectDB::get_instance(id)) {
-            self->emit_signal(signal, values...);
-        }
+    const auto say = [this](const char* signal, const auto&... values) {
+        post_signal(*this, signal, {values...});
     };
     if (before.state != report.state || before.text != report.text) {
         say("state_changed", static_cast<int64_t>(report.state), report.text);
@@ -306,7 +309,7 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     for (const ModelNews& one : news) {
         switch (one.kind) {
             case ModelNews::Kind::discovered:
-                say("object_discovered", one.name, Variant(ObjectDB::get_instance(one.node)));
+                say("object_discovered", one.name, NodeId{one.node});
                 break;
             case ModelNews::Kind::removed:
                 say("object_removed", one.name);
@@ -336,11 +339,6 @@ String MMTLink::way_problem() const {
     if (partner_.is_empty()) {
         if (remote_address_.is_empty()) {
             return "the far side has no address: set 'remote_address'";
-        }
-        if (const CharString key = key_.utf8(); key.length() > 0 && key.length() < 8) {
-            return "the key is too short: give 64 hexadecimal digits or at least 8 characters, the same on "
-                   "both "
-                   "sides";
         }
         const NetworkSettings settings = network_settings();
         const bool loops = remote_address_ == String("127.0.0.1") || remote_address_ == String("localhost") ||
@@ -387,6 +385,9 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
 }
 
 void MMTLink::_notification(int what) {
+    if (what == NOTIFICATION_ENTER_TREE) {
+        watch_warnings(*this);
+    }
     if (Engine::get_singleton()->is_editor_hint()) {
         return;
     }
@@ -394,7 +395,7 @@ void MMTLink::_notification(int what) {
         Roll<MMTLink>::enter(this);
         if (is_networked()) {
             if (HapticWorld* world = HapticWorld::above(this)) {
-                world->call_deferred("_link_changed");
+                world->link_changed();
             }
         }
     } else if (what == NOTIFICATION_EXIT_TREE) {

@@ -22,7 +22,7 @@ class HapticWorld;
 
 // What a link's world tells its node once a frame.
 struct LinkReport {
-    int state = 0;  // MMTLink::State
+    std::int64_t state = 0;  // MMTLink::State
     godot::String text;
     TeleopStatistics teleop;
     NetworkFigures network;
@@ -43,9 +43,9 @@ class MMTLink : public godot::Node {
     GDCLASS(MMTLink, godot::Node)
 
 public:
-    enum Scenario { SCENARIO_SINGLE = 1, SCENARIO_TRADITIONAL = 2, SCENARIO_MMT = 4 };
-    enum Side { SIDE_OPERATOR, SIDE_TELEOPERATOR };
-    enum State {
+    enum Scenario : int64_t { SCENARIO_SINGLE = 1, SCENARIO_TRADITIONAL = 2, SCENARIO_MMT = 4 };
+    enum Side : int64_t { SIDE_OPERATOR, SIDE_TELEOPERATOR };
+    enum State : int64_t {
         STATE_OFF,        // one scenario on one machine, or no world
         STATE_OPENING,    // addresses are looked up
         STATE_FAILED,     // there is no way to the far side
@@ -66,17 +66,17 @@ public:
     godot::NodePath get_partner() const { return partner_; }
     void set_local_address(const godot::String& address);
     godot::String get_local_address() const { return local_address_; }
-    void set_local_port(int port);
+    void set_local_port(int64_t port);
     int get_local_port() const { return local_port_; }
     void set_remote_address(const godot::String& address);
     godot::String get_remote_address() const { return remote_address_; }
-    void set_remote_port(int port);
+    void set_remote_port(int64_t port);
     int get_remote_port() const { return remote_port_; }
-    void set_key(const godot::String& key);
-    godot::String get_key() const { return key_; }
-    void set_control_scheme(int scheme);
+    void set_key_file(const godot::String& path);
+    godot::String get_key_file() const { return key_file_; }
+    void set_control_scheme(int64_t scheme);
     int get_control_scheme() const { return static_cast<int>(control_); }
-    void set_correction_scheme(int scheme);
+    void set_correction_scheme(int64_t scheme);
     int get_correction_scheme() const { return static_cast<int>(correction_); }
     void set_conditions(const godot::Ref<NetworkConditions>& conditions);
     godot::Ref<NetworkConditions> get_conditions() const { return conditions_; }
@@ -112,7 +112,6 @@ public:
     MMTLink* partner_node() const;
     // The wire to the partner: both have the same one.
     std::shared_ptr<MemoryLinkPair> wire();
-    // May emit signals.
     void take_report(const LinkReport& report, const std::vector<ModelNews>& news);
     void clear_report();
 
@@ -142,7 +141,7 @@ private:
     int local_port_ = 0;
     godot::String remote_address_ = "127.0.0.1";
     int remote_port_ = 0;
-    godot::String key_;
+    godot::String key_file_;
     ControlScheme control_ = ControlScheme::spring;
     Correction correction_ = Correction::stealthy_direction;
     godot::Ref<NetworkConditions> conditions_;

@@ -10,6 +10,7 @@
 #include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
+#include "core/geometry/touch_shape.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
@@ -25,27 +26,6 @@ namespace {
 constexpr real_t drawn_plane = 20.0F;
 
 const Color picture_color(0.55F, 0.62F, 0.7F);
-
-// The triangles between the heights of a grid.
-TriangleMesh triangles_of(const HeightFieldShape& field) {
-    TriangleMesh mesh;
-    const Vec3 middle(0.5 * (field.columns - 1), 0.0, 0.5 * (field.rows - 1));
-    for (std::uint32_t row = 0; row < field.rows; ++row) {
-        for (std::uint32_t column = 0; column < field.columns; ++column) {
-            const Vec3 at(column, (*field.heights)[std::size_t{row} * field.columns + column], row);
-            mesh.vertices.push_back((at - middle) * field.scale);
-        }
-    }
-    for (std::uint32_t row = 0; row + 1 < field.rows; ++row) {
-        for (std::uint32_t column = 0; column + 1 < field.columns; ++column) {
-            const std::uint32_t a = row * field.columns + column;
-            const std::uint32_t b = a + field.columns;
-            mesh.triangles.push_back({a, b, a + 1});
-            mesh.triangles.push_back({a + 1, b, b + 1});
-        }
-    }
-    return mesh;
-}
 
 // (1 + cos, sin axis) is twice the half angle's (cos, sin axis), but for a turn by pi.
 Quat turn_from_up(const Vec3& normal) {
@@ -97,18 +77,31 @@ struct Draw {
     }
     Drawing operator()(const ConvexHullShape& shape) const { return {drawn_mesh(*shape.hull), {}}; }
     Drawing operator()(const MeshShape& shape) const { return {drawn_mesh(*shape.mesh), {}}; }
-    Drawing operator()(const HeightFieldShape& shape) const { return {drawn_mesh(triangles_of(shape)), {}}; }
+    Drawing operator()(const HeightFieldShape& shape) const {
+        return {drawn_mesh(height_field_mesh(shape)), {}};
+    }
 };
 
 }  // namespace
 
-void ModelView::hold_still(const std::vector<CollisionObject3D*>& bodies) {
-    for (CollisionObject3D* body : bodies) {
-        if (is_rigid(*body)) {
+void ModelView::scene_changed(const Node& node) {
+    is_scene_new_ |= is_solid_body(&node);
+}
+
+void ModelView::hold_still() {
+    if (std::exchange(is_scene_new_, false)) {
+        hold_still(world_);
+    }
+}
+
+void ModelView::hold_still(const Node& node) {
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (const auto* body = Object::cast_to<RigidBody3D>(node.get_child(i))) {
             PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(),
                                                             PhysicsServer3D::BODY_MODE_STATIC);
             held_.insert(body->get_instance_id());
         }
+        hold_still(*node.get_child(i));
     }
 }
 

@@ -22,7 +22,9 @@ public:
     explicit ModelView(HapticWorld& world) : world_(world) {}
 
     // The bodies of this scene. They stay where they are until the far side says where they should be.
-    void hold_still(const std::vector<godot::CollisionObject3D*>& bodies);
+    void hold_still();
+    // A node has come or gone.
+    void scene_changed(const godot::Node& node);
 
     // Described just now, before it is built.
     void note(const ObjectDescription& description);
@@ -54,6 +56,7 @@ private:
         std::string problem;
     };
 
+    void hold_still(const godot::Node& node);
     void show(Shown& shown, const ModelObject& object);
     void hide(const Shown& shown);
     godot::CollisionObject3D* scene_body(const std::string& name) const;
@@ -61,6 +64,7 @@ private:
     static void place(const Shown& shown, const Pose& pose);
 
     HapticWorld& world_;
+    bool is_scene_new_ = true;
     std::unordered_set<std::uint64_t> held_;  // rigid bodies of the scene
     std::unordered_map<ObjectId, Description> described_;
     std::unordered_map<ObjectId, Shown> shown_;

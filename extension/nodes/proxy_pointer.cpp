@@ -5,15 +5,17 @@
 #include <godot_cpp/classes/cylinder_mesh.hpp>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/sphere_mesh.hpp>
-#include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/core/object.hpp>
 
+#include "nodes/body_mirrors.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
 
 namespace tactus {
 
@@ -79,6 +81,21 @@ void ProxyPointer::set_radius(double meters) {
     place_pictures();
 }
 
+void ProxyPointer::set_collision_mask(int64_t mask) {
+    if (mask < 0 || mask > INT64_C(0xffff'ffff)) {
+        refuse(*this, "collision_mask", mask, "made of the 32 layers");
+        return;
+    }
+    mask_ = static_cast<std::uint32_t>(mask);
+    update_configuration_warnings();
+}
+
+void ProxyPointer::set_force_law(ForceLaw law) {
+    if (is_one_of(*this, "force_law", law, FORCE_LAW_SMOOTHED, "FORCE_LAW")) {
+        force_law_ = law;
+    }
+}
+
 void ProxyPointer::set_show_proxy(bool show) {
     show_proxy_ = show;
     make_pictures();
@@ -105,6 +122,13 @@ bool ProxyPointer::is_present() const {
     return state_.handle != no_handle && (state_.status & proxy_absent) == 0;
 }
 
+bool ProxyPointer::is_being_let_out() const {
+    return (state_.status & proxy_letting_out) != 0;
+}
+bool ProxyPointer::is_squeezed() const {
+    return (state_.status & proxy_squeezed) != 0;
+}
+
 TypedArray<Dictionary> ProxyPointer::get_contacts() const {
     TypedArray<Dictionary> contacts;
     for (std::size_t i = 0; i < static_cast<std::size_t>(state_.contact_count); ++i) {
@@ -117,17 +141,75 @@ TypedArray<Dictionary> ProxyPointer::get_contacts() const {
     return contacts;
 }
 
+// By the steps from node to node; where two are as near, the one that came first.
+HapticDevice* ProxyPointer::nearest_device() const {
+    if (nearest_as_of_ == Roll<HapticDevice>::revision()) {
+        return Object::cast_to<HapticDevice>(ObjectDB::get_instance(nearest_));
+    }
+    nearest_as_of_ = Roll<HapticDevice>::revision();
+    HapticDevice* nearest = nullptr;
+    int64_t fewest = INT64_MAX;
+    for (HapticDevice* device : Roll<HapticDevice>::all()) {
+        const int64_t steps = get_path_to(device).get_name_count();
+        if (steps < fewest && HapticWorld::above(device) == HapticWorld::above(this)) {
+            nearest = device;
+            fewest = steps;
+        }
+    }
+    nearest_ = nearest != nullptr ? nearest->get_instance_id() : 0;
+    return nearest;
+}
+
 HapticDevice* ProxyPointer::device_node() const {
-    return is_inside_tree() && !device_.is_empty() ? Object::cast_to<HapticDevice>(get_node_or_null(device_))
-                                                   : nullptr;
+    if (!is_inside_tree()) {
+        return nullptr;
+    }
+    return device_.is_empty() ? nearest_device() : Object::cast_to<HapticDevice>(get_node_or_null(device_));
+}
+
+String ProxyPointer::problem() const {
+    const HapticDevice* device = device_node();
+    if (device == nullptr) {
+        return device_.is_empty() ? String("there is no HapticDevice in its world: add one")
+                                  : "its device '" + String(device_) +
+                                        "' is not a HapticDevice of the scene: set 'device' anew, or leave "
+                                        "it empty for the nearest one";
+    }
+    const bool is_edited = Engine::get_singleton()->is_editor_hint();
+    const auto world_of = [is_edited](const Node* node) {
+        return is_edited ? HapticWorld::above(node) : HapticWorld::of(node);
+    };
+    if (world_of(device) != world_of(this)) {
+        return "its device '" + name_of(*device) +
+               "' belongs to another HapticWorld: choose one of its own world, or put it there";
+    }
+    return mask_ == 0 ? String("its 'collision_mask' is empty, so it touches nothing: set a layer in it")
+                      : String();
+}
+
+String ProxyPointer::hindrance(const SceneFacts& facts) const {
+    // Of the largest and the smallest body: beyond these no touch is meant.
+    constexpr double too_large = 1.0;
+    constexpr double too_small = 1e-4;
+    if (facts.bodies == 0 || mask_ == 0) {
+        return String();
+    }
+    if ((mask_ & facts.layers) == 0) {
+        return "its 'collision_mask' has no layer that a body of its world is in, so it touches nothing: set "
+               "one of theirs";
+    }
+    const bool has_sizes = facts.largest > 0.0;
+    if (has_sizes && (radius_ > too_large * facts.largest || radius_ < too_small * facts.smallest)) {
+        return "the fingertip's radius of " + String::num(radius_) +
+               " m does not fit bodies that reach from " + String::num(facts.smallest, 4) + " m to " +
+               String::num(facts.largest, 4) + " m: set 'radius' to about a tenth of what is touched";
+    }
+    return String();
 }
 
 String ProxyPointer::get_state_text() const {
-    if (device_.is_empty()) {
-        return "it has no device: set 'device' to a HapticDevice of the scene";
-    }
-    if (device_node() == nullptr) {
-        return "its device '" + String(device_) + "' is not a HapticDevice of the scene: set 'device' anew";
+    if (const String wrong = problem(); !wrong.is_empty()) {
+        return wrong;
     }
     if (Engine::get_singleton()->is_editor_hint()) {
         return String();
@@ -141,13 +223,19 @@ String ProxyPointer::get_state_text() const {
     if (!is_present()) {
         return "the hand began inside a body: move it out once";
     }
+    if (is_being_let_out()) {
+        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
+    }
     return is_touching() ? "touching" : "free";
 }
 
 PackedStringArray ProxyPointer::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    if (is_inside_tree() && device_node() == nullptr) {
-        warnings.push_back("This ProxyPointer cannot move: " + get_state_text() + ".");
+    if (is_inside_tree() && !problem().is_empty()) {
+        warnings.push_back("This ProxyPointer cannot touch: " + problem() + ".");
+    }
+    if (const String lost = is_inside_tree() ? problem_without_world(*this) : String(); !lost.is_empty()) {
+        warnings.push_back("This ProxyPointer cannot touch: " + lost + ".");
     }
     if (radius_was_refused_) {
         warnings.push_back("'" + String(get_name()) +
@@ -162,7 +250,8 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.device = device;
     description.settings.radius = radius_;
     description.settings.mask = mask_;
-    description.force_law = force_law_ == FORCE_LAW_SMOOTHED ? ForceLaw::smoothed : ForceLaw::spring;
+    description.force_law =
+        force_law_ == FORCE_LAW_SMOOTHED ? tactus::ForceLaw::smoothed : tactus::ForceLaw::spring;
     description.enabled = enabled_;
     return description;
 }
@@ -172,11 +261,8 @@ void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
     const auto emit_for_missing = [this](const std::vector<std::uint64_t>& in,
                                          const std::vector<std::uint64_t>& from, const char* signal) {
         for (const std::uint64_t body : in) {
-            Object* object = std::find(from.begin(), from.end(), body) == from.end()
-                                 ? ObjectDB::get_instance(body)
-                                 : nullptr;
-            if (object != nullptr) {
-                emit_signal(signal, object);
+            if (std::find(from.begin(), from.end(), body) == from.end()) {
+                post_signal(*this, signal, {NodeId{body}});
             }
         }
     };
@@ -187,7 +273,9 @@ void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
 void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
     state_ = state;
     contact_bodies_ = bodies;
-    if (is_present()) {
+    // Below a node that is scaled to zero there are no places.
+    const Node3D* parent = get_parent_node_3d();
+    if (is_present() && (parent == nullptr || parent->get_global_transform().basis.determinant() != 0)) {
         set_global_position(to_godot(state.position));
     }
     place_pictures();
@@ -265,17 +353,13 @@ void ProxyPointer::_notification(int what) {
     switch (what) {
         case NOTIFICATION_ENTER_TREE:
             make_pictures();
-            if (Engine::get_singleton()->is_editor_hint()) {
-                set_notify_transform(true);
-            } else {
-                Roll<ProxyPointer>::enter(this);
-            }
+            set_notify_transform(Engine::get_singleton()->is_editor_hint());
+            Roll<ProxyPointer>::enter(this);
+            watch_warnings(*this);
             break;
         case NOTIFICATION_EXIT_TREE:
-            if (!Engine::get_singleton()->is_editor_hint()) {
-                Roll<ProxyPointer>::leave(this);
-                clear_state();
-            }
+            Roll<ProxyPointer>::leave(this);
+            clear_state();
             break;
         case NOTIFICATION_TRANSFORM_CHANGED:
         case NOTIFICATION_VISIBILITY_CHANGED:
@@ -284,55 +368,6 @@ void ProxyPointer::_notification(int what) {
         default:
             break;
     }
-}
-
-void ProxyPointer::_bind_methods() {
-    ClassDB::bind_method(D_METHOD("get_warnings"), &ProxyPointer::_get_configuration_warnings);
-    ClassDB::bind_method(D_METHOD("set_device", "path"), &ProxyPointer::set_device);
-    ClassDB::bind_method(D_METHOD("get_device"), &ProxyPointer::get_device);
-    ClassDB::bind_method(D_METHOD("set_radius", "meters"), &ProxyPointer::set_radius);
-    ClassDB::bind_method(D_METHOD("get_radius"), &ProxyPointer::get_radius);
-    ClassDB::bind_method(D_METHOD("set_collision_mask", "mask"), &ProxyPointer::set_collision_mask);
-    ClassDB::bind_method(D_METHOD("get_collision_mask"), &ProxyPointer::get_collision_mask);
-    ClassDB::bind_method(D_METHOD("set_force_law", "law"), &ProxyPointer::set_force_law);
-    ClassDB::bind_method(D_METHOD("get_force_law"), &ProxyPointer::get_force_law);
-    ClassDB::bind_method(D_METHOD("set_enabled", "enabled"), &ProxyPointer::set_enabled);
-    ClassDB::bind_method(D_METHOD("is_enabled"), &ProxyPointer::is_enabled);
-    ClassDB::bind_method(D_METHOD("set_show_proxy", "show"), &ProxyPointer::set_show_proxy);
-    ClassDB::bind_method(D_METHOD("get_show_proxy"), &ProxyPointer::get_show_proxy);
-    ClassDB::bind_method(D_METHOD("set_show_hand", "show"), &ProxyPointer::set_show_hand);
-    ClassDB::bind_method(D_METHOD("get_show_hand"), &ProxyPointer::get_show_hand);
-    ClassDB::bind_method(D_METHOD("get_force"), &ProxyPointer::get_force);
-    ClassDB::bind_method(D_METHOD("get_hand_position"), &ProxyPointer::get_hand_position);
-    ClassDB::bind_method(D_METHOD("get_proxy_position"), &ProxyPointer::get_proxy_position);
-    ClassDB::bind_method(D_METHOD("is_touching"), &ProxyPointer::is_touching);
-    ClassDB::bind_method(D_METHOD("is_present"), &ProxyPointer::is_present);
-    ClassDB::bind_method(D_METHOD("get_status"), &ProxyPointer::get_status);
-    ClassDB::bind_method(D_METHOD("get_residual"), &ProxyPointer::get_residual);
-    ClassDB::bind_method(D_METHOD("get_contacts"), &ProxyPointer::get_contacts);
-    ClassDB::bind_method(D_METHOD("get_state_text"), &ProxyPointer::get_state_text);
-
-    ADD_PROPERTY(
-        PropertyInfo(Variant::NODE_PATH, "device", PROPERTY_HINT_NODE_PATH_VALID_TYPES, "HapticDevice"),
-        "set_device", "get_device");
-    ADD_PROPERTY(
-        PropertyInfo(Variant::FLOAT, "radius", PROPERTY_HINT_RANGE, "0.001,0.1,0.0005,or_greater,suffix:m"),
-        "set_radius", "get_radius");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "collision_mask", PROPERTY_HINT_LAYERS_3D_PHYSICS),
-                 "set_collision_mask", "get_collision_mask");
-    ADD_PROPERTY(PropertyInfo(Variant::INT, "force_law", PROPERTY_HINT_ENUM, "Spring,Smoothed"),
-                 "set_force_law", "get_force_law");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "enabled"), "set_enabled", "is_enabled");
-    ADD_GROUP("Show", "show_");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "show_proxy"), "set_show_proxy", "get_show_proxy");
-    ADD_PROPERTY(PropertyInfo(Variant::BOOL, "show_hand"), "set_show_hand", "get_show_hand");
-
-    const PropertyInfo body(Variant::OBJECT, "body", PROPERTY_HINT_NODE_TYPE, "CollisionObject3D");
-    ADD_SIGNAL(MethodInfo("contact_started", body));
-    ADD_SIGNAL(MethodInfo("contact_ended", body));
-
-    BIND_ENUM_CONSTANT(FORCE_LAW_SPRING);
-    BIND_ENUM_CONSTANT(FORCE_LAW_SMOOTHED);
 }
 
 }  // namespace tactus

@@ -13,22 +13,30 @@
 namespace tactus {
 
 class HapticDevice;
+struct SceneFacts;
 
 // The fingertip that never enters a surface. Its place follows the proxy.
 class ProxyPointer : public godot::Node3D {
     GDCLASS(ProxyPointer, godot::Node3D)
 
 public:
-    enum Law { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
+    enum Status : int64_t {
+        STATUS_ABSENT = proxy_absent,
+        STATUS_TOUCHING = proxy_touching,
+        STATUS_SLIDING = proxy_sliding,
+        STATUS_UNFINISHED = proxy_unfinished,
+        STATUS_SQUEEZED = proxy_squeezed
+    };
+    enum ForceLaw : int64_t { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
 
     void set_device(const godot::NodePath& path);
     godot::NodePath get_device() const { return device_; }
     void set_radius(double meters);
     double get_radius() const { return radius_; }
-    void set_collision_mask(int64_t mask) { mask_ = static_cast<std::uint32_t>(mask); }
+    void set_collision_mask(int64_t mask);
     int64_t get_collision_mask() const { return mask_; }
-    void set_force_law(Law law) { force_law_ = law; }
-    Law get_force_law() const { return force_law_; }
+    void set_force_law(ForceLaw law);
+    ForceLaw get_force_law() const { return force_law_; }
     void set_enabled(bool enabled) { enabled_ = enabled; }
     bool is_enabled() const { return enabled_; }
     void set_show_proxy(bool show);
@@ -41,7 +49,9 @@ public:
     godot::Vector3 get_proxy_position() const;
     bool is_touching() const;
     bool is_present() const;
-    int64_t get_status() const { return state_.status; }
+    bool is_being_let_out() const;
+    bool is_squeezed() const;
+    godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     godot::TypedArray<godot::Dictionary> get_contacts() const;
     godot::String get_state_text() const;
@@ -50,12 +60,19 @@ public:
 
     // --- for the world that runs it
 
+    // The one that 'device' names; where that is empty, the nearest one in the scene tree.
     HapticDevice* device_node() const;
+    // Why it cannot touch anything, and what to do; empty where nothing is wrong with it.
+    godot::String problem() const;
+    // Why it will not touch what there is; empty where it can.
+    godot::String hindrance(const SceneFacts& facts) const;
     ProxyDescription description(SessionHandle device) const;
     // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
     using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;
     void take_state(const ProxyState& state, const BodyIds& bodies);
     void clear_state();
+    // Its hand began inside a body.
+    bool is_kept_out() const { return state_.handle != no_handle && !is_present(); }
     void clear_force() { state_.force = Vec3(0.0); }
 
 protected:
@@ -69,11 +86,15 @@ private:
     godot::MeshInstance3D* add_picture(const godot::Ref<godot::Mesh>& mesh,
                                        const godot::Ref<godot::Material>& look);
 
+    HapticDevice* nearest_device() const;
+
     godot::NodePath device_;
+    mutable std::uint64_t nearest_ = 0;        // id of the nearest device
+    mutable std::uint64_t nearest_as_of_ = 0;  // revision of the devices that it was found among
     double radius_ = 0.01;
     bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;
-    Law force_law_ = FORCE_LAW_SPRING;
+    ForceLaw force_law_ = FORCE_LAW_SPRING;
     bool enabled_ = true;
     bool show_proxy_ = true;
     bool show_hand_ = true;
@@ -88,4 +109,5 @@ private:
 
 }  // namespace tactus
 
-VARIANT_ENUM_CAST(tactus::ProxyPointer::Law);
+VARIANT_ENUM_CAST(tactus::ProxyPointer::ForceLaw);
+VARIANT_BITFIELD_CAST(tactus::ProxyPointer::Status);

@@ -3,6 +3,7 @@
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
 
+#include "nodes/body_watch.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
@@ -12,7 +13,9 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/network_conditions.hpp"
 #include "nodes/proxy_pointer.hpp"
+#include "nodes/signals.hpp"
 #include "nodes/teleop_tuning.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 
@@ -22,6 +25,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     if (level != godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         return;
     }
+    GDREGISTER_INTERNAL_CLASS(BodyWatch);
     GDREGISTER_CLASS(HapticMaterial);
     GDREGISTER_CLASS(HapticPath);
     GDREGISTER_CLASS(HapticMesh);
@@ -34,7 +38,12 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticWorld);
 }
 
-void nothing_to_undo(godot::ModuleInitializationLevel) {}
+void let_go(godot::ModuleInitializationLevel level) {
+    if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
+        Workers::end_shared();
+        forget_signals();
+    }
+}
 
 }  // namespace
 
@@ -43,7 +52,7 @@ GDExtensionBool initialize_library(GDExtensionInterfaceGetProcAddress get_proc_a
                                    GDExtensionInitialization* initialization) {
     const godot::GDExtensionBinding::InitObject init(get_proc_address, library, initialization);
     init.register_initializer(register_classes);
-    init.register_terminator(nothing_to_undo);
+    init.register_terminator(let_go);
     init.set_minimum_library_initialization_level(godot::MODULE_INITIALIZATION_LEVEL_SCENE);
     return init.init();
 }

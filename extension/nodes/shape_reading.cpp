@@ -102,16 +102,22 @@ ShapeReading placed(const godot::CylinderShape3D& cylinder, const AxisFactors& s
     return one_solid(CylinderShape{cylinder.get_radius() * f.x, 0.5 * cylinder.get_height() * f.y}, pose);
 }
 
-ShapeReading placed(const godot::HeightMapShape3D& map, const AxisFactors& scale, const Pose& pose) {
+// A mirrored frame is one that is turned and scaled by less than zero along all axes. As well, it is turned
+// by half a turn more about x, and mirrored along x alone: then up stays up.
+ShapeReading placed(const godot::HeightMapShape3D& map, const AxisFactors& scale, bool mirrored, Pose pose) {
     if (!scale.square) {
         return uneven("height map");
     }
+    Vec3 factors = scale.factors;
+    if (mirrored) {
+        factors.x = -factors.x;
+        pose.rotation = pose.rotation * Quat(0.0, 1.0, 0.0, 0.0);
+    }
     const godot::PackedFloat32Array data = map.get_map_data();
     auto heights = std::make_shared<std::vector<float>>(data.ptr(), data.ptr() + data.size());
-    return one(
-        HeightFieldShape{static_cast<std::uint32_t>(map.get_map_width()),
-                         static_cast<std::uint32_t>(map.get_map_depth()), scale.factors, std::move(heights)},
-        pose);
+    return one(HeightFieldShape{static_cast<std::uint32_t>(map.get_map_width()),
+                                static_cast<std::uint32_t>(map.get_map_depth()), factors, std::move(heights)},
+               pose);
 }
 
 ShapeReading placed(const godot::WorldBoundaryShape3D& boundary, const godot::Basis& scaling,
@@ -160,7 +166,7 @@ std::shared_ptr<MeshSource> source_of(const godot::ConcavePolygonShape3D& concav
 
 ShapeReading placed(const godot::ConcavePolygonShape3D& concave, const godot::Basis& scaling,
                     const Pose& pose) {
-    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, {}}}, {}};
+    return {{}, {{source_of(concave), without_rounding(scaling), pose, 0.0, false, {}}}, {}};
 }
 
 bool is_finite(const godot::Transform3D& transform) {
@@ -189,7 +195,7 @@ bool same(const ConvexHullShape& a, const ConvexHullShape& b) {
     return same(a.hull, b.hull);
 }
 bool same(const MeshShape& a, const MeshShape& b) {
-    return a.smooth_below == b.smooth_below && same(a.mesh, b.mesh);
+    return a.smooth_below == b.smooth_below && a.one_sided == b.one_sided && same(a.mesh, b.mesh);
 }
 bool same(const HeightFieldShape& a, const HeightFieldShape& b) {
     return a.columns == b.columns && a.rows == b.rows && a.scale == b.scale && *a.heights == *b.heights;
@@ -239,7 +245,7 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const godot::Transform
         return placed(*concave, scaling, pose);
     }
     if (auto* map = Object::cast_to<godot::HeightMapShape3D>(object)) {
-        return placed(*map, factors, pose);
+        return placed(*map, factors, scaling.determinant() < 0, pose);
     }
     if (auto* boundary = Object::cast_to<godot::WorldBoundaryShape3D>(object)) {
         return placed(*boundary, scaling, pose);
@@ -254,7 +260,7 @@ bool same_meshes(const std::vector<MeshDraft>& a, const std::vector<MeshDraft>& 
     return std::ranges::equal(a, b, [](const MeshDraft& left, const MeshDraft& right) {
         return left.source == right.source && left.scaling == right.scaling &&
                left.pose.position == right.pose.position && left.pose.rotation == right.pose.rotation &&
-               left.smooth_below == right.smooth_below;
+               left.smooth_below == right.smooth_below && left.one_sided == right.one_sided;
     });
 }
 

@@ -19,6 +19,7 @@ struct MeshDraft {
     godot::Basis scaling;       // applied to the triangles
     Pose pose;                  // of the scaled mesh in the body's frame
     double smooth_below = 0.0;  // see MeshShape
+    bool one_sided = false;     // likewise
     std::string owner;          // the node's name, for what there is to say of the triangles
 };
 

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "nodes/body_mirror.hpp"
-#include "nodes/joint_mirror.hpp"
+#include "nodes/body_mirrors.hpp"
+#include "nodes/hand_mirrors.hpp"
 #include "nodes/link_run.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
@@ -29,9 +29,7 @@ class MMTLink;
 
 struct RunSettings {
     SessionSettings session;
-    TickLoopSettings loop;
     bool real_time = true;
-    bool baseline = false;    // a bare loop runs beside
     MMTLink* link = nullptr;  // null: nobody at a far side
 };
 
@@ -42,8 +40,16 @@ public:
     WorldRun(const WorldRun&) = delete;
     WorldRun& operator=(const WorldRun&) = delete;
 
-    // Real time only. The text is empty, or why the loop could not start.
-    std::string start_loop();
+    // Gives everything back; nothing ticks after it. The run itself may be destroyed later: whoever is at
+    // work in it finds out by is_over().
+    void end();
+    bool is_over() const { return is_over_; }
+    // While scene and session are brought together. Godot may call scripts then, as bodies move.
+    bool is_busy() const { return is_busy_; }
+
+    // Real time only. The text is empty, or why the loop could not start. With `baseline` a bare loop runs
+    // beside.
+    std::string start_loop(const TickLoopSettings& settings, bool baseline);
     void stop_loop();
     // Ticks stop for a while: nothing pushes the hand meanwhile.
     void pause();
@@ -55,68 +61,49 @@ public:
     // Stepped time only: ticks at once, here.
     void advance(std::int64_t ticks);
 
-    void bodies_changed() { bodies_changed_ = true; }
-    void shapes_changed() { shapes_changed_ = true; }
-    void forget(HapticDevice* device);
-    void forget(ProxyPointer* proxy);
+    // A node has come or gone.
+    void scene_changed(const godot::Node& node);
+    void forget(HapticDevice* device) { hands_->forget(device, session_); }
+    void forget(ProxyPointer* proxy) { hands_->forget(proxy, session_); }
     void forget(HapticRecorder* recorder);
     void forget(MMTLink* link);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder* recorder);
 
+    // Gives a body an impulse in the next tick; `for_a_frame`: the force of that size, and its torque, for as
+    // long as the next frame is.
+    void push(SessionHandle body, const BodyPush& push, bool for_a_frame);
+    // no_handle where the node is no body of this world.
+    SessionHandle body_of(const godot::Node* node);
+    // Of one that can move, as shown last; null where there is none.
+    const BodyState* state_of(const godot::Node* node);
+
+    const BodyMirrors& bodies() const { return bodies_; }
     Session& session() { return session_; }
     TickLoop& loop() { return loop_; }
     const TickLoop& loop() const { return loop_; }
     BaselineLoop* baseline() { return baseline_.get(); }
+    Nanoseconds now() const { return static_cast<Nanoseconds>(ticks()) * settings_.session.period; }
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
     std::size_t body_count() const {
-        return link_ && link_->is_operator() ? link_->body_count() : mirrors_.size();
+        return link_ && link_->is_operator() ? link_->body_count() : bodies_.bodies().size();
     }
-    std::size_t trees_building() const;         // bodies that wait for theirs
-    std::vector<std::string> problems() const;  // each names its node
+    std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
+    std::vector<std::string> problems() const;                         // each names its node
 
 private:
-    struct DeviceLink {
-        HapticDevice* node = nullptr;
-        std::shared_ptr<Device> port;
-        SessionHandle handle = no_handle;
-        Workspace sent;
-    };
-    struct ProxyLink {
-        ProxyPointer* node = nullptr;
-        SessionHandle handle = no_handle;
-        ProxyDescription sent;
-    };
-
     static TickStatus tick_loop_function(void* self, Nanoseconds scheduled);
     TickStatus tick(Nanoseconds now);
 
-    void collect_nodes(godot::Node* node, std::vector<godot::CollisionObject3D*>& bodies,
-                       std::vector<godot::Joint3D*>& joints) const;
-    template <class Mirror, class NodeType>
-    void match(std::vector<std::unique_ptr<Mirror>>& mirrors, const std::vector<NodeType*>& found);
-    void find_nodes();
-    void synchronise_joints();
     void synchronise_bodies(double seconds);
-    void finish_building(const MirrorContext& context);
-    void synchronise_devices();
-    void synchronise_proxies();
+    void look_at_scene();
     void synchronise_recorder();
     void synchronise_link();
-    void connect_device(DeviceLink& link);
-    void drop_device(DeviceLink& link);
     void want_trace();
     void drain();
-    BodyMirror* mirror_of(std::uint64_t id);
-    BodyMirror* mirror_of_handle(SessionHandle handle);
-    SessionHandle body_of(const godot::Node* node);
     std::uint64_t node_of(SessionHandle body);
-    SessionHandle device_handle(const HapticDevice* node) const;
-    ProxyPointer::BodyIds body_ids(const ProxyState& state);
     void show_bodies(const SessionSnapshot& snapshot);
-    void show_devices(const SessionSnapshot& snapshot);
-    void show_proxies(const SessionSnapshot& snapshot);
 
     HapticWorld& world_;
     RunSettings settings_;
@@ -124,10 +111,12 @@ private:
         0};                          // a tick's time on the monotonic clock less its time in the session
     std::unique_ptr<LinkRun> link_;  // null: nobody at a far side. Above the session, whose side uses it
     Session session_;
-    Workers workers_;  // below the session, which their jobs use
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;
+    TickLoopSettings loop_settings_;  // as it was started last
     std::unique_ptr<BaselineLoop> baseline_;
+    bool is_over_ = false;
+    bool is_busy_ = false;
 
     // The session's clock starts at zero and stands still while the loop does.
     std::atomic<std::uint64_t> ticks_{0};
@@ -136,20 +125,15 @@ private:
     Nanoseconds epoch_of_monotonic_clock_;  // its zero, since the epoch
     TickStatus stepped_status_ = 0;
 
-    std::vector<std::unique_ptr<BodyMirror>> mirrors_;
-    std::unordered_map<std::uint64_t, BodyMirror*> mirror_by_id_;
-    std::vector<BodyMirror*> mirror_by_handle_;
-    std::vector<std::unique_ptr<JointMirror>> joints_;
-    bool bodies_changed_ = true;
-    bool shapes_changed_ = false;
-    std::vector<DeviceLink> devices_;
-    std::vector<ProxyLink> proxies_;
+    std::vector<std::pair<SessionHandle, BodyPush>> forces_;  // until the next frame
+    BodyMirrors bodies_;
+    std::unique_ptr<HandMirrors> hands_;
     HapticRecorder* recorder_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
     std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
-    std::shared_ptr<Device> stand_in_;            // far side: the hand is the operator's
     BodyDefaults defaults_;
+    std::uint32_t looks_ = 0;  // synchronise() so far
     Complaints complaints_;
 };
 

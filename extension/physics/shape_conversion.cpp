@@ -9,12 +9,14 @@
 #include <Jolt/Physics/Collision/Shape/MeshShape.h>
 #include <Jolt/Physics/Collision/Shape/PlaneShape.h>
 #include <Jolt/Physics/Collision/Shape/RotatedTranslatedShape.h>
+#include <Jolt/Physics/Collision/Shape/ScaledShape.h>
 #include <Jolt/Physics/Collision/Shape/SphereShape.h>
 #include <Jolt/Physics/Collision/Shape/StaticCompoundShape.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/touch_shape.hpp"
 #include "physics/jolt_units.hpp"
 
 namespace tactus {
@@ -188,28 +190,17 @@ ShapeConversion of(const MeshShape& mesh, bool may_turn_dynamic) {
     return triangles_of(points, triangles);
 }
 
-Vec3 sample_point(const HeightFieldShape& field, std::uint32_t column, std::uint32_t row) {
-    const double height = (*field.heights)[static_cast<std::size_t>(row) * field.columns + column];
-    return {field.scale.x * (column - 0.5 * (field.columns - 1)), field.scale.y * height,
-            field.scale.z * (row - 0.5 * (field.rows - 1))};
-}
-
-// Split along the same diagonal as Jolt splits its height fields: from (column, row) to (column + 1, row +
-// 1).
+// As it is touched.
 ShapeConversion strip_as_mesh(const HeightFieldShape& field) {
+    const TriangleMesh mesh = height_field_mesh(field);
     std::vector<JPH::Float3> points;
-    points.reserve(field.heights->size());
-    for (std::uint32_t row = 0; row < field.rows; ++row)
-        for (std::uint32_t column = 0; column < field.columns; ++column)
-            points.push_back(stored(sample_point(field, column, row)));
+    points.reserve(mesh.vertices.size());
+    for (const Vec3& vertex : mesh.vertices)
+        points.push_back(stored(vertex));
     JPH::IndexedTriangleList triangles;
-    for (std::uint32_t row = 0; row + 1 < field.rows; ++row)
-        for (std::uint32_t column = 0; column + 1 < field.columns; ++column) {
-            const std::uint32_t here = row * field.columns + column;
-            const std::uint32_t below = here + field.columns;
-            triangles.emplace_back(here, below, below + 1, 0u);
-            triangles.emplace_back(here, below + 1, here + 1, 0u);
-        }
+    triangles.reserve(mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+        triangles.emplace_back(t[0], t[1], t[2], 0u);
     return triangles_of(points, triangles);
 }
 
@@ -219,8 +210,8 @@ ShapeConversion of(const HeightFieldShape& field, bool may_turn_dynamic) {
     const std::size_t samples = static_cast<std::size_t>(field.columns) * field.rows;
     if (field.columns < 2 || field.rows < 2 || field.heights == nullptr || field.heights->size() != samples)
         return failure("the height field needs at least 2 x 2 heights and exactly columns x rows of them");
-    if (!is_length(field.scale.x) || !is_length(field.scale.z) || !is_length(field.scale.y))
-        return failure("the height field's scale is not a positive length");
+    if (!is_length(std::abs(field.scale.x)) || !is_length(field.scale.z) || !is_length(field.scale.y))
+        return failure("the height field's scale is not a length");
     for (std::size_t i = 0; i < samples; ++i)
         if (!(std::abs(field.scale.y * (*field.heights)[i]) <= largest_length))
             return failure("height " + std::to_string(i) + " is not a finite number");
@@ -233,18 +224,23 @@ ShapeConversion of(const HeightFieldShape& field, bool may_turn_dynamic) {
     if (static_cast<std::size_t>(side) * side > most_padding * samples && samples > 64)
         return strip_as_mesh(field);
 
+    // Jolt cuts its cells along the other diagonal than Godot and touch do: of its mirror image it cuts the
+    // same one.
     std::vector<float> padded(static_cast<std::size_t>(side) * side,
                               JPH::HeightFieldShapeConstants::cNoCollisionValue);
     for (std::uint32_t row = 0; row < field.rows; ++row)
-        std::copy_n(field.heights->data() + static_cast<std::size_t>(row) * field.columns, field.columns,
-                    padded.data() + static_cast<std::size_t>(row) * side);
-    const Vec3 corner{-0.5 * field.scale.x * (field.columns - 1), 0.0,
-                      -0.5 * field.scale.z * (field.rows - 1)};
-    JPH::HeightFieldShapeSettings settings(padded.data(), units::vector(corner), units::vector(field.scale),
-                                           side);
+        std::copy_n(field.heights->data() + static_cast<std::size_t>(field.rows - 1 - row) * field.columns,
+                    field.columns, padded.data() + static_cast<std::size_t>(row) * side);
+    const Vec3 scale(std::abs(field.scale.x), field.scale.y, field.scale.z);
+    const Vec3 corner{-0.5 * scale.x * (field.columns - 1), 0.0, -0.5 * scale.z * (field.rows - 1)};
+    JPH::HeightFieldShapeSettings settings(padded.data(), units::vector(corner), units::vector(scale), side);
     settings.mBlockSize = block;
     settings.mBitsPerSample = 16;
-    return finished(settings);
+    const ShapeConversion mirrored = finished(settings);
+    if (mirrored.shape == nullptr)
+        return mirrored;
+    return finished(
+        JPH::ScaledShapeSettings(mirrored.shape, JPH::Vec3(field.scale.x < 0.0 ? -1.0f : 1.0f, 1.0f, -1.0f)));
 }
 
 bool is_identity(const Pose& pose) {

@@ -38,6 +38,8 @@ public:
     JPH::EConstraintSubType GetSubType() const override { return JPH::EConstraintSubType::User1; }
     void NotifyShapeChanged(const JPH::BodyID&, JPH::Vec3Arg) override {}
     void ResetWarmStart() override {}
+    // A body that was put to rest since belongs to no island: nothing may push it.
+    bool IsActive() const override { return push_.body->IsActive(); }
     void SetupVelocityConstraint(float seconds) override;
     void WarmStartVelocityConstraint(float) override;
     bool SolveVelocityConstraint(float seconds) override;

@@ -1,6 +1,7 @@
 #include "session/model_builder.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 
 #include "core/teleop/body_motion.hpp"
 
@@ -25,30 +26,25 @@ BodyAddition addition_of(const ObjectDescription& description, const Pose& frame
 
 }  // namespace
 
+void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
+    port_->discovery.set_run(run);
+    run_ = std::move(run);
+}
+
 bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
-    if (link.peer_epoch != 0 && (!gravity_known_ || link.peer_hello.gravity != gravity_)) {
-        gravity_known_ = true;
-        gravity_ = link.peer_hello.gravity;
-        session_.set_gravity(direction_to_parent(frame_, gravity_));
+    if (link.peer_epoch != 0) {
+        follow_gravity(now, link.peer_hello.gravity);
     }
-    bool changed = false;
-    for (int built = 0; built < most_built_at_once; ++built) {
-        std::optional<DiscoveryEvent> event = port_->discovery.next(now);
+    bool changed = add_prepared();
+    for (std::size_t taken = 0; taken < most_built_at_once && preparing_.size() < most_built_at_once;
+         ++taken) {
+        std::optional<DiscoveryEvent> event = port_->discovery.next();
         if (!event) {
             break;
         }
+        take(*event, now);
         changed = true;
-        switch (event->kind) {
-            case DiscoveryEvent::Kind::described:
-                build(event->description);
-                break;
-            case DiscoveryEvent::Kind::removed:
-                remove(event->object);
-                break;
-            case DiscoveryEvent::Kind::restarted:
-                outdate(now);
-                break;
-        }
+        add_prepared();
     }
     if (any_outdated_ && (now - outdated_at_ >= patience || all_described(now, link))) {
         remove_outdated();
@@ -58,7 +54,39 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     return changed;
 }
 
+// At once before there is anything that falls; later no faster than a hand that holds something can follow.
+void ModelBuilder::follow_gravity(Nanoseconds now, const Vec3& wanted) {
+    constexpr double most_a_second = 50.0;  // (unit: meters per second cubed)
+    constexpr double longest_frame = 0.1;   // (unit: seconds)
+    const double seconds = std::min(to_seconds(now - gravity_at_), longest_frame);
+    const bool at_once = !gravity_known_ || objects_.empty();
+    const Vec3 way = wanted - gravity_;
+    const double distance = glm::length(way);
+    gravity_at_ = now;
+    if (!gravity_known_ || distance > 0.0) {
+        const bool arrives = at_once || distance <= most_a_second * seconds;
+        gravity_ = arrives ? wanted : gravity_ + way * (most_a_second * seconds / distance);
+        gravity_known_ = true;
+        session_.set_gravity(direction_to_parent(frame_, gravity_));
+    }
+}
+
+void ModelBuilder::take(DiscoveryEvent& event, Nanoseconds now) {
+    switch (event.kind) {
+        case DiscoveryEvent::Kind::described:
+            prepare(event.description);
+            break;
+        case DiscoveryEvent::Kind::removed:
+            remove(event.object);
+            break;
+        case DiscoveryEvent::Kind::restarted:
+            outdate(now);
+            break;
+    }
+}
+
 void ModelBuilder::outdate(Nanoseconds now) {
+    preparing_.clear();
     for (ModelObject& object : objects_) {
         bind(object.object, no_handle);
         object.outdated = true;
@@ -84,16 +112,42 @@ void ModelBuilder::remove_outdated() {
     any_outdated_ = false;
 }
 
-void ModelBuilder::build(ObjectDescription& description) {
+void ModelBuilder::prepare(ObjectDescription& description) {
     if (distortion_) {
         distortion_(description);
     }
-    ModelObject made{description.object, description.name, no_handle, {}};
-    const auto before = find_before(description);
-    AddResult added = session_.add_body(addition_of(description, frame_));
+    forget_prepared(description.object);
+    auto preparing = std::make_shared<Preparing>();
+    preparing->object = description.object;
+    preparing->name = description.name;
+    preparing->addition = addition_of(description, frame_);
+    preparing_.push_back(preparing);
+    const auto job = [preparing, session = &session_] {
+        preparing->ready = session->prepare_body(preparing->addition);
+        preparing->done.store(true, std::memory_order_release);
+    };
+    run_ ? run_(job) : job();
+}
+
+// In the order in which they were described.
+bool ModelBuilder::add_prepared() {
+    bool added = false;
+    while (!preparing_.empty() && preparing_.front()->done.load(std::memory_order_acquire)) {
+        const std::shared_ptr<Preparing> prepared = std::move(preparing_.front());
+        preparing_.pop_front();
+        add(*prepared);
+        added = true;
+    }
+    return added;
+}
+
+void ModelBuilder::add(Preparing& prepared) {
+    ModelObject made{prepared.object, prepared.name, no_handle, {}};
+    const auto before = find_before(prepared.object, prepared.name);
+    AddResult added = session_.add_body(std::move(prepared.ready));
     made.body = added.handle;
     made.problem = std::move(added.error);
-    port_->discovery.answer(description.object,
+    port_->discovery.answer(prepared.object,
                             made.body == no_handle ? DiscoveryVerdict::refused : DiscoveryVerdict::known);
     if (before == objects_.end()) {
         objects_.push_back(std::move(made));
@@ -101,10 +155,16 @@ void ModelBuilder::build(ObjectDescription& description) {
         take_out(*before);
         *before = std::move(made);
     }
-    bind(description.object, find(description.object)->body);
+    bind(prepared.object, find(prepared.object)->body);
+}
+
+// What is still being prepared of an object is not wanted any more.
+void ModelBuilder::forget_prepared(ObjectId object) {
+    std::erase_if(preparing_, [object](const auto& preparing) { return preparing->object == object; });
 }
 
 void ModelBuilder::remove(ObjectId object) {
+    forget_prepared(object);
     if (const auto found = find(object); found != objects_.end()) {
         bind(object, no_handle);
         take_out(*found);
@@ -113,6 +173,7 @@ void ModelBuilder::remove(ObjectId object) {
 }
 
 void ModelBuilder::clear() {
+    preparing_.clear();
     for (const ModelObject& object : objects_) {
         bind(object.object, no_handle);
         take_out(object);
@@ -144,11 +205,11 @@ std::vector<ModelObject>::iterator ModelBuilder::find(ObjectId object) {
 
 // What the described object takes the place of: itself, or what had its name before the far side started
 // anew.
-std::vector<ModelObject>::iterator ModelBuilder::find_before(const ObjectDescription& description) {
-    const auto itself = find(description.object);
+std::vector<ModelObject>::iterator ModelBuilder::find_before(ObjectId object, const std::string& name) {
+    const auto itself = find(object);
     return itself != objects_.end() ? itself
-                                    : std::ranges::find_if(objects_, [&description](const ModelObject& one) {
-                                          return one.outdated && one.name == description.name;
+                                    : std::ranges::find_if(objects_, [&name](const ModelObject& one) {
+                                          return one.outdated && one.name == name;
                                       });
 }
 

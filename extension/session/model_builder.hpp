@@ -3,9 +3,12 @@
 //
 // Belongs to the owner of the session. A body that is described anew is replaced where it is. After another
 // start of the far side the earlier one's bodies stay, so that a hand that presses one goes on pressing,
-// until each is described again under its name; what is not within `patience` is gone.
+// until each is described again under its name; what is not within `patience` is gone. What takes time,
+// reading and preparing a body, is done by `run` where one is set, whose jobs must have ended before the
+// session does.
 #pragma once
 
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -39,6 +42,9 @@ public:
 
     void set_distortion(Distortion distortion) { distortion_ = std::move(distortion); }
 
+    // Who reads and prepares bodies; the caller of update() where nobody is set.
+    void set_run(DiscoveryReceiver::Run run);
+
     // Call it now and then, as each of Godot's frames does. `now`: any steady clock; `link`: the port's
     // newest statistics. True where objects() has changed.
     bool update(Nanoseconds now, const LinkStatistics& link);
@@ -49,31 +55,49 @@ public:
     const std::vector<ModelObject>& objects() const { return objects_; }
 
 private:
-    // Building a tree takes milliseconds for a large mesh; a frame should not take much longer for it.
-    static constexpr int most_built_at_once = 32;
+    // Where the caller prepares bodies himself: a tree takes milliseconds for a large mesh, and a frame
+    // should not take much longer for it.
+    static constexpr std::size_t most_built_at_once = 32;
 
     static constexpr Nanoseconds settling = 200'000'000;
     static constexpr Nanoseconds patience = 2'000'000'000;
 
+    // A body that is being prepared. Shared with who does it.
+    struct Preparing {
+        ObjectId object = no_object;
+        std::string name;
+        BodyAddition addition;
+        ReadyBody ready;
+        std::atomic<bool> done{false};
+    };
+
     void outdate(Nanoseconds now);
     bool all_described(Nanoseconds now, const LinkStatistics& link) const;
     void remove_outdated();
-    void build(ObjectDescription& description);
+    void follow_gravity(Nanoseconds now, const Vec3& wanted);
+    void take(DiscoveryEvent& event, Nanoseconds now);
+    void prepare(ObjectDescription& description);
+    bool add_prepared();
+    void add(Preparing& prepared);
+    void forget_prepared(ObjectId object);
     void remove(ObjectId object);
     void take_out(const ModelObject& object);
     void bind(ObjectId object, SessionHandle body);
     void send_on();
     std::vector<ModelObject>::iterator find(ObjectId object);
-    std::vector<ModelObject>::iterator find_before(const ObjectDescription& description);
+    std::vector<ModelObject>::iterator find_before(ObjectId object, const std::string& name);
 
     Session& session_;
     std::shared_ptr<TeleopPort> port_;
     Distortion distortion_;
+    DiscoveryReceiver::Run run_;
+    std::deque<std::shared_ptr<Preparing>> preparing_;
     std::vector<ModelObject> objects_;
     Nanoseconds outdated_at_ = 0;  // when the far side has started anew
     bool any_outdated_ = false;
     std::deque<ObjectBinding> waiting_;  // found the ring full
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
+    Nanoseconds gravity_at_ = 0;
     bool gravity_known_ = false;
     Pose frame_;
 };

@@ -30,8 +30,8 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     sample.position = to_local(frame, slot.hand);
     sample.velocity = direction_to_local(frame, slot.hand_velocity);
     sample.force = settings().traditional ? Vec3(0.0) : direction_to_local(frame, slot.force);
-    if (deadband.enabled && pointer.sent_count > 0 && now - pointer.sent_at < deadband.longest_silence) {
-        const OperatorSample& last = pointer.sent[0];
+    if (deadband.enabled && pointer.has_sent && now - pointer.sent_at < deadband.longest_silence) {
+        const OperatorSample& last = pointer.sent;
         const Vec3 guessed = guessed_position(last.position, last.velocity,
                                               static_cast<double>(sample_ - last.sequence) * seconds_);
         if (!position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
@@ -43,15 +43,10 @@ void OperatorSide::send_sample(SessionLoop& loop, std::size_t index, Nanoseconds
     if (!settings().traditional && settings().control == ControlScheme::position_force_relative) {
         find_nearest(loop, slot, sample);
     }
-    std::shift_right(pointer.sent.begin(), pointer.sent.end(), 1);
-    pointer.sent[0] = sample;
-    pointer.sent_count = std::min(pointer.sent_count + 1, pointer.sent.size());
+    pointer.sent = sample;
+    pointer.has_sent = true;
     pointer.sent_at = now;
-    OperatorSamples message;
-    message.count = static_cast<std::uint16_t>(
-        std::min<std::size_t>(pointer.sent_count, std::max(1u, settings().repeats)));
-    std::copy_n(pointer.sent.begin(), message.count, message.samples.begin());
-    channel_.send(message);
+    samples_.add(sample);
 }
 
 void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot,

@@ -11,6 +11,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
                            const EndpointSettings& endpoint)
     : room_(room),
       channel_(settings, link, std::move(port), endpoint),
+      samples_({std::max(1u, settings.repeats) - 1, most_proxies, session.period}),
       seconds_(to_seconds(session.period)),
       truths_(session.most_bodies, room.most_tracked),
       past_(room.most_tracked, room.samples),
@@ -32,6 +33,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         take_settings(loop);
     }
     ++sample_;
+    round_hands(loop);
     past_.note_hands(loop, sample_, now);
     hands_.clear();
     for (std::size_t i = 0; i < most_proxies; ++i) {
@@ -53,7 +55,20 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
+// What the far side is told of a hand is rounded (as_sent): the model is touched by the same hand.
+void OperatorSide::round_hands(SessionLoop& loop) const {
+    const Pose& frame = settings().frame;
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        if (SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
+            slot.hand = to_parent(frame, position_as_sent(to_local(frame, slot.hand)));
+            slot.hand_velocity =
+                direction_to_parent(frame, velocity_as_sent(direction_to_local(frame, slot.hand_velocity)));
+        }
+    }
+}
+
 void OperatorSide::take_settings(SessionLoop& loop) {
+    samples_.set_max_repeats(std::max(1u, settings().repeats) - 1);
     const bool was_traditional = channel_.before().traditional;
     if (was_traditional != settings().traditional) {
         changed_ = true;
@@ -103,8 +118,10 @@ void OperatorSide::receive(SessionLoop& loop) {
         DiscoveryReceiver& discovery = channel_.port().discovery;
         if (const auto* const states = std::get_if<ObjectStates>(message)) {
             take(*states, packet->header.sequence, loop);
-        } else if (const auto* const force = std::get_if<ForceSample>(message)) {
-            take(*force);
+        } else if (const auto* const forces = std::get_if<ForceSamples>(message)) {
+            for (std::size_t i = 0; i < forces->count; ++i) {
+                take(forces->samples[i]);
+            }
         } else if (const auto* const piece = std::get_if<DiscoveryFragment>(message)) {
             if (!restart_waits_) {
                 discovery.put(*piece);
@@ -131,6 +148,7 @@ void OperatorSide::forget_far_side() {
     std::ranges::fill(object_of_body_, no_object);
     traditional_.forget();
     forget_past();
+    samples_.restart();
     restart_waits_ = true;
 }
 
@@ -405,6 +423,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
             send_sample(loop, i, now);
         }
     }
+    samples_.end_tick(channel_.link(), now);
     acknowledge();
     statistics_.sample = sample_;
     channel_.end_tick(statistics_);

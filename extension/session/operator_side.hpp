@@ -12,6 +12,7 @@
 
 #include "core/teleop/felt_pointer.hpp"
 #include "core/teleop/pose_filter.hpp"
+#include "network/sample_stream.hpp"
 #include "session/carried_pointer.hpp"
 #include "session/channel.hpp"
 #include "session/resimulator.hpp"
@@ -56,8 +57,8 @@ private:
         bool answered = false;      // traditional: what the far side said last still held then
         OperatorPassivity passivity;
         // Sending.
-        std::array<OperatorSample, OperatorSamples::most> sent{};
-        std::size_t sent_count = 0;
+        OperatorSample sent;
+        bool has_sent = false;
         Nanoseconds sent_at = 0;
     };
 
@@ -65,6 +66,7 @@ private:
 
     // --- operator_side.cpp
     void take_settings(SessionLoop& loop);
+    void round_hands(SessionLoop& loop) const;
     void begin_model(SessionLoop& loop);
     void forget_past();
     void forget_far_side();
@@ -105,6 +107,7 @@ private:
 
     OperatorRoom room_;
     Channel channel_;
+    SampleStream samples_;
     double seconds_;  // of a tick
     SampleSequence sample_ = no_sample;
     TruthStore truths_;

@@ -108,7 +108,7 @@ std::string check_proxy(const ProxyDescription& d) {
 }
 
 // In commands of the least kind (SessionSettings::commands_per_tick).
-std::uint32_t cost(const Command& command) {
+std::uint32_t share_of_tick(const Command& command) {
     const auto* const body = std::get_if<command::AddBody>(&command);
     return body && body->motion == Motion::Dynamic ? 4 : 1;
 }
@@ -148,7 +148,7 @@ struct Session::Impl {
             if (!command) {
                 break;
             }
-            taken += cost(*command);
+            taken += share_of_tick(*command);
             Retired remains;
             if (SessionLoop* const twin = loop.twin()) {
                 Command same;
@@ -185,7 +185,7 @@ const SessionSettings& Session::settings() const {
     return impl_->settings;
 }
 
-ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) const {
+ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) {
     ReadyBody ready;
     ready.error = check_material(addition.touch_material);
     if (ready.error.empty()) {
@@ -207,9 +207,6 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(addition.description);
     ready.error = ready.body.error();
-    if (ready.body.ready() && impl_->has_twin) {
-        ready.same_body = duplicate(ready.body);
-    }
     ready.material = with_texture(addition.touch_material, addition.texture.get());
     ready.texture = addition.texture;
     ready.layer = addition.description.collision.layer;
@@ -221,6 +218,10 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
 AddResult Session::add_body(ReadyBody&& body) {
     if (!body.error.empty()) {
         return {no_handle, std::move(body.error)};
+    }
+    // Here and not where it was prepared, on some other thread: a side may have been attached since.
+    if (body.body.ready() && impl_->has_twin) {
+        body.same_body = duplicate(body.body);
     }
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
@@ -238,6 +239,14 @@ void Session::remove_body(SessionHandle body) {
     if (impl_->bodies.let_go(body)) {
         impl_->send(command::RemoveBody{body});
     }
+}
+
+std::string Session::deform_body(SessionHandle body, ReadyBody&& form) {
+    if (form.error.empty() && impl_->bodies.in_use(body)) {
+        impl_->send(command::DeformBody{body, std::move(form.body), std::move(form.same_body),
+                                        std::move(form.touch)});
+    }
+    return std::move(form.error);
 }
 
 void Session::teleport_body(SessionHandle body, const Pose& pose) {
@@ -312,6 +321,9 @@ void Session::remove_joint(SessionHandle joint) {
     }
 }
 
+void Session::push_body(SessionHandle body, const BodyPush& push) {
+    impl_->send(command::PushBody{body, push});
+}
 void Session::set_gravity(const Vec3& gravity) {
     impl_->send(command::SetGravity{gravity});
 }
@@ -392,6 +404,7 @@ bool Session::collect() {
             case Retired::Kind::joint:
                 impl_->joints.give_back(remains.handle);
                 break;
+            case Retired::Kind::form:
             case Retired::Kind::texture:
             case Retired::Kind::side:
                 break;

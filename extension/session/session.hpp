@@ -65,12 +65,17 @@ public:
     // -------------------------------------------------------------------------------------------------
 
     // Any thread, any time: builds the triangle tree and the rigid body, the tree with the help of `run`.
-    ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially) const;
+    static ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially);
     // Hands it to the loop. Nothing is added on an error.
     AddResult add_body(ReadyBody&& body);
     AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
     void remove_body(SessionHandle body);
     // Where the body is from the next tick on, without a way there: nothing is pushed.
+    // The body takes another form where it is, of as many shapes as before; what it is else stays. Where only
+    // corners of its meshes have moved (see is_deformation), proxies that touch it are carried and pushed
+    // along their way, however far that is; else they are let out of it. Its former touch shape is kept
+    // until the next form. An error is that of the new body, and nothing happens.
+    std::string deform_body(SessionHandle body, ReadyBody&& form);
     void teleport_body(SessionHandle body, const Pose& pose);
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);
@@ -85,6 +90,8 @@ public:
     // Pushes a dynamic body in every tick from now on: a force at its centre of mass and a torque, in the
     // world (units: newtons, newton meters).
     void set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque);
+    // Once, in the next tick.
+    void push_body(SessionHandle body, const BodyPush& push);
     void set_gravity(const Vec3& gravity);
 
     // Joins two bodies, or one and the world (no_handle). The joint's frame is given in that of the first of

@@ -60,7 +60,7 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
         c.body = physics_.remove(id);
         return give_back();
     }
-    bodies_[c.handle] = {id, slot, std::move(c.shape), std::move(c.texture), c.motion, {}, 0};
+    bodies_[c.handle] = {id, slot, std::move(c.shape), nullptr, false, std::move(c.texture), c.motion, {}, 0};
     note_magnet(c.handle);
     handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
     handle_of_id_[id.index()] = c.handle;
@@ -95,6 +95,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     end_travel(c.handle);
     std::erase(magnets_, c.handle);
     std::erase(pushed_, c.handle);
+    std::erase(forming_, c.handle);
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
     handle_of_id_[removed->id.index()] = no_handle;
@@ -114,9 +115,43 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
                std::move(removed->shape),
                nullptr,
                std::move(removed->texture),
-               nullptr};
+               nullptr,
+               std::move(removed->former)};
     *removed = {};
     return true;
+}
+
+// The new form stands in the touch scene from the coming tick on, and there the way to it. A form that comes
+// before the last one has been touched takes its place.
+bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
+    Body* const deformed = body(c.handle);
+    const bool fits = deformed && c.shape->parts.size() == deformed->shape->parts.size();
+    retired.kind = Retired::Kind::form;
+    if (fits) {
+        timeline_.reshape(deformed->id, c.body, c.same_body);
+        if (deformed->takes_form) {
+            retired.shape = std::exchange(deformed->shape, std::move(c.shape));
+        } else {
+            retired.shape =
+                std::exchange(deformed->former, std::exchange(deformed->shape, std::move(c.shape)));
+            deformed->takes_form = true;
+            forming_.push_back(c.handle);
+        }
+    } else {
+        retired.shape = std::move(c.shape);
+    }
+    retired.body = std::move(c.body);
+    retired.same_body = std::move(c.same_body);
+    return true;
+}
+
+void SessionLoop::take_forms() {
+    for (const SessionHandle handle : forming_) {
+        Body& taking = bodies_[handle];
+        taking.takes_form = false;
+        scene_.deform(taking.slot, *taking.shape);
+    }
+    forming_.clear();
 }
 
 bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
@@ -205,6 +240,16 @@ bool SessionLoop::carry_out(command::SetBodyGravityScale& c, Retired&) {
 bool SessionLoop::carry_out(command::SetBodyDamping& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
         physics_.set_damping(changed->id, c.linear, c.angular);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::PushBody& c, Retired&) {
+    if (const Body* const pushed = body(c.handle)) {
+        const Vec3 point = c.push.central ? physics_.center_of_mass(pushed->id)
+                                          : physics_.pose(pushed->id).position + c.push.point;
+        timeline_.apply_force(pushed->id, c.push.impulse / seconds_, point);
+        timeline_.apply_torque(pushed->id, c.push.turn / seconds_);
     }
     return false;
 }
@@ -324,6 +369,10 @@ struct Duplicate {
     bool operator()(command::AddBody& c) {
         same = command::AddBody{
             c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion};
+        return true;
+    }
+    bool operator()(command::DeformBody& c) {
+        same = command::DeformBody{c.handle, std::move(c.same_body), {}, c.shape};
         return true;
     }
     bool operator()(command::AddProxy& c) {

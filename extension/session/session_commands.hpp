@@ -25,6 +25,12 @@ struct AddBody {
 struct RemoveBody {
     SessionHandle handle;
 };
+// Another form of a body that stays where it is: the same triangles elsewhere, or others.
+struct DeformBody {
+    SessionHandle handle;
+    PreparedBody body, same_body;  // as in AddBody
+    std::shared_ptr<const TouchShape> shape;
+};
 struct TeleportBody {
     SessionHandle handle;
     Pose pose;
@@ -66,6 +72,10 @@ struct SetBodyDamping {
 struct SetBodyPush {
     SessionHandle handle;
     Vec3 force, torque;
+};
+struct PushBody {
+    SessionHandle handle;
+    BodyPush push;
 };
 struct AddJoint {
     SessionHandle handle;
@@ -115,23 +125,25 @@ struct Attach {
 
 namespace tactus {
 
-using Command = std::variant<command::AddBody, command::RemoveBody, command::TeleportBody, command::MoveBody,
-                             command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
-                             command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale,
-                             command::SetBodyDamping, command::SetBodyPush, command::AddJoint,
-                             command::RemoveJoint, command::SetGravity, command::AddDevice,
-                             command::SetWorkspace, command::RemoveDevice, command::AddProxy,
-                             command::SetProxy, command::RemoveProxy, command::Record, command::Attach>;
+using Command =
+    std::variant<command::AddBody, command::RemoveBody, command::DeformBody, command::TeleportBody,
+                 command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial,
+                 command::SetBodySurface, command::SetBodyLayers, command::SetBodyMotion,
+                 command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
+                 command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
+                 command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy,
+                 command::SetProxy, command::RemoveProxy, command::Record, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, device, proxy, texture, joint, side } kind = Kind::body;
+    enum class Kind { body, form, device, proxy, texture, joint, side } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
     std::unique_ptr<Proxy> proxy;
     std::shared_ptr<const HeightImage> texture;
     std::unique_ptr<TeleopSide> side;
+    std::shared_ptr<const TouchShape> former_shape = nullptr;
 };
 
 // The same command for a twin, where it concerns one: what it owns is taken from `command`. False where it

@@ -50,6 +50,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       state_of_(settings.most_bodies, no_handle),
       gravity_(settings.physics.gravity) {
     travelling_.reserve(settings.most_bodies);
+    forming_.reserve(settings.most_bodies);
     magnets_.reserve(settings.most_bodies);
     pushed_.reserve(settings.most_bodies);
     joints_.resize(settings.physics.max_joints);
@@ -61,6 +62,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     ++tick_;
     time_ = now;
     scene_.begin_tick();
+    take_forms();
     follow_physics();
     travel();
     {
@@ -78,6 +80,8 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     if (side_) {
         const TraceScope scope(trace, TickStage::correct_model);
         side_->set_forces(*this, now);
+    } else {
+        fade_jumps();
     }
     press_all();
     {
@@ -208,6 +212,23 @@ void SessionLoop::touch_all(Nanoseconds now) {
     }
 }
 
+// A side has a way of its own to hide what it changes.
+void SessionLoop::fade_jumps() {
+    for (ProxySlot& slot : proxies_) {
+        if (!slot.proxy || slot.description.device >= most_devices) {
+            continue;
+        }
+        FadingForce::Step step{slot.hand, slot.hand_velocity};
+        for (const Touch& contact : slot.proxy->touching()) {
+            const TouchMaterial& material = scene_.body(contact.body).material;
+            step.stiffness = std::max(step.stiffness, material.stiffness);
+            step.damping = std::max(step.damping, material.damping);
+        }
+        const double limit = devices_[slot.description.device].workspace.force_limit;
+        slot.state.force = slot.fading.felt(slot.force, limit, slot.jumped, step);
+    }
+}
+
 // Bodies get their part only now: what a correction of this tick changes is in it.
 void SessionLoop::press_all() {
     for (ProxySlot& slot : proxies_) {
@@ -225,6 +246,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.force = Vec3(0.0);
         slot.proxy->restart();
         slot.state = {};
+        slot.jumped = true;
         return;
     }
     // A path goes on where it stopped; a real hand may be deep inside a body by now.
@@ -238,10 +260,11 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), {slot.hand, slot.hand_velocity}, now, seconds_,
                         slot.effects, force);
-    if (slot.description.force_law == ForceLaw::smoothed) {
+    if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
         smooth(force, slot.force_before);
     }
     slot.force = force.total + attract(slot, false);
+    slot.jumped = tick.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
     describe(slot, tick);
@@ -313,7 +336,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     state.residual = tick.residual;
     state.status = tick.status;
     state.contact_count = 0;
-    for (const Contact& contact : slot.proxy->touching()) {
+    for (const Touch& contact : slot.proxy->touching()) {
         if (state.contact_count == HandForce::most_contacts) {
             break;
         }
@@ -360,6 +383,7 @@ void SessionLoop::rest() {
     for (ProxySlot& slot : proxies_) {
         slot.force = Vec3(0.0);
         slot.state.force = Vec3(0.0);
+        slot.fading.clear();
         slot.rested = true;
     }
     publish(time_);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/haptics/fading_force.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "physics/physics_world.hpp"
@@ -25,6 +26,8 @@ public:
         BodyId id;
         int slot = -1;  // in the touch scene; -1: not in the loop
         std::shared_ptr<const TouchShape> shape;
+        std::shared_ptr<const TouchShape> former;  // form; its triangles may still be on their way
+        bool takes_form = false;                   // `shape` is not in the touch scene yet
         std::shared_ptr<const HeightImage> texture;
         Motion motion = Motion::Static;
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
@@ -42,6 +45,8 @@ public:
         Vec3 force{0.0};          // of the scene as it is here; what the hand is given is state.force
                                   // (unit: newtons)
         Vec3 force_before{0.0};   // one tick ago
+        FadingForce fading;       // from `force` to state.force
+        bool jumped = false;      // see ProxyTick
         HandForce parts;
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
@@ -127,6 +132,7 @@ private:
 
     bool carry_out(command::AddBody& c, Retired& retired);
     bool carry_out(command::RemoveBody& c, Retired& retired);
+    bool carry_out(command::DeformBody& c, Retired& retired);
     bool carry_out(command::TeleportBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);
@@ -137,6 +143,7 @@ private:
     bool carry_out(command::SetBodyGravityScale& c, Retired&);
     bool carry_out(command::SetBodyDamping& c, Retired&);
     bool carry_out(command::SetBodyPush& c, Retired&);
+    bool carry_out(command::PushBody& c, Retired&);
     bool carry_out(command::AddJoint& c, Retired&);
     bool carry_out(command::RemoveJoint& c, Retired& retired);
     bool carry_out(command::SetGravity& c, Retired&);
@@ -151,6 +158,7 @@ private:
 
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
     void end_travel(SessionHandle handle);
+    void take_forms();
     void travel();
     void follow_physics();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
@@ -158,6 +166,7 @@ private:
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
     void touch_all(Nanoseconds now);
+    void fade_jumps();
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
     void break_surfaces(ProxySlot& slot, const HandForce& force);
@@ -179,6 +188,7 @@ private:
     std::vector<SessionHandle> handle_of_slot_;  // touch scene slot to handle
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
+    std::vector<SessionHandle> forming_;   // bodies that take another form in the coming tick
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
     std::vector<JointId> joints_;          // by handle
     std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched

@@ -40,7 +40,7 @@ Vec3 SessionLoop::pushed(SessionHandle handle) const {
 
 bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
     const int slot = bodies_[handle].slot;
-    return std::ranges::any_of(proxy.touching(), [slot](const Contact& c) { return c.body == slot; });
+    return std::ranges::any_of(proxy.touching(), [slot](const Touch& c) { return c.body == slot; });
 }
 
 void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,
@@ -79,6 +79,7 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
 void SessionLoop::begin_replay_tick() {
     ++tick_;
     scene_.begin_tick();
+    take_forms();
     if (std::exchange(follows_all_, false)) {
         for (const BodyState& state : states_) {
             place(state.handle, physics_.pose(bodies_[state.handle].id), false);

@@ -60,6 +60,14 @@ enum SessionStatus : std::uint32_t {
     session_body_lost = 1u << 8,  // a body left the range of numbers and was put back where it was, asleep
 };
 
+// What a dynamic body is given at once, in the next tick.
+struct BodyPush {
+    Vec3 impulse{0.0};     // in the world (unit: newton seconds)
+    Vec3 point{0.0};       // where, from the body's own place, in the world's axes (unit: meters)
+    bool central = false;  // at its centre of mass instead
+    Vec3 turn{0.0};        // angular impulse, in the world (unit: newton meter seconds)
+};
+
 struct BodyState {
     SessionHandle handle = no_handle;
     Pose pose;

@@ -1,8 +1,11 @@
 #include "session/teleoperator_side.hpp"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
+
+#include "network/plausibility.hpp"
 
 namespace tactus {
 
@@ -233,10 +236,8 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
 
 void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     send_states(loop, now);
-    for (std::size_t i = 0; i < most_proxies && settings().traditional; ++i) {
-        if (pointers_[i].holds && loop.proxy(i).present()) {
-            send_force(loop, i, now);
-        }
+    if (settings().traditional) {
+        send_forces(loop, now);
     }
     for (std::size_t i = 0; i < most_proxies; ++i) {
         Pointer& pointer = pointers_[i];
@@ -327,24 +328,41 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
-void TeleoperatorSide::send_force(SessionLoop& loop, std::size_t index, Nanoseconds now) {
-    const ProxyState& state = loop.proxy(index).state;
-    Pointer& pointer = pointers_[index];
-    if (!force_needs_sending(settings().deadband, pointer.force_sent, state.force) &&
-        now - pointer.force_sent_at < settings().deadband.longest_silence) {
+void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
+    ForceSamples message;
+    for (std::size_t i = 0; i < most_proxies && message.count < ForceSamples::most; ++i) {
+        if (pointers_[i].holds && loop.proxy(i).present() && force_is_due(loop, i, now)) {
+            message.samples[message.count++] = force_of(loop, i, now);
+        }
+    }
+    if (message.count == 0 || !channel_.try_send(message)) {
         return;
     }
-    ForceSample message;
-    message.pointer = static_cast<std::uint16_t>(index);
-    message.true_at = channel_.link().local_time(now);
-    message.newest_operator_sample = pointer.played.sequence;
-    message.force = direction_to_local(settings().frame, state.force);
-    message.proxy = to_local(settings().frame, state.position);
-    message.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
-    if (channel_.link().send(message)) {
-        pointer.force_sent = state.force;
+    for (std::size_t i = 0; i < message.count; ++i) {
+        const std::size_t index = message.samples[i].pointer;
+        Pointer& pointer = pointers_[index];
+        pointer.force_sent = loop.proxy(index).state.force;
         pointer.force_sent_at = now;
     }
+}
+
+bool TeleoperatorSide::force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const {
+    const Pointer& pointer = pointers_[index];
+    return force_needs_sending(settings().deadband, pointer.force_sent, loop.proxy(index).state.force) ||
+           now - pointer.force_sent_at >= settings().deadband.longest_silence;
+}
+
+ForceSample TeleoperatorSide::force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const {
+    const ProxyState& state = loop.proxy(index).state;
+    ForceSample sample;
+    sample.pointer = static_cast<std::uint16_t>(index);
+    sample.true_at = channel_.link().local_time(now);
+    sample.newest_operator_sample = pointers_[index].played.sequence;
+    sample.force = glm::clamp(direction_to_local(settings().frame, state.force), -plausible::max_force,
+                              plausible::max_force);
+    sample.proxy = to_local(settings().frame, state.position);
+    sample.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
+    return sample;
 }
 
 }  // namespace tactus

@@ -57,7 +57,9 @@ private:
     bool loses() const;
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
-    void send_force(SessionLoop& loop, std::size_t index, Nanoseconds now);
+    void send_forces(SessionLoop& loop, Nanoseconds now);
+    bool force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
+    ForceSample force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
 
     Channel channel_;
     DiscoverySender discovery_;

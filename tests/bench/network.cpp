@@ -13,11 +13,11 @@
 #include "network/endpoint.hpp"
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
-#include "network/secure_link.hpp"
 #include "network/udp_link.hpp"
 #include "realtime/clock.hpp"
 #include "realtime/sleeper.hpp"
 #include "shared/bench_kit.hpp"
+#include "shared/sealed_link.hpp"
 
 namespace {
 
@@ -37,9 +37,9 @@ Message ten_states(Nanoseconds now) {
 }
 
 Message nine_samples(Nanoseconds now) {
-    OperatorSamples samples{OperatorSamples::most, {}};
+    OperatorSamples samples{1'000'000, OperatorSamples::most, {}};
     for (std::size_t i = 0; i < OperatorSamples::most; ++i) {
-        samples.samples[i].sequence = i + 1;
+        samples.samples[i].sequence = OperatorSamples::most - i;
         samples.samples[i].time = now;
     }
     return samples;
@@ -89,9 +89,10 @@ void measure_ticks(Report& report) {
     LinkEmulator near_way(emulated.first(), conditions, 1);
     measure_tick(report, "emulated", near_way, emulated.second());
 
+    // As if the tick itself sealed and opened, which is the network thread's part.
     MemoryLinkPair sealed;
-    SecureLink near_link(sealed.first(), SecretKey{1}, 1);
-    SecureLink far_link(sealed.second(), SecretKey{1}, 2);
+    SealedLink near_link(sealed.first(), {SecretKey{1}, {}});
+    SealedLink far_link(sealed.second(), {SecretKey{1}, {}});
     measure_tick(report, "sealed", near_link, far_link);
 }
 

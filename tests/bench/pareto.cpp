@@ -46,7 +46,7 @@ constexpr double radius = 0.05;
 struct Row {
     std::string name;
     int level = 4;  // of the icosphere; below 0: the sphere in closed form
-    int most_steps = 64;
+    int max_steps = 64;
     bool in_float = false;
     bool shaded = false;
     double from_origin = 0.0;  // (unit: meters)
@@ -102,7 +102,7 @@ Figures measure(const SpanClock& clock, const Settings& settings, const Row& row
                       : rig.add(Shape(MeshShape{std::make_shared<const TriangleMesh>(touched),
                                                 row.shaded ? smooth_below : 0.0}));
         ProxySettings proxy = rig.proxy.settings();
-        proxy.most_steps = row.most_steps;
+        proxy.max_steps = row.max_steps;
         rig.proxy.set_settings(proxy);
         ticks.clear();
         touching.clear();

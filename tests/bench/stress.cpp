@@ -1,57 +1,230 @@
-// Hard cases without end: ./run bench stress [--ticks=100000000] [--seed=1] [--ticks-per-case=2000]
+// Hard cases without end (see shared/stress.hpp), in chunks that are kept: a run that was interrupted goes
+// on.
 //
-// One case after the other, each from its own seed (see shared/stress.hpp), until so many ticks are done.
-// Every failure names the seed and the tick that shows it again: stress --seed=N --ticks=1.
+//     stress [--ticks=1e8] [--processes=2] [--minutes=M] [--folder=build/bench/stress_chunks]
+//     stress --seed=N [--ticks=2000] [--undense]       one case, as a failure names it
+//
+// Chunk k is the cases of the seeds 500 k + 1 … 500 k + 500, a million ticks. It is written to the folder
+// under the fingerprint of this program, so that another program's chunks do not count. After --minutes no
+// new chunk is begun. Whatever ends last merges all chunks there are into the result.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "shared/bench_kit.hpp"
 #include "shared/stress.hpp"
 
+namespace {
+
+using namespace tactus::shared;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t cases_per_chunk = 500;
+constexpr int ticks_per_case = 2'000;
+
+struct Figure {
+    const char* name;
+    std::uint64_t StressCounts::* count;
+    bool must_be_zero = false;
+};
+
+constexpr Figure figures[] = {
+    {"cases", &StressCounts::cases},
+    {"ticks", &StressCounts::ticks},
+    {"contact_ticks", &StressCounts::contact_ticks},
+    {"friction_ticks", &StressCounts::friction_ticks},
+    {"moving_ticks", &StressCounts::moving_ticks},
+    {"dense_ticks", &StressCounts::dense_ticks},
+    {"deformations", &StressCounts::deformations},
+    {"appearances", &StressCounts::appearances},
+    {"squeezes", &StressCounts::squeezes},
+    {"penetrations", &StressCounts::penetrations, true},
+    {"passes", &StressCounts::passes, true},
+    {"nans", &StressCounts::nans, true},
+    {"stuck_ticks", &StressCounts::stuck_ticks, true},
+    {"false_excuses", &StressCounts::false_excuses, true},
+    {"judge_faults", &StressCounts::judge_faults, true},
+    {"unfinished_ticks", &StressCounts::unfinished_ticks},
+    {"excused_ticks", &StressCounts::excused_ticks},
+    {"checked_ticks", &StressCounts::checked_ticks},
+};
+
+Report report_of(const StressCounts& counts) {
+    Report report;
+    for (const Figure& figure : figures) {
+        report.set(figure.name, static_cast<double>(counts.*figure.count));
+    }
+    report.set("error_over_radius_max", counts.error_max);
+    report.set("longest_tick_us", counts.longest_tick_us);
+    report.set("longest_tick_seed", static_cast<double>(counts.longest_tick_seed));
+    return report;
+}
+
+std::uint64_t failures_of(const StressCounts& counts) {
+    std::uint64_t sum = 0;
+    for (const Figure& figure : figures) {
+        sum += figure.must_be_zero ? counts.*figure.count : 0;
+    }
+    return sum;
+}
+
+// Of the bytes of this program (FNV-1a).
+std::string fingerprint() {
+    std::ifstream program("/proc/self/exe", std::ios::binary);
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (std::istreambuf_iterator<char> at(program), end; at != end; ++at) {
+        hash = (hash ^ static_cast<unsigned char>(*at)) * 0x100000001b3u;
+    }
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+// A chunk as text: its counts in their order, one a line, then the failures.
+bool write_chunk(const std::filesystem::path& path, const StressCounts& counts) {
+    const std::filesystem::path partial = path.string() + ".partial";
+    std::FILE* const file = std::fopen(partial.c_str(), "w");
+    if (!file) {
+        std::perror(partial.c_str());
+        return false;
+    }
+    for (const Figure& figure : figures) {
+        std::fprintf(file, "%llu\n", static_cast<unsigned long long>(counts.*figure.count));
+    }
+    std::fprintf(file, "%.17g\n%.17g\n%llu\n", counts.error_max, counts.longest_tick_us,
+                 static_cast<unsigned long long>(counts.longest_tick_seed));
+    for (const std::string& failure : counts.failures) {
+        std::fprintf(file, "%s\n", failure.c_str());
+    }
+    std::error_code failed;
+    const bool written = std::fclose(file) == 0;
+    std::filesystem::rename(partial, path, failed);
+    return written && !failed;
+}
+
+bool read_chunk(const std::filesystem::path& path, StressCounts& counts) {
+    std::ifstream file(path);
+    for (const Figure& figure : figures) {
+        file >> counts.*figure.count;
+    }
+    file >> counts.error_max >> counts.longest_tick_us >> counts.longest_tick_seed >> std::ws;
+    const bool whole = file.good() || file.eof();
+    for (std::string line; std::getline(file, line);) {
+        counts.failures.push_back(line);
+    }
+    return whole;
+}
+
+struct Run {
+    std::filesystem::path folder;
+    std::uint64_t chunks = 0;
+    int processes = 1;
+    Clock::time_point until;
+
+    std::filesystem::path chunk(std::uint64_t index) const {
+        return folder / (std::to_string(index) + ".txt");
+    }
+
+    // Every chunk of one of the processes that is not there yet, as long as there is time.
+    bool work(int process) const {
+        for (auto k = static_cast<std::uint64_t>(process); k < chunks && Clock::now() < until;
+             k += static_cast<std::uint64_t>(processes)) {
+            if (std::filesystem::exists(chunk(k))) {
+                continue;
+            }
+            StressCounts counts;
+            for (std::uint64_t i = 1; i <= cases_per_chunk; ++i) {
+                run_stress_case(k * cases_per_chunk + i,
+                                {.ticks = ticks_per_case, .dense = true, .timed = true}, counts);
+            }
+            if (!write_chunk(chunk(k), counts)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool work_in_processes() const {
+        for (int process = 1; process < processes; ++process) {
+            const pid_t child = fork();
+            if (child == 0) {
+                _exit(work(process) ? 0 : 1);
+            }
+            if (child < 0) {
+                std::perror("fork");
+                return false;
+            }
+        }
+        bool good = work(0);
+        for (int process = 1; process < processes; ++process) {
+            int status = 0;
+            good = wait(&status) > 0 && status == 0 && good;
+        }
+        return good;
+    }
+
+    StressCounts merged() const {
+        StressCounts all;
+        for (std::uint64_t k = 0; k < chunks; ++k) {
+            StressCounts one;
+            if (std::filesystem::exists(chunk(k)) && read_chunk(chunk(k), one)) {
+                all.add(one);
+            }
+        }
+        return all;
+    }
+};
+
+void print(const StressCounts& counts) {
+    for (const std::string& failure : counts.failures) {
+        std::printf("%s\n", failure.c_str());
+    }
+    for (const Figure& figure : figures) {
+        std::printf("%-18s %14llu\n", figure.name, static_cast<unsigned long long>(counts.*figure.count));
+    }
+    std::printf("%-18s %14.2e\n%-18s %14.1f us of processor time (seed %llu)\n", "error / radius",
+                counts.error_max, "longest tick", counts.longest_tick_us,
+                static_cast<unsigned long long>(counts.longest_tick_seed));
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-    using namespace tactus::shared;
     Options options(argc, argv);
-    const double ticks = options.number("ticks", 1e8);
-    const double first = options.number("seed", 1.0);
-    const double per_case = options.number("ticks-per-case", 2'000.0);
-    if (!options.understood() || !(ticks > 0.0) || !(per_case >= 1.0) || !(first >= 0.0)) {
+    const bool one = options.has("seed");
+    const auto seed = static_cast<std::uint64_t>(options.number("seed", 1.0));
+    const double ticks = options.number("ticks", one ? ticks_per_case : 1e8);
+    const bool undense = options.has("undense");
+    const double minutes = options.number("minutes", 1e6);
+    const auto processes = static_cast<int>(options.number("processes", 2.0));
+    const std::filesystem::path folder = options.text("folder", "build/bench/stress_chunks");
+    if (!options.understood() || !(ticks >= 1.0) || processes < 1) {
         return 2;
     }
     StressCounts counts;
-    std::size_t told = 0;
-    auto seed = static_cast<std::uint64_t>(first);
-    double next_line = ticks / 20.0;
-    std::printf("%14s %14s %12s %8s %6s %8s %12s %10s\n", "ticks", "in contact", "penetrations", "passes",
-                "NaNs", "stuck", "unfinished", "error/r");
-    while (static_cast<double>(counts.ticks) < ticks) {
-        run_stress_case(seed++, static_cast<int>(per_case), counts);
-        for (; told < counts.failures.size(); ++told) {
-            std::printf("%s\n", counts.failures[told].c_str());
+    if (one) {
+        run_stress_case(seed, {.ticks = static_cast<int>(ticks), .dense = !undense, .timed = true}, counts);
+    } else {
+        Run run;
+        run.folder = folder / fingerprint();
+        run.chunks =
+            static_cast<std::uint64_t>(std::ceil(ticks / (cases_per_chunk * double{ticks_per_case})));
+        run.processes = processes;
+        run.until = Clock::now() + std::chrono::milliseconds(static_cast<long long>(minutes * 6e4));
+        std::error_code failed;
+        std::filesystem::create_directories(run.folder, failed);
+        if (!run.work_in_processes()) {
+            return 1;
         }
-        if (static_cast<double>(counts.ticks) >= next_line) {
-            std::printf("%14llu %14llu %12llu %8llu %6llu %8llu %12llu %10.1e\n",
-                        static_cast<unsigned long long>(counts.ticks),
-                        static_cast<unsigned long long>(counts.contact_ticks),
-                        static_cast<unsigned long long>(counts.penetrations),
-                        static_cast<unsigned long long>(counts.passes),
-                        static_cast<unsigned long long>(counts.nans),
-                        static_cast<unsigned long long>(counts.stuck_ticks),
-                        static_cast<unsigned long long>(counts.unfinished_ticks), counts.error_max);
-            std::fflush(stdout);
-            next_line += ticks / 20.0;
-        }
+        counts = run.merged();
     }
-    Report report;
-    report.set("ticks", static_cast<double>(counts.ticks));
-    report.set("contact_ticks", static_cast<double>(counts.contact_ticks));
-    report.set("cases", static_cast<double>(seed) - first);
-    report.set("penetrations", static_cast<double>(counts.penetrations));
-    report.set("passes", static_cast<double>(counts.passes));
-    report.set("nans", static_cast<double>(counts.nans));
-    report.set("stuck_ticks", static_cast<double>(counts.stuck_ticks));
-    report.set("unfinished_ticks", static_cast<double>(counts.unfinished_ticks));
-    report.set("checked_ticks", static_cast<double>(counts.checked_ticks));
-    report.set("error_over_radius_max", counts.error_max);
-    const bool clean = counts.penetrations + counts.passes + counts.nans + counts.stuck_ticks == 0;
-    return report.write_json(result_path("stress")) && clean ? 0 : 1;
+    print(counts);
+    return report_of(counts).write_json(result_path("stress")) && failures_of(counts) == 0 ? 0 : 1;
 }

@@ -223,3 +223,32 @@ func test_a_body_may_go_or_change_while_it_is_built() -> void:
 	check(await until(func() -> bool: return proxy.is_touching(), 30.0), "the changed one is not touched")
 	check_near(proxy.get_proxy_position().y, 0.06, 1e-3, "proxy")
 	check_equal(int(world.get_statistics().bodies), 1, "bodies")
+
+
+func test_a_mesh_that_swells_by_ten_radii_at_once_takes_the_proxy_along() -> void:
+	var world := add_world()
+	var mesh := _ball(64, 32)
+	world.add_child(_body_of(mesh))
+	var proxy := add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.107, 0), 0.1))
+	world.advance(0.3)
+	_swell(mesh, 2.0)
+	world.advance(0.05)
+	check_near(proxy.get_proxy_position().y, 0.21, 1e-3, "proxy on a ball of 0.2 m")
+	_swell(mesh, 0.5)
+	world.advance(0.05)
+	check_near(proxy.get_proxy_position().y, 0.11, 1e-3, "proxy on a ball of 0.1 m again")
+
+
+func test_a_mesh_that_is_touched_from_outside_lets_the_hand_out() -> void:
+	for one_sided: bool in [false, true]:
+		var world := add_world()
+		var body := _body_of(_ball(32, 16))
+		for child in body.get_children():
+			if child is HapticMesh:
+				child.one_sided = one_sided
+		world.add_child(body)
+		var proxy := add_hand(world, path(Vector3(0, 0.02, 0), Vector3(0, 0.2, 0), 0.1))
+		world.advance(0.3)
+		var height := proxy.get_proxy_position().y
+		check(height > 0.19 if one_sided else height < 0.1, "proxy at %s m" % height)
+		remove(world)

@@ -167,7 +167,10 @@ func test_presets_fill_the_values_and_are_recognised() -> void:
 	look.preset = HapticMaterial.PRESET_STEEL
 	check_equal(look.stiffness, 3000.0, "stiffness of steel")
 	look.stiffness = 2900.0
-	check_equal(look.preset, HapticMaterial.PRESET_CUSTOM, "preset after a change")
+	check_equal(look.preset, HapticMaterial.PRESET_STEEL, "preset after a change")
+	var stored := HapticMaterial.new()
+	stored.stiffness = 2900.0
+	check_equal(stored.preset, HapticMaterial.PRESET_CUSTOM, "preset of values that are no preset's")
 
 
 func test_presets_feel_as_stiff_and_as_slippery_as_they_are_called() -> void:

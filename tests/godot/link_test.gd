@@ -257,9 +257,9 @@ func test_a_link_says_what_it_lacks() -> void:
 	check_equal(second.get_state(), MMTLink.STATE_FAILED, "state of the second")
 	check(second.get_state_text().contains("remove one of the two"), second.get_state_text())
 	check_equal(first.get_warnings().size(), 0, "warnings of the first")
-	first.key = "short"
-	check(first.get_warnings()[0].contains("64 hexadecimal digits"), "key: %s" % first.get_warnings())
-	first.key = ""
+	expect_error("absolute path of a file outside of the project")
+	first.key_file = "res://key"
+	check_equal(first.key_file, "", "a key in the project")
 	first.local_port = 5000
 	first.remote_port = 5000
 	check(first.get_warnings()[0].contains("different ports"), "ports: %s" % first.get_warnings())

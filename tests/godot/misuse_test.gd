@@ -33,9 +33,9 @@ func test_setters_refuse_what_makes_no_sense() -> void:
 		"wheel_step": [device, 0.0],
 		"tick_rate": [world, 0],
 		"gravity": [world, Vector3(0, NAN, 0)],
-		"most_bodies": [world, 0],
+		"max_bodies": [world, 0],
 		"realtime_priority": [world, 100],
-		"processor": [world, -2],
+		"processor": [world, -3],
 		"trace_seconds": [recorder, 0.0],
 		"circle_radius": [HapticPath.new(), -1.0],
 		"circle_turn_time": [HapticPath.new(), 0.0],
@@ -43,7 +43,7 @@ func test_setters_refuse_what_makes_no_sense() -> void:
 	for property: String in values:
 		var object: Object = values[property][0]
 		var before: Variant = object.get(property)
-		expect_error("was refused, the old value stays")
+		expect_error("%s = %s was refused, the old value stays" % [property, values[property][1]])
 		object.set(property, values[property][1])
 		check_equal(object.get(property), before, property)
 	device.free()
@@ -74,9 +74,10 @@ func test_a_device_without_a_path() -> void:
 	var world := add_world()
 	add_floor(world)
 	add_hand(world, null)
+	var device: HapticDevice = world.get_node("Device")
+	device.driver = HapticDevice.DRIVER_PATH
 	expect_error("set 'path' to a HapticPath")
 	world.advance(0.1)
-	var device: HapticDevice = world.get_node("Device")
 	check(device.get_warnings()[0].contains("set 'path'"), "no warning")
 	check(not device.is_device_connected(), "it says that it is connected")
 
@@ -171,13 +172,14 @@ func test_advancing_where_it_cannot_is_an_error_and_nothing_else() -> void:
 	expect_error("set its clock to CLOCK_STEPPED")
 	check_equal(world.advance(1.0), 0, "ticks")
 	world.clock = HapticWorld.CLOCK_STEPPED
-	expect_error("0 or more")
+	world.advance(0.0)
+	expect_error("between 0 and 3,600 s")
 	check_equal(world.advance(-1.0), 0, "ticks")
 
 
 func test_more_bodies_than_the_world_takes() -> void:
 	var world := add_world()
-	world.most_bodies = 2
+	world.max_bodies = 2
 	for i in 3:
 		world.add_child(with_shape(StaticBody3D.new(), sphere(0.1), Vector3(i, 0, 0)))
 	expect_error("limit of 2 bodies")

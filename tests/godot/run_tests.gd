@@ -1,40 +1,7 @@
 extends SceneTree
-## Runs the test_* methods of one file:
 ## godot --headless --path demo_project --script …/run_tests.gd -- FILE [NAME…]
-##
-## Each method runs on a fresh instance with a fresh branch of the tree; it may await. Prints RUN, PASS,
-## FAIL and, when everything has run, END: only then does tools/testing/godot_suite.py believe the rest.
 
 
 func _initialize() -> void:
-	_run_all.call_deferred(OS.get_cmdline_user_args())
-
-
-func _run_all(arguments: PackedStringArray) -> void:
-	var script: GDScript = load(arguments[0])
-	if script == null or not script.can_instantiate():
-		print("FAIL load: the script has errors")
-		quit(1)
-		return
-	for method in script.get_script_method_list():
-		var test: String = method["name"]
-		if test.begins_with("test_") and (arguments.size() == 1 or test in arguments):
-			await _run(script, test)
-	print("END")
-	quit()
-
-
-func _run(script: GDScript, test: String) -> void:
-	print("RUN ", test)
-	var case: Node = script.new()
-	root.add_child(case)
-	await process_frame
-	await case.call(test)
-	var why: String = case.failure
-	case.queue_free()
-	await process_frame
-	await process_frame
-	if why.is_empty():
-		print("PASS ", test)
-	else:
-		print("FAIL ", test, ": ", why)
+	var runner: GDScript = load(get_script().resource_path.get_base_dir().path_join("runner.gd"))
+	root.add_child.call_deferred(runner.new())

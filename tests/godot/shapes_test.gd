@@ -32,6 +32,46 @@ func test_every_shape_is_touched_where_its_surface_is() -> void:
 		world.free()
 
 
+func test_a_mirrored_height_map_is_touched_where_it_is_seen() -> void:
+	var heights := HeightMapShape3D.new()
+	heights.map_width = 3
+	heights.map_depth = 3
+	heights.map_data = PackedFloat32Array([0.1, 0.1, 0.4, 0.1, 0.1, 0.4, 0.1, 0.1, 0.4])
+	for mirror: Vector3 in [Vector3(-1, 1, 1), Vector3(1, -1, 1), Vector3(1, 1, -1), Vector3(-1, -1, 1)]:
+		var world := add_world()
+		var body := with_shape(StaticBody3D.new(), heights)
+		(body.get_child(0) as Node3D).scale = mirror
+		world.add_child(body)
+		var flat := Vector3(-0.5, 0.1, 0.3) * mirror
+		var proxy := add_hand(world, path(flat + Vector3(0, 0.2, 0), flat + Vector3(0, 0.005, 0)))
+		world.advance(1.2)
+		check_near(proxy.get_proxy_position(), flat + Vector3(0, 0.01, 0), 1e-5, "mirrored by %s" % mirror)
+		world.free()
+
+
+## A 32-bit hash does not tell these two names apart.
+func test_library_meshes_with_names_of_one_hash_are_two() -> void:
+	check("Aa".hash() == "B@".hash(), "the names are not of one hash")
+	var folder := "res://addons/tactus/meshes/"
+	var text := "v -1 %s 1\nv 1 %s 1\nv 0 %s -1\nf 1 2 3\n"
+	for name: String in ["Aa", "B@"]:
+		var file := FileAccess.open(folder + name + ".obj", FileAccess.WRITE)
+		file.store_string(text.replace("%s", "0" if name == "Aa" else "0.2"))
+		file.close()
+	var world := add_world()
+	for name: String in ["Aa", "B@"]:
+		var mesh := HapticMesh.new()
+		mesh.library_mesh = name
+		var body := StaticBody3D.new()
+		body.add_child(mesh)
+		world.add_child(body)
+	var proxy := add_hand(world, path(Vector3(0, 0.4, 0), Vector3(0, 0.205, 0)))
+	world.advance(1.2)
+	for name: String in ["Aa", "B@"]:
+		DirAccess.remove_absolute(folder + name + ".obj")
+	check_near(proxy.get_proxy_position(), Vector3(0, 0.21, 0), 1e-5, "proxy")
+
+
 func _corners(x: float, y: float, z: float) -> PackedVector3Array:
 	var corners := PackedVector3Array()
 	for i in 8:

@@ -14,7 +14,6 @@
 
 #include "network/endpoint.hpp"
 #include "network/link_emulator.hpp"
-#include "network/secure_link.hpp"
 #include "realtime/clock.hpp"
 #include "support/realtime_audit.hpp"
 
@@ -49,6 +48,11 @@ UdpSettings to(std::uint16_t remote_port, std::uint16_t local_port = 0) {
     return settings;
 }
 
+UdpSettings with_secret(UdpSettings settings) {
+    settings.secret = SharedSecret{SecretKey{1}, {}};
+    return settings;
+}
+
 // A port that is free now.
 std::uint16_t free_port() {
     UdpLink probe;
@@ -57,13 +61,30 @@ std::uint16_t free_port() {
 }
 
 struct Pair {
-    Pair() {
+    explicit Pair(bool sealed = false) {
+        const auto settings = [sealed](const UdpSettings& plain) {
+            return sealed ? with_secret(plain) : plain;
+        };
         const std::uint16_t first_port = free_port();
-        EXPECT_EQ(second.open(to(first_port)), "");
-        EXPECT_EQ(first.open(to(second.local_port(), first_port)), "");
+        EXPECT_EQ(second.open(settings(to(first_port))), "");
+        EXPECT_EQ(first.open(settings(to(second.local_port(), first_port))), "");
     }
     UdpLink first, second;
 };
+
+// What a socket of this process that is bound to `port` is bound to.
+std::string bound_address(std::uint16_t port) {
+    for (int file = 3; file < 256; ++file) {
+        sockaddr_in address{};
+        socklen_t size = sizeof address;
+        if (getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
+            address.sin_family == AF_INET && ntohs(address.sin_port) == port) {
+            std::array<char, INET_ADDRSTRLEN> text{};
+            return inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
+        }
+    }
+    return {};
+}
 
 std::vector<std::byte> bytes(std::size_t size, int fill) {
     return std::vector<std::byte>(size, static_cast<std::byte>(fill));
@@ -120,9 +141,73 @@ TEST(UdpLink, WrongAddressesAreSaidInWords) {
     EXPECT_NE(link.open(settings).find("no address"), std::string::npos);
     settings = to(0);
     EXPECT_NE(link.open(settings).find("no address"), std::string::npos);
-    settings = to(9);
+    settings = with_secret(to(9));
     settings.local_address = "192.0.2.1";  // a number kept for documents
     EXPECT_NE(link.open(settings).find("not one of this machine"), std::string::npos);
+}
+
+TEST(UdpLink, WithoutAKeyItStaysOnThisMachineAndSaysSo) {
+    UdpLink link;
+    UdpSettings settings = to(9);
+    settings.local_address.clear();
+    ASSERT_EQ(link.open(settings), "");
+    EXPECT_EQ(bound_address(link.local_port()), "127.0.0.1");
+    settings.remote_address = "192.0.2.1";
+    EXPECT_EQ(link.open(settings).find("without a key this side talks within this machine only"), 0u);
+}
+
+TEST(UdpLink, ItsOwnAddressIsNamedAsTheMistakeThatItIs) {
+    const std::uint16_t port = free_port();
+    for (const char* host : {"127.0.0.1", "localhost"}) {
+        UdpLink link;
+        UdpSettings settings = to(port, port);
+        settings.local_address.clear();
+        settings.remote_address = host;
+        EXPECT_NE(link.open(settings).find("is this side's own address"), std::string::npos) << host;
+    }
+}
+
+TEST(UdpLink, AnAddressInBracketsIsUnderstood) {
+    UdpLink link;
+    UdpSettings settings;
+    settings.remote_address = "[::1]";
+    settings.remote_port = 9;
+    const std::string error = link.open(settings);
+    if (!error.empty() && error.find("is not known") == std::string::npos) {
+        GTEST_SKIP() << "this machine has no IPv6: " << error;
+    }
+    EXPECT_EQ(error, "");
+}
+
+// A name that stands for ::1 and for 127.0.0.1, where only one of them listens.
+TEST(UdpLink, AllAddressesOfANameAreTried) {
+    const std::uint16_t port = free_port();
+    UdpLink first, second;
+    UdpSettings settings = to(port);
+    settings.local_address.clear();
+    settings.remote_address = "localhost";
+    ASSERT_EQ(first.open(settings), "");
+    ASSERT_EQ(second.open(to(first.local_port(), port)), "");
+    std::array<std::byte, most_datagram_bytes> buffer{};
+    EXPECT_TRUE(eventually([&] {
+        first.send(bytes(4, 2), 0);
+        return static_cast<bool>(second.receive(buffer, 0));
+    }));
+    EXPECT_TRUE(eventually([&] {
+        second.send(bytes(4, 2), 0);
+        return static_cast<bool>(first.receive(buffer, 0));
+    }));
+}
+
+TEST(UdpLink, WhatComesTooFastIsDropped) {
+    Pair pair;
+    const std::vector<std::byte> datagram = bytes(10, 1);
+    EXPECT_TRUE(eventually([&] {
+        for (int i = 0; i < 200; ++i) {
+            pair.second.send(datagram, 0);
+        }
+        return pair.first.figures().too_many > 0;
+    }));
 }
 
 TEST(UdpLink, AClosedLinkTakesNothingAndGivesNothing) {
@@ -236,15 +321,14 @@ TEST(UdpLink, IsTheSameOverTheNewInternet) {
 
 // The thread that ticks touches no lock of the network thread's, allocates nothing and makes no system call.
 TEST(UdpLink, TheHapticThreadWaitsForNobody) {
-    Pair pair;
+    Pair pair(true);
     EndpointSettings settings;
-    LinkEmulator emulator(pair.first, {}, 1);
-    SecureLink near_link(emulator, SecretKey{1}, 11);
-    SecureLink far_link(pair.second, SecretKey{1}, 22);
+    LinkEmulator near_link(pair.first, {}, 1);
     Endpoint near(near_link, settings);
     settings.side = Side::teleoperator_side;
     settings.epoch = 2;
-    Endpoint far(far_link, settings);
+    Endpoint far(pair.second, settings);
+    const Message samples = DiscoveryAcknowledgement{1, {}, DiscoveryVerdict::known};
     int received = 0;
     std::atomic<bool> done{false};
     const testing::LockAudit locks;
@@ -253,7 +337,7 @@ TEST(UdpLink, TheHapticThreadWaitsForNobody) {
             far.begin_tick(monotonic_now());
             while (far.receive() != nullptr) {
             }
-            far.send(ForceSample{});
+            far.send(samples);
             far.end_tick();
             nap();
         }
@@ -268,7 +352,7 @@ TEST(UdpLink, TheHapticThreadWaitsForNobody) {
         while (near.receive() != nullptr) {
             ++received;
         }
-        near.send(ForceSample{});
+        near.send(samples);
         near.end_tick();
         audit.finish();
         const std::size_t found =

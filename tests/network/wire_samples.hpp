@@ -26,7 +26,7 @@ inline ObjectState state(ObjectId object) {
     const double shift = object;
     return {object,
             object % 2 == 1,
-            {{0.5 + shift, -1.25, 2.0}, {0.5, -0.5, 0.5, -0.5}},
+            {{0.5 + shift, -1.25, 2.0}, {0.8, -0.4, 0.4, -0.2}},
             {0.125, -0.25, 0.375 + shift},
             {-4.0, 5.5, 6.25}};
 }
@@ -46,15 +46,35 @@ inline OperatorSample hand(SampleSequence sequence) {
     return sample;
 }
 
+// A force on the first pointer, up.
+inline ForceSamples force(double newtons) {
+    ForceSamples forces{1, {}};
+    forces.samples[0].newest_operator_sample = 1;
+    forces.samples[0].force = {0.0, newtons, 0.0};
+    return forces;
+}
+
 inline std::vector<Message> one_of_each() {
     ObjectStates states{5'000'000, 42, 2, {}};
     states.states[0] = state(3);
     states.states[1] = state(4);
-    OperatorSamples samples{2, {}};
+    states.states[1].linear_velocity = states.states[1].angular_velocity = Vec3(0.0);
+    OperatorSamples samples{1'000'000, 3, {}};
     samples.samples[0] = hand(43);
     samples.samples[1] = hand(42);
+    samples.samples[1].position.x = 0.0101;
+    samples.samples[2] = hand(43);
+    samples.samples[2].pointer = 0;
+    samples.samples[2].force = Vec3(0.0);
+    samples.samples[2].buttons = 0;
+    samples.samples[2].nearest_object = no_object;
+    samples.samples[2].position_in_object = Vec3(0.0);
+    ForceSamples forces{2, {}};
+    forces.samples[0] = {2, 5'000'000, 41, {0.1, 0.2, -0.3}, {1.0, 2.0, 3.0}, 4};
+    forces.samples[1] = {3, -123'456'789, 0, {0.0, -5.25, 0.0}, {-1.0, 0.0, 0.25}, no_object};
     return {
-        Hello{Side::teleoperator_side, 2, 1'000'000, 0x1122334455667788u, 9, {0.0, -9.5, 0.25}},
+        Hello{
+            Side::teleoperator_side, 2, 1'000'000, 0x1122334455667788u, 9, {0.0, -9.5, 0.25}, 2, 3, 300, 321},
         Bye{},
         ClockRequest{12, 1'000'000'007},
         ClockAnswer{12, 1'000'000'007, -5, 6},
@@ -63,7 +83,7 @@ inline std::vector<Message> one_of_each() {
         DiscoveryAcknowledgement{9, hash(), DiscoveryVerdict::no_room},
         states,
         samples,
-        ForceSample{2, 5'000'000, 41, {0.1, 0.2, -0.3}, {1.0, 2.0, 3.0}, 4},
+        forces,
     };
 }
 

@@ -239,6 +239,22 @@ TEST(OddInput, WhatFallsForEverIsPutToRestAtTheEndOfTheWorldAndSaidSo) {
     EXPECT_EQ(world.step(tick), step_nothing_awake);
 }
 
+TEST(OddInput, ABodyThatIsPutToSleepAfterASpringPushedItStaysAsleep) {
+    PhysicsWorld world;
+    add(world, ground());
+    const BodyId pushed = add(world, box(Vec3(0.1), {0.0, 0.5, 0.0}, 0.5));
+    const BodyId awake = add(world, box(Vec3(0.1), {1.0, 0.5, 0.0}, 0.5));
+    world.step(tick);
+    world.apply_spring_force(pushed, {{3.0, 0.0, 0.0}, {0.0, 0.5, 0.0}, 1e3, 0.0, {}, true});
+    world.sleep(pushed);
+    const Pose before = world.pose(pushed);
+    for (int i = 0; i < 10; ++i)
+        world.step(tick);
+    EXPECT_FALSE(world.awake(pushed));
+    EXPECT_EQ(world.pose(pushed).position, before.position);
+    EXPECT_TRUE(world.awake(awake));
+}
+
 // Anything, in any order, thousands of times.
 TEST(OddInput, RandomCallsBreakNothing) {
     std::mt19937 random(7);

@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
+#include "core/geometry/touch_shape.hpp"
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 
@@ -104,6 +105,37 @@ TEST(ShapeContact, SlopedHeightFieldIsWhereItsSamplesAre) {
     const double surface = 0.1 * (0.1 / 0.2 + 3.0);
     const double above = 0.05 / std::cos(std::atan(0.5));
     EXPECT_NEAR(world.pose(id).position.y, surface + above, 2e-4);
+}
+
+// A saddle is a valley along one diagonal of its cells and a ridge along the other: what is touched and what
+// bodies rest on must be cut along the same one, mirrored or not, square or not.
+TEST(ShapeContact, BodiesRestWhereAHeightFieldIsTouched) {
+    for (const std::uint32_t rows : {8u, 12u, 400u}) {
+        for (const double mirror : {1.0, -1.0}) {
+            auto heights = std::make_shared<std::vector<float>>();
+            for (std::uint32_t row = 0; row < rows; ++row)
+                for (int column = 0; column < 8; ++column)
+                    heights->push_back(row % 2 == 0 && column % 2 == 0 ? 0.08f
+                                                                       : 0.02f * static_cast<float>(column));
+            const HeightFieldShape field{8, rows, Vec3(0.2 * mirror, 1.0, 0.2), heights};
+            const PlacedShape placed{field, {}};
+            const TouchShapeResult touched = make_touch_shape({&placed, 1});
+            ASSERT_TRUE(touched.shape) << touched.error;
+            const TriangleTree& tree = *touched.shape->parts[0].tree();
+            for (int i = 0; i < 12; ++i) {
+                constexpr double radius = 0.004;
+                const Vec3 above(0.2 * (i % 4) - 0.28, 0.3, 0.2 * (i / 4) - 0.18);
+                PhysicsWorld world;
+                add(world, still(field));
+                BodyDescription body = ball(radius, above, 1.0);
+                body.lock_linear[0] = body.lock_linear[2] = true;
+                const BodyId id = add(world, body);
+                run(world, 700);
+                EXPECT_NEAR(tree.nearest(world.pose(id).position, 1.0).distance, radius, 2e-4)
+                    << rows << " rows, mirrored " << mirror << ", place " << i;
+            }
+        }
+    }
 }
 
 TEST(ShapeContact, CompoundTurnsAboutItsCommonCentre) {

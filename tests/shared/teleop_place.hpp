@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "network/messages.hpp"
 #include "session/session.hpp"
 #include "shared/teleop_case.hpp"
 
@@ -15,7 +16,12 @@ namespace tactus::shared {
 class FeltDevice final : public Device {
 public:
     explicit FeltDevice(std::unique_ptr<Device> inner) : inner_(std::move(inner)) {}
-    DeviceSample read(Nanoseconds now) override { return sample = inner_->read(now); }
+    DeviceSample read(Nanoseconds now) override {
+        sample = inner_->read(now);
+        sample.position = position_as_sent(sample.position);
+        sample.velocity = velocity_as_sent(sample.velocity);
+        return sample;
+    }
     void write(Nanoseconds now, const Vec3& given) override {
         force = given;
         inner_->write(now, given);

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <execinfo.h>
+#include <link.h>
 #include <malloc.h>
 #include <pthread.h>
 #include <semaphore.h>
@@ -15,6 +16,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
+#include <string_view>
 
 namespace tactus::testing {
 
@@ -163,6 +165,35 @@ using tactus::testing::Recorder;
 
 // --- Memory ---
 
+#if TACTUS_SANITIZE_ADDRESS || TACTUS_SANITIZE_THREAD
+
+// These stand in front of the C library themselves and say what passes through them; from behind a malloc of
+// our own they would see nothing.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*after_malloc)(const volatile void*,
+                                                                              std::size_t),
+                                                         void (*before_free)(const volatile void*));
+
+namespace {
+
+void watch_memory() {
+    static const int hooks = __sanitizer_install_malloc_and_free_hooks(
+        [](const volatile void*, std::size_t) { Recorder::allocation(); },
+        [](const volatile void*) { Recorder::release(); });
+    if (hooks == 0) {
+        std::abort();
+    }
+}
+
+}  // namespace
+
+#else
+
+namespace {
+
+void watch_memory() {}
+
+}  // namespace
+
 extern "C" {
 
 void* __libc_malloc(std::size_t size);
@@ -222,6 +253,8 @@ void free(void* block) noexcept {
 
 }  // extern "C"
 
+#endif
+
 // --- Locks and waits ---
 
 namespace {
@@ -239,6 +272,33 @@ Function* next(const char* name, std::atomic<void*>& known) {
 }
 
 }  // namespace
+
+#if TACTUS_SANITIZE_THREAD
+
+// Its hooks say nothing of these.
+extern "C" {
+
+void* memalign(std::size_t alignment, std::size_t size) noexcept {
+    static std::atomic<void*> known{nullptr};
+    Recorder::allocation();
+    return next<void*(std::size_t, std::size_t)>("memalign", known)(alignment, size);
+}
+
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
+    static std::atomic<void*> known{nullptr};
+    Recorder::allocation();
+    return next<void*(std::size_t, std::size_t)>("aligned_alloc", known)(alignment, size);
+}
+
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
+    static std::atomic<void*> known{nullptr};
+    Recorder::allocation();
+    return next<int(void**, std::size_t, std::size_t)>("posix_memalign", known)(block, alignment, size);
+}
+
+}  // extern "C"
+
+#endif
 
 #define TACTUS_INTERPOSE(name, parameters, arguments, report) \
     extern "C" int name parameters noexcept {                 \
@@ -351,11 +411,41 @@ bool changes_stack(long number) {
     return number == SYS_clone || number == SYS_clone3 || number == SYS_vfork;
 }
 
+// Where the sanitizers' own code stands: what they ask of the kernel for themselves is nobody's offence. What
+// they pass on is made from within the C library.
+struct CodeRange {
+    std::uintptr_t begin = 0, end = 0;
+};
+std::array<CodeRange, 4> sanitizer_code{};
+
+int note_sanitizer(dl_phdr_info* library, std::size_t, void* count) {
+    const std::string_view name(library->dlpi_name);
+    auto& known = *static_cast<std::size_t*>(count);
+    if (name.find("libtsan") == name.npos && name.find("libasan") == name.npos &&
+        name.find("libubsan") == name.npos) {
+        return 0;
+    }
+    for (int i = 0; i < library->dlpi_phnum; ++i) {
+        const auto& segment = library->dlpi_phdr[i];
+        if (segment.p_type == PT_LOAD && (segment.p_flags & PF_X) != 0 && known < sanitizer_code.size()) {
+            const std::uintptr_t begin = library->dlpi_addr + segment.p_vaddr;
+            sanitizer_code[known++] = {begin, begin + segment.p_memsz};
+        }
+    }
+    return 0;
+}
+
+bool is_sanitizer(const void* address) {
+    const auto at = reinterpret_cast<std::uintptr_t>(address);
+    return std::ranges::any_of(sanitizer_code,
+                               [&](const CodeRange& code) { return at >= code.begin && at < code.end; });
+}
+
 void on_system_call(int, siginfo_t* info, void* context) {
     syscall_selector = let_pass;
     auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
     const long number = info->si_syscall;
-    if (!never_blocks(number)) {
+    if (!never_blocks(number) && !is_sanitizer(info->si_call_addr)) {
         Recorder::system_call(number);
     }
     if (changes_stack(
@@ -372,6 +462,8 @@ void on_system_call(int, siginfo_t* info, void* context) {
 }
 
 bool install_handler() {
+    std::size_t known = 0;
+    dl_iterate_phdr(&note_sanitizer, &known);
     KernelSignalAction action{&on_system_call, SA_SIGINFO | SA_NODEFER | with_restorer, &tactus_audit_return,
                               0};
     return syscall(SYS_rt_sigaction, SIGSYS, &action, nullptr, sizeof(action.mask)) == 0;
@@ -412,6 +504,7 @@ bool AuditScope::watches_system_calls() {
 AuditScope::AuditScope() {
     void* frame = nullptr;
     backtrace(&frame, 1);
+    watch_memory();
     if (watching != nullptr) {
         std::abort();
     }

@@ -10,6 +10,8 @@
 // time per thread. Watched: malloc and its family (what operator new, mmap and brk rest on), free, pthread
 // locks (what std::mutex, std::shared_mutex rest on), condition variables, semaphores, joins, and every
 // system call of the thread, whoever makes it, where the kernel can intercept them (Linux ≥ 5.11 on x86-64).
+// Under the address and the thread sanitizer the same is watched: memory through their hooks, and what they
+// ask of the kernel for themselves does not count.
 #pragma once
 
 #include <array>

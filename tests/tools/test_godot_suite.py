@@ -29,6 +29,13 @@ def test_an_announced_error_that_does_not_come_is_a_failure():
     assert judge("RUN test_a\nEXPECT broken\nPASS test_a\nEND\n", ["test_a"])["test_a"] != ""
 
 
+def test_each_announcement_needs_a_line_of_its_own():
+    once = "RUN test_a\nEXPECT broken\nEXPECT broken\nERROR: broken\nPASS test_a\nEND\n"
+    assert judge(once, ["test_a"])["test_a"] == "announced but not printed: broken"
+    twice = once.replace("ERROR: broken\n", "ERROR: broken\nERROR: broken\n")
+    assert judge(twice, ["test_a"]) == {"test_a": ""}
+
+
 def test_a_leak_at_exit_fails_the_file():
     output = "RUN test_a\nPASS test_a\nEND\nWARNING: ObjectDB instances leaked at exit\n"
     assert "leaked" in judge(output, ["test_a"])["exit"]

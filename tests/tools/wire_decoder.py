@@ -8,6 +8,13 @@ from typing import Any
 
 MOST_PACKET_BYTES = 1184
 MOST_TIME = 2**60
+MOST_AGE = 60 * 10**9
+MOST_SEQUENCE = 2**48
+MOST_POSITION = 1e5
+MOST_SPEED = 1e3
+MOST_ANGULAR_SPEED = 1e4
+MOST_FORCE = 1e3
+MOST_GRAVITY = 100.0
 MOST_COMPONENT = 1e9
 MOST_POSITIVE = 1e12
 NOBODY = 0xFFFFFFFF
@@ -56,6 +63,49 @@ class Reader:
         _require(-MOST_TIME <= value <= MOST_TIME, "time out of range")
         return value
 
+    def varint(self, most: int = 2**64 - 1) -> int:
+        value = 0
+        for shift in range(0, 70, 7):
+            byte = self.u8()
+            value |= (byte & 0x7F) << shift
+            _require(byte != 0 or shift == 0, "a byte that says nothing")
+            if byte < 0x80:
+                _require(value <= most, "number out of range")
+                return value
+        raise Refused("number out of range")
+
+    def folded(self, most: int = 2**62) -> int:
+        value = self.varint()
+        value = value >> 1 if value % 2 == 0 else -(value >> 1) - 1
+        _require(-most <= value <= most, "number out of range")
+        return value
+
+    def whole_vec3(self, quantum: int, most: float, expected: tuple[int, ...] = (0, 0, 0)) -> tuple[int, ...]:
+        """In whole parts of a meter and so on, of which `quantum` make one."""
+        value = tuple(self.folded() + part for part in expected)
+        _require(max(abs(part) for part in value) <= most * quantum, "number out of range")
+        return value
+
+    def single_vec3(self, most: float) -> tuple[float, ...]:
+        return tuple(self.real(-most, most, "f") for _ in range(3))
+
+    def rotation(self, largest: int) -> tuple[float, ...]:
+        parts = [0.0] * 4
+        for i in range(4):
+            if i != largest:
+                number = self.number("i")
+                _require(abs(number) <= 2**30 + 1, "no rotation")
+                parts[i] = number / (2**30 * math.sqrt(2))
+        rest = 1.0 - sum(part * part for part in parts)
+        _require(rest >= 0.25 - 1e-6, "no rotation")
+        parts[largest] = math.sqrt(rest)
+        return tuple(parts)
+
+    def skip_extensions(self) -> None:
+        while self.at < len(self.data):
+            _require(self.u8() != 0, "oversized")
+            self.take(self.u8())
+
     def flag(self) -> bool:
         value = self.u8()
         _require(value <= 1, "flag out of range")
@@ -80,8 +130,8 @@ class Reader:
     def not_negative(self) -> float:
         return self.real(0.0, MOST_POSITIVE)
 
-    def vec3(self) -> tuple[float, ...]:
-        return tuple(self.real(-MOST_COMPONENT, MOST_COMPONENT) for _ in range(3))
+    def vec3(self, most: float = MOST_COMPONENT) -> tuple[float, ...]:
+        return tuple(self.real(-most, most) for _ in range(3))
 
     def positive_vec3(self) -> tuple[float, ...]:
         value = self.vec3()
@@ -111,10 +161,13 @@ class Reader:
 def _hello(r: Reader) -> Fields:
     side, scenario, period = r.choice(1), r.u8(), r.time()
     _require(1 <= scenario <= 5 and 1 <= period <= 10**9, "hello out of range")
-    return {
+    hello = {
         "side": side, "scenario": scenario, "period": period, "heard_epoch": r.u64(), "object_count": r.u32(),
-        "gravity": r.vec3(),
+        "gravity": r.vec3(MOST_GRAVITY), "oldest_version": r.u8(), "newest_version": r.u8(),
+        "heard_packets": r.varint(), "heard_sequence": r.varint(),
     }  # fmt: skip
+    _require(hello["oldest_version"] <= hello["newest_version"], "versions out of range")
+    return hello
 
 
 def _bye(_: Reader) -> Fields:
@@ -144,40 +197,112 @@ def _acknowledgement(r: Reader) -> Fields:
     return {"object": r.object(), "hash": r.take(16), "verdict": r.choice(3)}
 
 
-def _object_states(r: Reader) -> Fields:
-    states = {"true_at": r.time(), "newest_operator_sample": r.u64()}
-    count = r.u16()
-    _require(count <= 10, "count out of range")
+def _near(r: Reader, sent_at: int) -> int:
+    return sent_at + r.folded(MOST_AGE)
+
+
+def _scaled(whole: tuple[int, ...], quantum: int) -> tuple[float, ...]:
+    return tuple(part / quantum for part in whole)
+
+
+def _object(r: Reader) -> int:
+    return r.varint(NOBODY - 1)
+
+
+def _object_states(r: Reader, sent_at: int) -> Fields:
+    states = {"true_at": _near(r, sent_at), "newest_operator_sample": r.varint(MOST_SEQUENCE)}
+    count = r.u8()
+    _require(count <= 16, "count out of range")
     return states | {"states": [_state(r) for _ in range(count)]}
 
 
 def _state(r: Reader) -> Fields:
-    return {
-        "object": r.object(), "asleep": r.flag(), "pose": r.pose(),
-        "linear_velocity": r.vec3(), "angular_velocity": r.vec3(),
+    number, flags = _object(r), r.u8()
+    _require(flags < 16, "flags out of range")
+    position = _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO)
+    pose = {"position": position, "rotation": r.rotation(flags >> 2)}
+    state = {"object": number, "asleep": flags & 1 == 1, "pose": pose}
+    moving = flags & 2 == 2
+    still = (0.0, 0.0, 0.0)
+    return state | {
+        "linear_velocity": r.single_vec3(MOST_SPEED) if moving else still,
+        "angular_velocity": r.single_vec3(MOST_ANGULAR_SPEED) if moving else still,
+    }
+
+
+NANO, MICRO, TENTH_MILLI = 10**9, 10**6, 10**4
+CONNECTED, FOLLOWS, BUTTONS, FORCE, NEAREST, TIME = (1 << bit for bit in range(6))
+
+
+def _operator_samples(r: Reader, sent_at: int) -> Fields:
+    period = r.varint(10**9)
+    _require(period >= 1, "period out of range")
+    count = r.u8()
+    _require(1 <= count <= 16, "count out of range")
+    samples: list[Fields] = []
+    whole: Fields | None = None
+    for _ in range(count):
+        sample, whole = _sample(r, sent_at, period, samples[-1] if samples else None, whole)
+        samples.append(sample)
+    return {"period": period, "samples": samples}
+
+
+def _towards_zero(a: int, b: int) -> int:
+    return a // b if a >= 0 else -(-a // b)
+
+
+def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, whole: Fields | None) -> tuple[Fields, Fields]:
+    """One sample, and it in whole numbers, as the next one is told from it."""
+    flags = r.u8()
+    _require(flags < 64, "flags out of range")
+    nothing = {"position": (0, 0, 0), "velocity": (0, 0, 0), "force": (0, 0, 0), "relative": (0, 0, 0)}
+    if flags & FOLLOWS:
+        if before is None or whole is None:
+            raise Refused("follows nothing")
+        apart = r.varint(10**9 // period)
+        pointer, sequence = before["pointer"], before["sequence"] - apart
+        _require(apart >= 1 and sequence >= 1, "sequence out of range")
+        time, told = before["time"] - apart * period, whole
+        back = apart * period
+        ways = [_towards_zero(velocity * back, 10**6) for velocity in told["velocity"]]
+        expected = tuple(place - way for place, way in zip(told["position"], ways, strict=True))
+    else:
+        pointer, sequence = r.varint(0xFFFF), r.varint(MOST_SEQUENCE)
+        _require(sequence >= 1, "no sample")
+        time, told, expected = sent_at, nothing, (0, 0, 0)
+    if flags & TIME:
+        time += r.folded(MOST_AGE)
+    now = dict(nothing)
+    now["position"] = r.whole_vec3(NANO, MOST_POSITION, expected)
+    now["velocity"] = r.whole_vec3(MICRO, MOST_SPEED, told["velocity"])
+    buttons = r.varint(0xFFFFFFFF) if flags & BUTTONS else 0
+    if flags & FORCE:
+        now["force"] = r.whole_vec3(TENTH_MILLI, MOST_FORCE, told["force"])
+    nearest = NOBODY
+    if flags & NEAREST:
+        nearest = _object(r)
+        now["relative"] = r.whole_vec3(NANO, MOST_POSITION, told["relative"])
+    sample = {
+        "sequence": sequence, "time": time, "pointer": pointer, "connected": flags & CONNECTED != 0, "buttons": buttons,
+        "position": _scaled(now["position"], NANO), "velocity": _scaled(now["velocity"], MICRO),
+        "force": _scaled(now["force"], TENTH_MILLI),
+        "nearest_object": nearest, "position_in_object": _scaled(now["relative"], NANO),
     }  # fmt: skip
+    return sample, now
 
 
-def _operator_samples(r: Reader) -> Fields:
-    count = r.u16()
-    _require(1 <= count <= 9, "count out of range")
-    return {"samples": [_sample(r) for _ in range(count)]}
+def _forces(r: Reader, sent_at: int) -> Fields:
+    count = r.u8()
+    _require(1 <= count <= 16, "count out of range")
+    return {"samples": [_force(r, sent_at) for _ in range(count)]}
 
 
-def _sample(r: Reader) -> Fields:
-    sequence = r.u64()
-    _require(sequence != 0, "no sample")
+def _force(r: Reader, sent_at: int) -> Fields:
     return {
-        "sequence": sequence, "time": r.time(), "pointer": r.u16(), "connected": r.flag(), "buttons": r.u32(),
-        "position": r.vec3(), "velocity": r.vec3(), "force": r.vec3(),
-        "nearest_object": r.u32(), "position_in_object": r.vec3(),
-    }  # fmt: skip
-
-
-def _force(r: Reader) -> Fields:
-    return {
-        "pointer": r.u16(), "true_at": r.time(), "newest_operator_sample": r.u64(),
-        "force": r.vec3(), "proxy": r.vec3(), "object": r.u32(),
+        "pointer": r.varint(0xFFFF), "true_at": _near(r, sent_at), "newest_operator_sample": r.varint(MOST_SEQUENCE),
+        "force": _scaled(r.whole_vec3(TENTH_MILLI, MOST_FORCE), TENTH_MILLI),
+        "proxy": _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO),
+        "object": (r.varint(NOBODY) - 1) % 2**32,
     }  # fmt: skip
 
 
@@ -191,26 +316,24 @@ KINDS = {
     7: ("acknowledgement", _acknowledgement),
     8: ("object states", _object_states),
     9: ("operator samples", _operator_samples),
-    10: ("force", _force),
+    10: ("forces", _forces),
 }
+TOLD_FROM_SENDING = (8, 9, 10)
 
 
 def packet(data: bytes) -> tuple[Fields, str, Fields]:
     """Header, name of the kind, body."""
     r = Reader(data)
     _require(r.take(2) == b"TC", "wrong magic")
-    _require(r.u8() == 1, "wrong version")
+    _require(r.u8() == 2, "wrong version")
     _require(len(data) <= MOST_PACKET_BYTES, "oversized")
-    kind, body_bytes, reserved = r.u8(), r.u16(), r.u16()
-    header = {"epoch": r.u64(), "sequence": r.u64(), "sent_at": r.time()}
+    kind = r.u8()
+    header = {"epoch": r.u64(), "sequence": r.varint(MOST_SEQUENCE), "sent_at": r.folded(MOST_TIME)}
     _require(header["epoch"] != 0 and header["sequence"] != 0, "header out of range")
-    _require(len(data) - 32 >= body_bytes, "truncated")
-    _require(len(data) - 32 == body_bytes, "oversized")
-    _require(reserved == 0, "reserved bytes")
     _require(kind in KINDS, "unknown kind")
     name, read = KINDS[kind]
-    body = read(r)
-    r.end()
+    body = read(r, header["sent_at"]) if kind in TOLD_FROM_SENDING else read(r)
+    r.skip_extensions()
     return header, name, body
 
 
@@ -262,8 +385,10 @@ def _texture(r: Reader) -> Fields | None:
 
 
 def _body(r: Reader) -> Fields:
-    body: Fields = {"motion": r.choice(2), "may_move": r.flag(), "pose": r.pose()}
-    body |= {"linear_velocity": r.vec3(), "angular_velocity": r.vec3(), "mass": r.not_negative()}
+    body: Fields = {"motion": r.choice(2), "may_move": r.flag()}
+    body |= {"pose": {"position": r.vec3(MOST_POSITION), "rotation": r.quat()}}
+    body |= {"linear_velocity": r.vec3(MOST_SPEED), "angular_velocity": r.vec3(MOST_ANGULAR_SPEED)}
+    body |= {"mass": r.not_negative()}
     _require(body["mass"] > 0.0 or body["motion"] == 0, "no mass")
     body |= {
         "center_of_mass": r.vec3() if r.flag() else None,
@@ -315,23 +440,62 @@ def _shape(r: Reader) -> Fields:
     return {"kind": name, "pose": r.pose()} | read(r)
 
 
-# --- sealed packets: XChaCha20-Poly1305 in the words of RFC 8439 and of the draft on XChaCha
+# --- sealed packets: X25519 (RFC 7748), BLAKE2b, ChaCha20-Poly1305 (RFC 8439)
+
+
+def greeting(data: bytes) -> Fields:
+    _require(len(data) == 68, "truncated")
+    _require(data[:4] == b"TS\x02\x00", "no greeting")
+    sender, receiver = struct.unpack("<QQ", data[4:20])
+    return {"sender": sender, "receiver": receiver, "salt": data[20:36], "public_key": data[36:]}
+
+
+def _hash(data: bytes, key: bytes = b"", size: int = 32) -> bytes:
+    return hashlib.blake2b(data, digest_size=size, key=key).digest()
+
+
+def session_keys(secret: bytes, private_key: bytes, own: Fields, far: Fields) -> Fields:
+    """Number of the session, keys to receive and to send with. `secret`: 32 bytes; `own`, `far`: greetings."""
+    first, second = sorted((own, far), key=lambda side: (side["public_key"], side["sender"]))
+    both = b"".join(struct.pack("<Q", side["sender"]) + side["salt"] for side in (first, second))
+    shared = _x25519(private_key, far["public_key"])
+    _require(any(shared), "no public key")
+    pair = _hash(shared + first["public_key"] + second["public_key"], size=64)
+    stretched = _hash(both, key=secret)
+    to_first, to_second = (_hash(half, key=stretched) for half in (pair[:32], pair[32:]))
+    receive, send = (to_first, to_second) if first is own else (to_second, to_first)
+    return {"id": struct.unpack("<I", _hash(both)[:4])[0], "receive": receive, "send": send}
 
 
 def unseal(key: bytes, data: bytes) -> tuple[Fields, bytes]:
     """Front and the packet inside."""
-    _require(len(data) >= 44, "truncated")
-    _require(data[:2] == b"TS" and data[2] == 1 and data[3] == 0, "not sealed")
-    nonce, sealed, tag = data[4:28], data[28:-16], data[-16:]
-    subkey = _hchacha20(key, nonce[:16])
-    iv = bytes(4) + nonce[16:]
-    one_time = _chacha20_block(subkey, 0, iv)[:32]
-    mac_data = _padded(data[:4]) + _padded(sealed) + struct.pack("<QQ", 4, len(sealed))
+    _require(len(data) >= 32, "truncated")
+    _require(data[:4] == b"TS\x02\x01", "not sealed")
+    session, counter = struct.unpack("<IQ", data[4:16])
+    iv, sealed, tag = bytes(4) + data[8:16], data[16:-16], data[-16:]
+    one_time = _chacha20_block(key, 0, iv)[:32]
+    mac_data = data[:16] + _padded(sealed) + struct.pack("<QQ", 16, len(sealed))
     _require(_poly1305(one_time, mac_data) == tag, "wrong key")
-    stream = b"".join(_chacha20_block(subkey, 1 + i, iv) for i in range((len(sealed) + 63) // 64))
-    sender, receiver, counter = struct.unpack("<QQQ", nonce)
-    front = {"sender": sender, "receiver": receiver, "counter": counter}
-    return front, bytes(a ^ b for a, b in zip(sealed, stream, strict=False))
+    stream = b"".join(_chacha20_block(key, 1 + i, iv) for i in range((len(sealed) + 63) // 64))
+    return {"session": session, "counter": counter}, bytes(a ^ b for a, b in zip(sealed, stream, strict=False))
+
+
+def _x25519(private_key: bytes, public_key: bytes) -> bytes:
+    prime, a24 = 2**255 - 19, 121665
+    scalar = (int.from_bytes(private_key, "little") & ~7 & (2**255 - 1)) | 2**254
+    x1 = int.from_bytes(public_key, "little") & (2**255 - 1)
+    x2, z2, x3, z3 = 1, 0, x1, 1
+    for bit in reversed(range(255)):
+        swap = scalar >> bit & 1
+        if swap:
+            x2, z2, x3, z3 = x3, z3, x2, z2
+        a, b, c, d = x2 + z2, x2 - z2, x3 + z3, x3 - z3
+        aa, bb, da, cb = a * a, b * b, d * a, c * b
+        x3, z3 = (da + cb) ** 2 % prime, x1 * (da - cb) ** 2 % prime
+        x2, z2 = aa * bb % prime, (aa - bb) * (aa + a24 * (aa - bb)) % prime
+        if swap:
+            x2, z2, x3, z3 = x3, z3, x2, z2
+    return (x2 * pow(z2, prime - 2, prime) % prime).to_bytes(32, "little")
 
 
 def _padded(data: bytes) -> bytes:
@@ -363,11 +527,6 @@ def _chacha20_block(key: bytes, counter: int, iv: bytes) -> bytes:
     state = _state_words(key, struct.pack("<I", counter) + iv)
     mixed = _twenty_rounds(state)
     return struct.pack("<16I", *((a + b) & 0xFFFFFFFF for a, b in zip(state, mixed, strict=True)))
-
-
-def _hchacha20(key: bytes, nonce: bytes) -> bytes:
-    x = _twenty_rounds(_state_words(key, nonce))
-    return struct.pack("<8I", *x[:4], *x[12:])
 
 
 def _poly1305(key: bytes, data: bytes) -> bytes:

@@ -56,6 +56,11 @@ def emptied(folder: Path) -> Path:
     return folder
 
 
+def variant(target: str, sanitizers: str = "") -> str:
+    """The folder in build/: what sanitizers watch shares nothing with the rest."""
+    return f"{target}.{sanitizers.replace(',', '_')}" if sanitizers else target
+
+
 def run_tool(script: str, *arguments: str) -> int:
     """A script of tools/ with the packages of the virtual environment."""
     path = clone() / "tools"

@@ -22,6 +22,9 @@ FLAGS = [
     "-std=c++20", "-O3", "-march=x86-64-v3", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti",
     "-fPIC", "-fvisibility=hidden",
 ]  # fmt: skip
+# The same for a bench: Jolt as fast as it can be, with results that differ between machines.
+FAST_DEFINES = [define for define in DEFINES if define != "JPH_CROSS_PLATFORM_DETERMINISTIC"]
+FAST_FLAGS = [flag if flag != "-ffp-contract=off" else "-ffp-contract=fast" for flag in FLAGS]
 CHUNKS = 4  # translation units: headers are read once for each of them
 
 LEFT_OUT = re.compile(
@@ -48,29 +51,29 @@ def installed() -> Jolt | None:
     return jolt
 
 
-def ready() -> Jolt | None:
+def ready(fast: bool = False) -> Jolt | None:
     own = installed()
     if own:
-        return own
+        return None if fast else own
     source = _source_folder()
     if not cache.is_done(source, CRATE_SHA256):
         return None
-    folder = _library_folder()
-    return _built(folder) if cache.is_done(folder, folder.name) else None
+    folder = _library_folder(fast)
+    return _built(folder, fast) if cache.is_done(folder, folder.name) else None
 
 
-def fetch_and_build() -> Jolt:
+def fetch_and_build(fast: bool = False) -> Jolt:
     if not cache.is_done(_source_folder(), CRATE_SHA256):
         _fetch(_source_folder())
-    folder = cache.emptied(_library_folder())
+    folder = cache.emptied(_library_folder(fast))
     units = [*_write_chunks(folder), cache.clone() / "tools/jolt/register_types.cpp"]
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        objects = list(pool.map(lambda unit: _compile(unit, folder), units))
+        objects = list(pool.map(lambda unit: _compile(unit, folder, fast), units))
     subprocess.run(["ar", "rcs", folder / "libJolt.a", *objects], check=True)
     for path in objects:
         path.unlink()
     cache.mark_done(folder, folder.name)
-    return _built(folder)
+    return _built(folder, fast)
 
 
 def licence() -> str:
@@ -86,8 +89,8 @@ def _jolt_source() -> Path:
     return _source_folder() / "vendor/JoltPhysics"
 
 
-def _built(folder: Path) -> Jolt:
-    return Jolt(_jolt_source(), folder / "libJolt.a", DEFINES)
+def _built(folder: Path, fast: bool) -> Jolt:
+    return Jolt(_jolt_source(), folder / "libJolt.a", FAST_DEFINES if fast else DEFINES)
 
 
 def _fetch(target: Path) -> None:
@@ -124,10 +127,11 @@ def _sources() -> list[Path]:
     return [path for path in paths if not LEFT_OUT.search(str(path))]
 
 
-def _library_folder() -> Path:
+def _library_folder(fast: bool) -> Path:
     compiler = subprocess.run(["g++", "--version"], check=True, text=True, capture_output=True).stdout.splitlines()[0]
     own = (cache.clone() / "tools/jolt/register_types.cpp").read_text()
-    key = cache.digest(compiler, *FLAGS, *DEFINES, own, str(CHUNKS), *map(str, _sources()))
+    flags = [*FAST_FLAGS, *FAST_DEFINES] if fast else [*FLAGS, *DEFINES]
+    key = cache.digest(compiler, *flags, own, str(CHUNKS), *map(str, _sources()))
     return cache.root() / f"jolt-{VERSION}-{key}"
 
 
@@ -142,10 +146,10 @@ def _write_chunks(folder: Path) -> list[Path]:
     return units
 
 
-def _compile(unit: Path, folder: Path) -> Path:
+def _compile(unit: Path, folder: Path, fast: bool) -> Path:
     target = folder / f"{unit.stem}.o"
-    defines = [f"-D{define}" for define in DEFINES]
-    command = ["g++", *FLAGS, *defines, "-isystem", _jolt_source(), "-c", unit, "-o", target]
+    defines = [f"-D{define}" for define in (FAST_DEFINES if fast else DEFINES)]
+    command = ["g++", *(FAST_FLAGS if fast else FLAGS), *defines, "-isystem", _jolt_source(), "-c", unit, "-o", target]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:
         raise RuntimeError(f"compiling {unit.name} failed:\n{done.stderr[:3000]}")

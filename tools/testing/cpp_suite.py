@@ -1,5 +1,9 @@
-"""The GoogleTest programs: cpp.LAYER.SUITE.TEST."""
+"""The GoogleTest programs: cpp.LAYER.SUITE.TEST.
 
+Under sanitizers what they find is the failure of the program that showed it; a program ends at its first one.
+"""
+
+import os
 import subprocess
 import tempfile
 import xml.etree.ElementTree as ElementTree
@@ -9,13 +13,20 @@ from setup import cache
 from testing.results import Result, matching
 
 TIME_LIMIT = 600  # (unit: seconds) a program
+SANITIZER_TIME_LIMIT = 3600  # they take up to twenty times as long
+SANITIZER_OPTIONS = {
+    "ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_init_order=1",
+    "UBSAN_OPTIONS": "print_stacktrace=1",
+    "TSAN_OPTIONS": "second_deadlock_stack=1",
+}
 
 
-def run(wanted: str) -> list[Result]:
+def run(wanted: str, sanitizers: str = "") -> list[Result]:
     results = []
-    for program in sorted((cache.clone() / "build/template_debug/tests").glob("test_*")):
+    folder = cache.clone() / "build" / cache.variant("template_debug", sanitizers) / "tests"
+    for program in sorted(folder.glob("test_*")):
         if (cache.clone() / "tests" / _layer(program)).is_dir():
-            results += _run_program(program, wanted)
+            results += _run_program(program, wanted, SANITIZER_TIME_LIMIT if sanitizers else TIME_LIMIT)
     return results
 
 
@@ -23,7 +34,7 @@ def _layer(program: Path) -> str:
     return program.name.removeprefix("test_")
 
 
-def _run_program(program: Path, wanted: str) -> list[Result]:
+def _run_program(program: Path, wanted: str, time_limit: float) -> list[Result]:
     prefix = f"cpp.{_layer(program)}."
     chosen = matching([prefix + name for name in _names(program)], wanted)
     if not chosen:
@@ -33,12 +44,18 @@ def _run_program(program: Path, wanted: str) -> list[Result]:
         names = ":".join(name.removeprefix(prefix) for name in chosen)
         command = [program, f"--gtest_filter={names}", f"--gtest_output=xml:{report}", "--gtest_brief=1"]
         try:
-            done = subprocess.run(command, cwd=cache.clone(), timeout=TIME_LIMIT, text=True, capture_output=True)
+            done = subprocess.run(
+                command, cwd=cache.clone(), env=SANITIZER_OPTIONS | os.environ, timeout=time_limit, text=True,
+                capture_output=True,
+            )  # fmt: skip
         except subprocess.TimeoutExpired:
-            return [Result(prefix + "program", f"not done after {TIME_LIMIT} s")]
+            return [Result(prefix + "program", f"not done after {time_limit} s")]
         if not report.is_file():
-            return [Result(prefix + "program", f"ended with {done.returncode}:\n{(done.stdout + done.stderr)[-3000:]}")]
-        return [_result(prefix, case) for case in ElementTree.parse(report).iter("testcase")]
+            return [Result(prefix + "program", f"ended with {done.returncode}:\n{done.stdout[-1000:]}{done.stderr[:6000]}")]
+        results = [_result(prefix, case) for case in ElementTree.parse(report).iter("testcase")]
+        if done.returncode != 0 and all(result.passed for result in results):
+            results.append(Result(prefix + "program", f"ended with {done.returncode}:\n{done.stderr[:6000]}"))
+        return results
 
 
 def _names(program: Path) -> list[str]:

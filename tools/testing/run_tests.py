@@ -1,4 +1,6 @@
-"""./run test [FILTER]: builds and runs every test whose name contains FILTER, and ends with their count."""
+"""./run test [--sanitize=LIST] [FILTER]: builds and runs every test whose name contains FILTER, and ends with their
+count. With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own.
+"""
 
 import sys
 import time
@@ -11,13 +13,19 @@ SUITES = [format_suite, cpp_suite, godot_suite, python_suite]
 
 
 def main(arguments: list[str]) -> int:
-    wanted = arguments[0] if arguments else ""
+    options = [argument for argument in arguments if argument.startswith("--")]
+    filters = [argument for argument in arguments if argument not in options]
+    if len(filters) > 1 or len(options) > 1 or any(not option.startswith("--sanitize=") for option in options):
+        print("./run test [--sanitize=address,undefined|thread] [FILTER]", file=sys.stderr)
+        return 2
+    wanted = filters[0] if filters else ""
+    sanitizers = options[0].partition("=")[2] if options else ""
     print("Building the C++ tests …", flush=True)
-    build.build("template_debug", "tests")
+    build.build("template_debug", "tests", *([f"sanitize={sanitizers}"] if sanitizers else []))
     results = []
-    for suite in SUITES:
+    for suite in [cpp_suite] if sanitizers else SUITES:
         started = time.monotonic()
-        found = suite.run(wanted)
+        found = suite.run(wanted, sanitizers) if sanitizers else suite.run(wanted)
         results += found
         for result in found:
             if not result.passed:

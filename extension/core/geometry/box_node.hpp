@@ -61,6 +61,18 @@ inline FloatLanes outside(FloatLanes low, FloatLanes high, FloatLanes p) {
 }
 }  // namespace box_detail
 
+inline FloatLanes float_sqrt(FloatLanes a) {
+#if defined(__AVX__)
+    return _mm256_sqrt_ps(a);
+#else
+    FloatLanes root;
+    for (int i = 0; i < node_width; ++i) {
+        root[i] = __builtin_sqrtf(a[i]);
+    }
+    return root;
+#endif
+}
+
 // One bit a lane: those with a value up to `limit`.
 inline unsigned lanes_up_to(FloatLanes values, float limit) {
     const auto mask = values <= splat_float(limit);
@@ -83,29 +95,58 @@ inline FloatLanes squared_distance_to_boxes(const BoxNode& node, const FloatPoin
     return dx * dx + dy * dy + dz * dz;
 }
 
-// Where a moving point enters each box grown by `margin` on all sides: t in [0, 1] of its segment, or
-// infinity. A motion of zero along an axis is handled by an inverse of huge size instead of infinity (0 * inf
-// is NaN).
-struct FloatRay {
-    FloatPoint origin;
-    FloatPoint inverse_motion;
+// A sphere's way as the boxes see it: `distance` is less by what rounding may hide, `blur` is how much the
+// rate at which it nears a box may err (unit: meters).
+struct FloatWay {
+    FloatPoint start, end;  // where it is at t = 0 and at t = limit
+    FloatPoint motion;      // as t grows by 1
+    float distance;
+    float blur;
+    float limit;
 };
 
-inline FloatLanes entry_into_boxes(const BoxNode& node, const FloatRay& ray, float margin, float limit) {
+namespace box_detail {
+// Gap between the sphere and each box, and how fast it shrinks.
+struct Nearing {
+    FloatLanes gap, rate;
+};
+
+inline Nearing nearing(const BoxNode& node, const FloatWay& way, const FloatPoint& center) {
+    const FloatLanes zero = splat_float(0.0f);
+    const auto offset = [&](int axis, FloatLanes p) {
+        return most(p - node.high[axis], least(p - node.low[axis], zero));
+    };
+    const FloatLanes x = offset(0, center.x);
+    const FloatLanes y = offset(1, center.y);
+    const FloatLanes z = offset(2, center.z);
+    const FloatLanes distance = float_sqrt(x * x + y * y + z * z);
+    return {distance * splat_float(1.0f - 1e-6f) - splat_float(way.distance),
+            (x * way.motion.x + y * way.motion.y + z * way.motion.z) / -distance};
+}
+}  // namespace box_detail
+
+// Lower bounds of the t up to the limit at which the sphere meets what is in each box; infinite for boxes
+// that it passes by and for unused slots. A box is convex, so its distance as a function of t lies above its
+// tangents at both ends of the way: the first falls to the sphere's radius no earlier than t = gap / rate,
+// and where the two cross above it (or the second still falls at the end), no t is left.
+inline FloatLanes earliest_meeting(const BoxNode& node, const FloatWay& way) {
     using namespace box_detail;
-    const FloatLanes grow = splat_float(margin);
-    const FloatLanes ax = (node.low[0] - grow - ray.origin.x) * ray.inverse_motion.x;
-    const FloatLanes bx = (node.high[0] + grow - ray.origin.x) * ray.inverse_motion.x;
-    const FloatLanes ay = (node.low[1] - grow - ray.origin.y) * ray.inverse_motion.y;
-    const FloatLanes by = (node.high[1] + grow - ray.origin.y) * ray.inverse_motion.y;
-    const FloatLanes az = (node.low[2] - grow - ray.origin.z) * ray.inverse_motion.z;
-    const FloatLanes bz = (node.high[2] + grow - ray.origin.z) * ray.inverse_motion.z;
-    const FloatLanes enter = most(most(least(ax, bx), least(ay, by)), most(least(az, bz), splat_float(0.0f)));
-    const FloatLanes leave =
-        least(least(most(ax, bx), most(ay, by)), least(most(az, bz), splat_float(limit)));
-    // Unused slots have low = +inf, high = -inf: swap-proof only through this explicit test.
+    const FloatLanes zero = splat_float(0.0f);
+    const FloatLanes never = splat_float(__builtin_inff());
+    const Nearing first = nearing(node, way, way.start);
+    const Nearing last = nearing(node, way, way.end);
+    const FloatLanes fall = first.rate + splat_float(way.blur);
+    const FloatLanes rise = splat_float(way.blur) - last.rate;  // going back from the end: also a fall
+    const FloatLanes limit = splat_float(way.limit);
+    const FloatLanes crossing = (first.gap - last.gap + rise * limit) / (fall + rise);
+    const FloatLanes lowest = (rise > zero) ? first.gap - fall * crossing : last.gap;
+    // What the subtractions may lose: far less than 1e-6 of their operands.
+    const FloatLanes doubt = (first.gap + last.gap + rise * limit) * splat_float(1e-6f);
+    const auto apart =
+        (first.gap > zero) & ((fall <= zero) | ((last.gap > zero) & (lowest > most(doubt, zero))));
     const auto used = node.low[0] <= node.high[0];
-    return ((enter <= leave * splat_float(1.0f + 4e-6f)) & used) ? enter : splat_float(__builtin_inff());
+    const FloatLanes key = (first.gap > zero) ? first.gap / fall : zero;
+    return (used & ~apart) ? key : never;
 }
 
 }  // namespace tactus

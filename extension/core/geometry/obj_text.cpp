@@ -1,18 +1,59 @@
 #include "core/geometry/obj_text.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
+#include <span>
+
+#include "core/geometry/polygon_triangles.hpp"
 
 namespace tactus {
 
 namespace {
 
-std::string_view next_line(std::string_view& text) {
-    const std::size_t end = text.find('\n');
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    return line.substr(0, line.find_first_of("#\r"));
-}
+// Lines as they are meant: put together where they go on after a \, without comment.
+class Lines {
+public:
+    explicit Lines(std::string_view text) : text_(text) {
+        constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+        if (text_.starts_with(byte_order_mark)) {
+            text_.remove_prefix(byte_order_mark.size());
+        }
+    }
+
+    bool next(std::string_view& line) {
+        if (text_.empty()) {
+            return false;
+        }
+        number_ = following_;
+        line = piece();
+        if (line.ends_with('\\')) {
+            joined_.clear();
+            while (line.ends_with('\\')) {
+                joined_.append(line.substr(0, line.size() - 1)) += ' ';
+                line = piece();
+            }
+            line = joined_.append(line);
+        }
+        line = line.substr(0, line.find('#'));
+        return true;
+    }
+    std::size_t number() const { return number_; }  // of the line's first piece, from 1
+
+private:
+    std::string_view piece() {
+        const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
+        const std::string_view line = text_.substr(0, end);
+        text_.remove_prefix(std::min(text_.size(), end + (text_.substr(end).starts_with("\r\n") ? 2 : 1)));
+        ++following_;
+        return line;
+    }
+
+    std::string_view text_;
+    std::string joined_;
+    std::size_t number_ = 0;
+    std::size_t following_ = 1;
+};
 
 std::string_view next_word(std::string_view& line) {
     line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
@@ -59,7 +100,7 @@ std::string read_corner(std::string_view word, std::size_t vertex_count, std::ui
     }
     const auto count = static_cast<std::int64_t>(vertex_count);
     const std::int64_t index = *number < 0 ? count + *number : *number - 1;
-    if (index < 0 || index >= count) {
+    if (index < 0 || index >= 0xffff'ffff) {
         return "vertex " + std::to_string(*number) + " does not exist: there are " + std::to_string(count) +
                " so far";
     }
@@ -67,43 +108,108 @@ std::string read_corner(std::string_view word, std::size_t vertex_count, std::ui
     return {};
 }
 
-std::string read_face(std::string_view line, TriangleMesh& mesh) {
-    std::uint32_t first = 0;
-    std::uint32_t previous = 0;
-    int corners = 0;
-    for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
-        std::uint32_t corner = 0;
-        if (std::string error = read_corner(word, mesh.vertices.size(), corner); !error.empty()) {
-            return error;
+class Reader {
+public:
+    explicit Reader(const ObjLimits& limits) : limits_(limits), work_(limits.polygon_work) {}
+
+    ObjResult read(std::string_view text) {
+        if (text.size() > limits_.bytes) {
+            return {{},
+                    "the text has " + std::to_string(text.size()) + " bytes, the limit is " +
+                        std::to_string(limits_.bytes) + ": split it into several meshes"};
         }
-        if (corners >= 2) {
-            mesh.triangles.push_back({first, previous, corner});
+        Lines lines(text);
+        std::string_view line;
+        while (lines.next(line)) {
+            const std::string_view keyword = next_word(line);
+            std::string error;
+            if (keyword == "v") {
+                error = read_vertex(line, mesh_);
+            } else if (keyword == "f") {
+                error = read_face(line, lines.number());
+            }
+            if (error.empty() && mesh_.vertices.size() > limits_.vertices) {
+                error = "more than " + std::to_string(limits_.vertices) +
+                        " vertices: split the mesh into several";
+            }
+            if (!error.empty()) {
+                return {{}, in_line(lines.number(), error)};
+            }
         }
-        first = corners == 0 ? corner : first;
-        previous = corner;
-        ++corners;
+        for (std::size_t i = 0; i < early_.size(); ++i) {
+            const std::size_t end = i + 1 < early_.size() ? early_[i + 1].first : early_corners_.size();
+            const std::span<const std::uint32_t> face(&early_corners_[early_[i].first],
+                                                      end - early_[i].first);
+            if (std::string error = add_face(face); !error.empty()) {
+                return {{}, in_line(early_[i].line, error)};
+            }
+        }
+        return {std::move(mesh_), {}};
     }
-    return corners < 3 ? "a face needs at least three corners" : std::string();
-}
+
+private:
+    // A face that names vertices which come later.
+    struct EarlyFace {
+        std::size_t first;  // of its corners
+        std::size_t line;
+    };
+
+    static std::string in_line(std::size_t number, const std::string& error) {
+        return "line " + std::to_string(number) + ": " + error;
+    }
+
+    std::string read_face(std::string_view line, std::size_t number) {
+        face_.clear();
+        bool known = true;
+        for (std::string_view word = next_word(line); !word.empty(); word = next_word(line)) {
+            std::uint32_t corner = 0;
+            if (std::string error = read_corner(word, mesh_.vertices.size(), corner); !error.empty()) {
+                return error;
+            }
+            known = known && corner < mesh_.vertices.size();
+            face_.push_back(corner);
+        }
+        if (face_.size() < 3) {
+            return "a face needs at least three corners";
+        }
+        if (known) {
+            return add_face(face_);
+        }
+        early_.push_back({early_corners_.size(), number});
+        early_corners_.insert(early_corners_.end(), face_.begin(), face_.end());
+        return {};
+    }
+
+    std::string add_face(std::span<const std::uint32_t> face) {
+        for (const std::uint32_t corner : face) {
+            if (corner >= mesh_.vertices.size()) {
+                return "vertex " + std::to_string(std::uint64_t{corner} + 1) + " does not exist: there are " +
+                       std::to_string(mesh_.vertices.size());
+            }
+        }
+        if (!add_polygon(mesh_.vertices, face, work_, mesh_.triangles)) {
+            return "faces of many corners would take too long to cut into triangles: export the mesh with "
+                   "triangles";
+        }
+        if (mesh_.triangles.size() > limits_.triangles) {
+            return "more than " + std::to_string(limits_.triangles) +
+                   " triangles: split the mesh into several";
+        }
+        return {};
+    }
+
+    const ObjLimits& limits_;
+    TriangleMesh mesh_;
+    std::int64_t work_;
+    std::vector<std::uint32_t> face_;
+    std::vector<EarlyFace> early_;
+    std::vector<std::uint32_t> early_corners_;
+};
 
 }  // namespace
 
-ObjResult read_obj_text(std::string_view text) {
-    ObjResult result;
-    for (std::size_t number = 1; !text.empty(); ++number) {
-        std::string_view line = next_line(text);
-        const std::string_view keyword = next_word(line);
-        std::string error;
-        if (keyword == "v") {
-            error = read_vertex(line, result.mesh);
-        } else if (keyword == "f") {
-            error = read_face(line, result.mesh);
-        }
-        if (!error.empty()) {
-            return {{}, "line " + std::to_string(number) + ": " + error};
-        }
-    }
-    return result;
+ObjResult read_obj_text(std::string_view text, const ObjLimits& limits) {
+    return Reader(limits).read(text);
 }
 
 }  // namespace tactus

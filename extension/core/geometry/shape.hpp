@@ -40,19 +40,21 @@ struct ConvexHullShape {
     std::shared_ptr<const TriangleMesh> hull;  // closed surface of the hull
 };
 
-// Any triangles: closed or open, touched from both sides.
+// Any triangles: closed or open, touched from both sides, or, where they are closed, from outside only.
 struct MeshShape {
     std::shared_ptr<const TriangleMesh> mesh;
     // Force shading: facets that meet at less than this give the force one smoothly turning direction (unit:
     // radians, 0 to pi); 0: the force is that of the facets.
     double smooth_below = 0.0;
+    bool one_sided = false;
 };
 
 // Heights over a grid in x-z, centred on the origin, z-major: heights[row * columns + column].
 struct HeightFieldShape {
     std::uint32_t columns = 0;  // samples along x, >= 2
     std::uint32_t rows = 0;     // samples along z, >= 2
-    Vec3 scale{1.0};            // spacing in x and z, factor on the heights in y
+    // Spacing in x (negative: mirrored) and z (unit: meters), factor on the heights in y.
+    Vec3 scale{1.0};
     std::shared_ptr<const std::vector<float>> heights;
 };
 

@@ -135,26 +135,27 @@ SolidDistance distance_to_solid(const Solid& solid, const Vec3& point) {
     return std::visit([&](const auto& shape) { return distance_to(shape, point); }, solid);
 }
 
-double sweep_to_solid(const Solid& solid, const Vec3& start, const Vec3& motion, double distance,
-                      double slack, double limit) {
-    constexpr int most_iterations = 48;
-    double t = 0.0;
-    for (int i = 0; i < most_iterations; ++i) {
-        const SolidDistance at = distance_to_solid(solid, start + motion * t);
-        const double rate = glm::dot(at.normal, motion);
-        if (rate >= 0.0) {
-            return 2.0 * limit + 1.0;
+Hit sweep_to_solid(const Solid& solid, const SphereWay& way, double limit, WorkBudget& work) {
+    constexpr int max_iterations = 48;
+    Hit hit;
+    hit.found = true;
+    hit.t = 0.0;
+    for (int i = 0; i < max_iterations; ++i) {
+        work.spend(cost::solid_look);
+        const SolidDistance at = distance_to_solid(solid, way.start + way.motion * hit.t);
+        const double rate = glm::dot(at.normal, way.motion);
+        const double gap = at.distance - way.distance;
+        if (rate < 0.0 && gap <= way.slack) {
+            return hit;
         }
-        const double gap = at.distance - distance;
-        if (gap <= slack) {
-            return t;
-        }
-        t -= gap / rate;
-        if (!(t <= limit)) {
-            return 2.0 * limit + 1.0;
+        hit.t = rate < 0.0 ? hit.t - gap / rate : limit;
+        if (rate >= 0.0 || !(hit.t <= limit)) {
+            hit.t = limit;
+            hit.found = false;
+            return hit;
         }
     }
-    return t;
+    return hit;
 }
 
 double bounding_radius(const Solid& solid) {

@@ -6,8 +6,10 @@
 #include <array>
 #include <variant>
 
+#include "core/geometry/hit.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/surface_end.hpp"
+#include "core/geometry/work.hpp"
 
 namespace tactus {
 
@@ -28,10 +30,8 @@ struct SolidDistance {
 
 SolidDistance distance_to_solid(const Solid& solid, const Vec3& point);
 
-// The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of the solid, or
-// a value above `limit`. Same rules as sweep_to_triangles.
-double sweep_to_solid(const Solid& solid, const Vec3& start, const Vec3& motion, double distance,
-                      double slack, double limit);
+// Where the solid stops the sphere at t <= limit. Same rules as sweep_to_triangles.
+Hit sweep_to_solid(const Solid& solid, const SphereWay& way, double limit, WorkBudget& work);
 
 // Radius of the ball around the solid's own origin that holds it; infinite for a half-space.
 double bounding_radius(const Solid& solid);

@@ -47,7 +47,13 @@ struct Check {
         if (!(m.smooth_below >= 0.0 && m.smooth_below <= 3.1416)) {
             return "the angle below which facets are smoothed is not between 0 and 180 degrees: set it so";
         }
-        return m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
+        std::string error = m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
+        if (error.empty() && m.one_sided && !is_closed(*m.mesh)) {
+            error =
+                "the mesh is to be touched from outside only, but it has no inside: close its holes and "
+                "turn all its triangles alike, or let it be touched from both sides";
+        }
+        return error;
     }
     std::string operator()(const HeightFieldShape& f) const {
         const bool sized = f.columns >= 2 && f.rows >= 2 && f.heights &&
@@ -56,11 +62,16 @@ struct Check {
             return "the height field needs at least 2 x 2 samples and as many heights as samples: set its "
                    "size and data";
         }
-        if (!is_length(f.scale.x) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
-            return "the height field's spacing is not a positive length: set its scale above 0 m";
+        if (f.heights->size() > 0x1000'0000u) {
+            return "the height field has more than 268,435,456 samples: split it into several bodies";
         }
-        const bool finite = std::ranges::all_of(*f.heights, [](float h) { return std::isfinite(h); });
-        return finite ? "" : "a height of the height field is not a finite number: repair its data";
+        if (!is_length(std::abs(f.scale.x)) || !is_length(f.scale.z) || !std::isfinite(f.scale.y)) {
+            return "the height field's spacing is not a length: set its scale above 0 m";
+        }
+        const bool finite = std::ranges::all_of(
+            *f.heights, [&](float h) { return std::abs(f.scale.y * static_cast<double>(h)) <= 1e9; });
+        return finite ? ""
+                      : "a height of the height field is not a finite number within 1e9 m: repair its data";
     }
 };
 
@@ -68,7 +79,8 @@ TouchPart with_tree(const Pose& pose, const TriangleMesh& mesh, const ParallelRu
     auto tree = std::make_shared<TriangleTree>(TriangleTree::build(mesh, run));
     const Vec3 center = tree->center();
     const double radius = tree->radius();
-    return {pose, std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius, nullptr};
+    return {pose,           std::shared_ptr<const TriangleTree>(std::move(tree)), center, radius, nullptr,
+            is_closed(mesh)};
 }
 
 struct Compile {
@@ -78,6 +90,7 @@ struct Compile {
     TouchPart operator()(const ConvexHullShape& h) const { return with_tree(pose, *h.hull, run); }
     TouchPart operator()(const MeshShape& m) const {
         TouchPart part = with_tree(pose, *m.mesh, run);
+        part.one_sided = m.one_sided && part.closed;
         if (m.smooth_below > 0.0) {
             part.smooth_normals =
                 std::make_shared<const std::vector<CornerNormals>>(smooth_normals(*m.mesh, m.smooth_below));
@@ -102,6 +115,13 @@ bool is_sound(const Pose& pose) {
 
 }  // namespace
 
+bool is_deformation(const TouchShape& from, const TouchShape& to) {
+    return std::ranges::equal(from.parts, to.parts, [](const TouchPart& p, const TouchPart& q) {
+        return p.tree() && q.tree() && q.tree()->is_refit_of(*p.tree()) &&
+               p.pose.position == q.pose.position && p.pose.rotation == q.pose.rotation;
+    });
+}
+
 TriangleMesh height_field_mesh(const HeightFieldShape& field) {
     TriangleMesh mesh;
     mesh.vertices.reserve(std::size_t{field.columns} * field.rows);
@@ -114,11 +134,15 @@ TriangleMesh height_field_mesh(const HeightFieldShape& field) {
         }
     }
     mesh.triangles.reserve(2 * std::size_t{field.columns - 1} * (field.rows - 1));
+    const bool mirrored = field.scale.x < 0.0;
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        mesh.triangles.push_back(mirrored ? std::array{a, c, b} : std::array{a, b, c});
+    };
     for (std::uint32_t z = 0; z + 1 < field.rows; ++z) {
         for (std::uint32_t x = 0; x + 1 < field.columns; ++x) {
             const std::uint32_t corner = z * field.columns + x;
-            mesh.triangles.push_back({corner, corner + field.columns, corner + 1});
-            mesh.triangles.push_back({corner + 1, corner + field.columns, corner + field.columns + 1});
+            add(corner, corner + field.columns, corner + 1);
+            add(corner + 1, corner + field.columns, corner + field.columns + 1);
         }
     }
     return mesh;

@@ -21,7 +21,9 @@ struct TouchPart {
     Vec3 center{0.0};     // of a ball that holds the part, in the part's frame (unit: meters)
     double radius = 0.0;  // of that ball; infinite for a half-space (unit: meters)
     std::shared_ptr<const std::vector<CornerNormals>>
-        smooth_normals;  // by triangle of the mesh; null: facets
+        smooth_normals;      // by triangle of the mesh; null: facets
+    bool closed = false;     // a mesh that bounds a solid (see is_closed)
+    bool one_sided = false;  // of closed meshes: touched from outside only; what is inside is let out
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);
@@ -37,6 +39,10 @@ struct TouchShape {
     double reach = 0.0;
 };
 
+// True where both are made of the same meshes at the same places and only corners have moved: what touches
+// the one can be swept against the way to the other (see DeformSweep).
+bool is_deformation(const TouchShape& from, const TouchShape& to);
+
 struct TouchShapeResult {
     std::shared_ptr<const TouchShape> shape;  // null where there is an error
     std::string error;                        // what is wrong and what to do
@@ -46,7 +52,8 @@ struct TouchShapeResult {
 TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes,
                                   const ParallelRunner& run = run_serially);
 
-// The surface of a height field as triangles, two a cell, counter-clockwise from above.
+// The surface of a height field as triangles, counter-clockwise from above; each cell is cut from its corner
+// (column + 1, row) to (column, row + 1), as Godot's is.
 TriangleMesh height_field_mesh(const HeightFieldShape& field);
 
 }  // namespace tactus

@@ -7,6 +7,10 @@
 // pieces can leak.
 #pragma once
 
+#include <bit>
+#include <limits>
+
+#include "core/geometry/hit.hpp"
 #include "core/math/lanes.hpp"
 
 namespace tactus {
@@ -126,32 +130,48 @@ inline Lanes least_between(const PackBound& first, const PackBound& last, const 
     return select(first_from > last_from, lowest, lanes_min(last_from, last_to));
 }
 
+// No earlier than this (a share of the way) does a point come within `distance` of a triangle of the pack;
+// infinite where it only moves away. `at` may be tangents from anywhere.
+inline double earliest_below(const PackBound& at, const LanesVec3& from, const LanesVec3& motion,
+                             double distance) {
+    const Lanes zero = splat(0.0);
+    const Lanes gap = least_distances(at, from) - splat(distance);
+    const Lanes rate = dot(at.normal, motion);
+    const Lanes never = splat(std::numeric_limits<double>::infinity());
+    const Lanes later = select(rate < zero, lanes_max(-gap / rate, zero), never);
+    return smallest(select(gap <= zero, zero, later));
+}
+
 // How far the moving point is from being stopped, and how fast that changes.
 struct SweepLook {
     Lanes gap;   // (unit: meters)
     Lanes rate;  // (unit: meters per unit of t)
 };
 
-// What one sweep costs, in looks at a pack.
-constexpr int sweep_work = 4;
+struct PackHit {
+    double t = 0.0;
+    int lane = -1;  // of the triangle that is hit; -1: none
+    int looks = 0;  // at the four distances: what it cost
 
-// The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a triangle of
-// the pack, or a value above `limit` where it does not. Starting within the distance counts at t = 0 when
-// moving closer, not when moving away.
+    bool found() const { return lane >= 0; }
+};
+
+// The earliest t in [0, limit] at which the sphere comes within way.distance (+ way.slack) of a triangle of
+// the pack. Starting within the distance counts at t = 0 when moving closer, not when moving away.
 //
 // Distance to a convex set is a convex function of t. Newton's iterates from the far side therefore never
 // step past the first root: the answer is conservative at every iteration, and a graze that converges slowly
 // ends early, not late.
-inline double sweep_to_triangles(const TrianglePack& triangles, const Vec3& start, const Vec3& motion,
-                                 double distance, double slack, double limit) {
-    constexpr int most_iterations = 28;
-    const LanesVec3 direction = splat(motion);
-    const LanesVec3 origin = splat(start);
+inline PackHit sweep_to_triangles(const TrianglePack& triangles, const SphereWay& way, double limit) {
+    constexpr int max_looks = 30;
+    const LanesVec3 direction = splat(way.motion);
+    const LanesVec3 origin = splat(way.start);
     const Lanes zero = splat(0.0);
+    const Lanes slack = splat(way.slack);
     const auto look = [&](const Lanes& t) {
         const PackOffset at = offset_from_triangles(triangles, along(origin, direction, t));
         const Lanes length = lanes_sqrt(lanes_max(at.squared, splat(1e-300)));
-        return SweepLook{length - splat(distance), dot(at.offset, direction) / length};
+        return SweepLook{length - splat(way.distance), dot(at.offset, direction) / length};
     };
     // Most triangles are only passed by: from both ends of the way, the tangents of a convex function leave
     // no room for a hit between them.
@@ -159,24 +179,29 @@ inline double sweep_to_triangles(const TrianglePack& triangles, const Vec3& star
     const SweepLook last = look(splat(limit));
     const Lanes crossing = (first.gap - last.gap + last.rate * splat(limit)) / (last.rate - first.rate);
     const Lanes lowest = select(last.rate > zero, first.gap + first.rate * crossing, last.gap);
-    LaneMask open = (first.rate < zero) & ~(lanes_min(lowest, first.gap) > splat(slack));
+    LaneMask open = (first.rate < zero) & ~(lanes_min(lowest, first.gap) > slack);
 
-    const Lanes never = splat(2.0 * limit + 1.0);
-    Lanes hit = select(open & (first.gap <= splat(slack)), zero, never);
-    open &= first.gap > splat(slack);
+    const Lanes never = splat(std::numeric_limits<double>::infinity());
+    Lanes hit = select(open & (first.gap <= slack), zero, never);
+    open &= first.gap > slack;
     Lanes t = select(open, -first.gap / first.rate, zero);
     open &= t <= splat(limit);
-    for (int i = 0; i < most_iterations && any(open); ++i) {
+    int looks = 2;
+    for (; looks < max_looks && any(open); ++looks) {
         const SweepLook at = look(t);
         const LaneMask approaching = at.rate < zero;
-        const LaneMask reached = open & approaching & (at.gap <= splat(slack));
+        const LaneMask reached = open & approaching & (at.gap <= slack);
         hit = select(reached, t, hit);
         open &= approaching & ~reached;
         t = select(open, t - at.gap / at.rate, t);
         open &= t <= splat(limit);
     }
     hit = select(open, t, hit);
-    return smallest(hit);
+    const double earliest = smallest(hit);
+    if (!(earliest <= limit)) {
+        return {0.0, -1, looks};
+    }
+    return {earliest, std::countr_zero(lane_bits(hit == splat(earliest))), looks};
 }
 
 }  // namespace tactus

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 namespace tactus {
@@ -13,66 +14,13 @@ namespace {
 // behind.
 constexpr int stack_size = 24 * (node_width - 1) + 1;
 
-struct Pending {
-    std::uint32_t node;
-    float key;  // what the search prunes by: squared distance, or entry parameter
-};
-
-// Children in the order of their keys, nearest on top of the stack; `left_out` follows the least key of those
-// beyond the bound.
-template <class Visit>
-void push_sorted(const BoxNode& node, FloatLanes keys, float bound, const BoxNode* nodes,
-                 const TrianglePack* packs, Pending* stack, int& depth, float& left_out, Visit&& leaf) {
-    Pending near[node_width];
-    int count = 0;
-    for (int i = 0; i < node_width; ++i) {
-        if (!(keys[i] <= bound)) {
-            left_out = std::min(left_out, keys[i]);
-            continue;
-        }
-        int place = count++;
-        while (place > 0 && near[place - 1].key < keys[i]) {
-            near[place] = near[place - 1];
-            --place;
-        }
-        near[place] = {node.child[i], keys[i]};
-        if (node.child[i] & BoxNode::leaf_bit) {
-            fetch_early(&packs[node.child[i] & ~BoxNode::leaf_bit], sizeof(TrianglePack));
-        } else {
-            fetch_early(&nodes[node.child[i]], sizeof(BoxNode));
-        }
-    }
-    // Leaves are answered at once, nearest first: they tighten the bound before any deeper node is opened.
-    for (int i = count - 1; i >= 0; --i) {
-        if (near[i].node & BoxNode::leaf_bit) {
-            leaf(near[i]);
-        }
-    }
-    for (int i = 0; i < count; ++i) {
-        if (!(near[i].node & BoxNode::leaf_bit)) {
-            stack[depth++] = near[i];
-        }
-    }
-}
-
-// At most the largest float, so that no bound ever takes in the infinite distance of unused slots.
-float square_up(double value) {
-    const double squared = value * value * (1.0 + 1e-6);
-    return static_cast<float>(std::min(squared, 3.4e38));
-}
-
-float inverse_for_slabs(double motion) {
-    constexpr double tiny = 1e-30;
-    return static_cast<float>(1.0 / (std::abs(motion) < tiny ? std::copysign(tiny, motion) : motion));
-}
-
 }  // namespace
 
-// Rounding a coordinate difference to float errs by at most 2^-24 of its operands; three axes and the
-// rounding of the query point itself stay below four times that.
+// A query point is rounded to float by at most 2^-24 of itself, its difference to a box side by 2^-24 of
+// both; sqrt(3) for three axes. What is relative to the distance is taken off where distances are compared.
 double TriangleTree::float_slack(const Vec3& relative) const {
     const double largest = std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)});
-    return 4.0 * 0x1p-23 * (largest + extent_);
+    return 1.75 * 0x1p-24 * (2.0 * largest + extent_);
 }
 
 FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const Vec3& point,
@@ -109,106 +57,78 @@ FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const V
     return found;
 }
 
-NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
+NearestTriangle TriangleTree::nearest(const Vec3& point, double far, WorkBudget& work) const {
     double least;
-    return search(point, far, 1.0, least);
+    return search(point, far, 1.0, least, work);
+}
+
+NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
+    WorkBudget unlimited(std::numeric_limits<std::int64_t>::max());
+    return nearest(point, far, unlimited);
 }
 
 double TriangleTree::least_distance(const Vec3& point) const {
     double least;
-    search(point, 1e30, 0.5, least);
+    WorkBudget unlimited(std::numeric_limits<std::int64_t>::max());
+    search(point, 1e30, 0.5, least, unlimited);
     return least;
 }
 
 // The nearest triangle among those found when only what may be nearer than `share` of the nearest so far is
 // opened. `least` is a lower bound of all distances.
-NearestTriangle TriangleTree::search(const Vec3& point, double far, double share, double& least) const {
+NearestTriangle TriangleTree::search(const Vec3& point, double far, double share, double& least,
+                                     WorkBudget& work) const {
     NearestTriangle nearest{far};
-    const Vec3 relative = point - origin_;
-    const double slack = float_slack(relative);
-    const FloatPoint at = to_float_point(relative);
     const LanesVec3 exact = splat(point);
-    float left_out = std::numeric_limits<float>::infinity();
-
-    auto bound = [&] { return square_up(share * nearest.distance + slack); };
-    auto leaf = [&](const Pending& item) {
-        if (!(item.key <= bound())) {
-            left_out = std::min(left_out, item.key);
-            return;
-        }
-        const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
-        const double distance = std::sqrt(smallest(offset_from_triangles(packs_[index], exact).squared));
+    double limit = share * far;
+    const double outside = visit_near(point, limit, work, [&](std::uint32_t pack) {
+        work.spend(cost::pack_look);
+        const double distance = std::sqrt(smallest(offset_from_triangles(packs_[pack], exact).squared));
         if (distance < nearest.distance) {
-            nearest = {distance, index};
+            nearest = {distance, pack};
+            limit = share * distance;
         }
-    };
-
-    Pending stack[stack_size];
-    int depth = 0;
-    stack[depth++] = {0, 0.0f};
-    while (depth > 0) {
-        const Pending item = stack[--depth];
-        const float limit = bound();
-        if (!(item.key <= limit)) {
-            left_out = std::min(left_out, item.key);
-            continue;
-        }
-        const BoxNode& node = nodes_[item.node];
-        push_sorted(node, squared_distance_to_boxes(node, at), limit, nodes_.data(), packs_.get(), stack,
-                    depth, left_out, leaf);
-    }
-    const double outside = std::sqrt(static_cast<double>(left_out)) * (1.0 - 1e-6) - slack;
-    least = std::max(0.0, std::min(nearest.distance, outside));
+    });
+    nearest.complete = outside >= limit;
+    least = std::min(nearest.distance, outside);
     return nearest;
 }
 
-double TriangleTree::sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit,
-                           Work& work) const {
-    const Vec3 relative = start - origin_;
-    const Vec3 end = relative + motion * limit;
-    const double rounding = std::max(float_slack(relative), float_slack(end));
-    const float margin = static_cast<float>((distance + slack + rounding) * (1.0 + 1e-6));
-    const FloatRay ray{to_float_point(relative),
-                       {splat_float(inverse_for_slabs(motion.x)), splat_float(inverse_for_slabs(motion.y)),
-                        splat_float(inverse_for_slabs(motion.z))}};
-    double best = limit;
-    bool found = false;
-    float left_out = 0.0f;  // nobody asks
-    auto bound = [&] { return static_cast<float>(best * (1.0 + 1e-6)); };
-    auto leaf = [&](const Pending& item) {
-        if (!(item.key <= bound())) {
-            return;
-        }
-        const TrianglePack& triangles = packs_[item.node & ~BoxNode::leaf_bit];
-        work -= sweep_work;
-        const double t = sweep_to_triangles(triangles, start, motion, distance, slack, best);
-        if (t <= best) {
-            best = t;
-            found = true;
-        }
-    };
-
-    Pending stack[stack_size];
-    int depth = 0;
-    stack[depth++] = {0, 0.0f};
-    while (depth > 0) {
-        const Pending item = stack[--depth];
-        const float reach = bound();
-        if (!(item.key <= reach)) {
-            continue;
-        }
-        if (--work <= 0) {  // nothing that is left is entered before the first of those pending
-            double free = std::min(best, static_cast<double>(item.key));
-            for (int i = 0; i < depth; ++i) {
-                free = std::min(free, static_cast<double>(stack[i].key));
+Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) const {
+    const Vec3 start = way.start - origin_;
+    const Vec3 end = start + way.motion * limit;
+    const double rounding = std::max(float_slack(start), float_slack(end));
+    const double reach = way.distance + way.slack + rounding;
+    // The rate at which a box is neared errs by the rounding of its few operations, and by the angle by which
+    // a rounded offset of at least `distance` is turned.
+    const double blur = glm::length(way.motion) * (1e-6 + 2.0 * rounding / way.distance);
+    const FloatWay boxes{to_float_point(start),      to_float_point(end),
+                         to_float_point(way.motion), static_cast<float>(reach * (1.0 + 1e-6)),
+                         static_cast<float>(blur),   static_cast<float>(limit)};
+    Hit hit;
+    hit.t = limit;
+    const auto round_up = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
+    float bound = round_up(limit);
+    const float left_out = visit_best_first(
+        bound, work, [&](const BoxNode& node) { return earliest_meeting(node, boxes); },
+        [&](std::uint32_t pack) {
+            const PackHit met = sweep_to_triangles(packs_[pack], way, hit.t);
+            work.spend(met.looks * cost::pack_look);
+            if (met.found()) {
+                hit.t = met.t;
+                hit.found = true;
+                hit.triangle = pack * lane_count + static_cast<std::uint32_t>(met.lane);
+                bound = round_up(hit.t);
             }
-            return free * (1.0 - 1e-5);
-        }
-        const BoxNode& node = nodes_[item.node];
-        push_sorted(node, entry_into_boxes(node, ray, margin, reach), reach, nodes_.data(), packs_.get(),
-                    stack, depth, left_out, leaf);
+        });
+    const double known = static_cast<double>(left_out) * (1.0 - 1e-6);
+    if (left_out <= bound && known < hit.t) {
+        hit.t = known;
+        hit.found = false;
+        hit.complete = false;
+        hit.triangle = Hit::no_triangle;
     }
-    return found ? best : 2.0 * limit + 1.0;
+    return hit;
 }
 
 std::size_t TriangleTree::bytes() const {

@@ -5,16 +5,22 @@
 // All points and distances are in the mesh's own frame, in metres. Queries allocate nothing.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/geometry/box_node.hpp"
+#include "core/geometry/inside_test.hpp"
 #include "core/geometry/pack_labels.hpp"
 #include "core/geometry/parallel.hpp"
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
+#include "core/geometry/work.hpp"
 
 namespace tactus {
 
@@ -24,6 +30,13 @@ struct FoundPack {
     float distance;
 };
 
+// The square of a length as the boxes compare it, and a little more; at most the largest float, so that no
+// limit ever takes in the infinite distance of unused slots.
+inline float square_up(double value) {
+    const double squared = value * value * (1.0 + 1e-6);
+    return static_cast<float>(std::min(squared, 3.4e38));
+}
+
 struct FoundPacks {
     std::size_t count = 0;  // packs written
     bool complete = true;   // false: there were more than fit
@@ -32,11 +45,8 @@ struct FoundPacks {
 struct NearestTriangle {
     double distance = 0.0;   // `far` where nothing is nearer (unit: meters)
     std::uint32_t pack = 0;  // the pack that holds it; meaningless where nothing is nearer
+    bool complete = true;    // false: the budget was gone before everything nearer was looked at
 };
-
-// What a query may still look at, in packs and nodes: it ends early, on the safe side, where this reaches
-// zero.
-using Work = std::int64_t;
 
 class TriangleTree {
 public:
@@ -46,6 +56,10 @@ public:
     // Moves the boxes and triangles to new corner positions of the same triangles, O(n), keeping the tree's
     // shape.
     void refit(const TriangleMesh& moved, const ParallelRunner& run = run_serially);
+    // The same as another tree: this one may be touched meanwhile.
+    TriangleTree refitted(const TriangleMesh& moved, const ParallelRunner& run = run_serially) const;
+    // True where both hold the same triangles at the same places of the tree, one as it is refitted.
+    bool is_refit_of(const TriangleTree& other) const { return lineage_ == other.lineage_; }
 
     // Every pack with a triangle in the ball around `center`, by its box: cheap, and with some that have
     // none. Their distances are those from `point`.
@@ -55,21 +69,34 @@ public:
         return packs_within(point, reach, point, out);
     }
 
-    // The nearest triangle, looked for up to the distance `far`.
+    // The nearest triangle, looked for up to the distance `far`. Where the budget ends the search, the answer
+    // is not complete: a nearer one may exist.
+    NearestTriangle nearest(const Vec3& point, double far, WorkBudget& work) const;
     NearestTriangle nearest(const Vec3& point, double far) const;
 
     // A lower bound of the distance to the nearest triangle, at least half of it. Cheap from anywhere, where
     // `nearest` must look at every triangle from the centre of a ball.
     double least_distance(const Vec3& point) const;
 
-    // The earliest t in [0, limit] at which start + t * motion comes within `distance` (+ slack) of a
-    // triangle; above `limit` where it does not. See sweep_to_triangles. Where `work` is used up, the answer
-    // is a t up to which the way is known to be free.
-    double sweep(const Vec3& start, const Vec3& motion, double distance, double slack, double limit,
-                 Work& work) const;
+    // Calls visit(pack) for packs that may hold a triangle within `limit` of the point, nearest box first;
+    // visit may lower `limit`. Returns a lower bound of the distances of all packs that were not visited:
+    // below the limit only where the budget was gone.
+    template <class Visit>
+    double visit_near(const Vec3& point, const double& limit, WorkBudget& work, Visit&& visit) const;
+
+    // The first triangle that stops the sphere at t <= limit. See sweep_to_triangles.
+    Hit sweep(const SphereWay& way, double limit, WorkBudget& work) const;
+
+    // How often the surface winds around the point: of use for closed meshes only (see is_closed). Costs
+    // what a ray costs; nothing is allocated. Where `work` is used up, nothing is known.
+    Winding winding(const Vec3& point, WorkBudget& work) const;
 
     const TrianglePack& pack(std::uint32_t index) const { return packs_[index]; }
     void fetch_pack(std::uint32_t index) const { fetch_early(&packs_[index], sizeof(TrianglePack)); }
+    // A triangle is known by its slot in the tree: pack * lane_count + lane.
+    std::uint32_t triangle_at(std::uint32_t slot) const {
+        return labels_[slot / lane_count].triangle[slot % lane_count];
+    }
     // Which triangles of the mesh stand in the lanes of a pack.
     std::span<const std::uint32_t, lane_count> triangle_ids(std::uint32_t pack) const {
         return labels_[pack].triangle;
@@ -88,14 +115,15 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
-    NearestTriangle search(const Vec3& point, double far, double share, double& least) const;
+    bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
+    NearestTriangle search(const Vec3& point, double far, double share, double& least,
+                           WorkBudget& work) const;
+    template <class Keys, class Visit>
+    float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;
     void place_features(const TriangleMesh& mesh, const ParallelRunner& run);
     void place_triangles(const TriangleMesh& mesh, const ParallelRunner& run);
     void forget_sides(const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
-    std::uint32_t triangle_at(std::uint32_t slot) const {
-        return labels_[slot / lane_count].triangle[slot % lane_count];
-    }
 
     std::vector<BoxNode> nodes_;             // parents before children
     std::unique_ptr<TrianglePack[]> packs_;  // as many as labels_
@@ -105,8 +133,111 @@ private:
     double extent_ = 0.0;  // largest distance of a box side from the origin along an axis
     double magnitude_ = 0.0;
     std::size_t triangle_count_ = 0;
+    std::uint64_t lineage_ = 0;  // another one for each build
 
+    friend class DeformSweep;
     friend class TriangleTreeBuilder;
 };
+
+// A queue of nodes and packs, least key first. What does not fit is left out, and its key remembered.
+class VisitQueue {
+public:
+    struct Entry {
+        float key;
+        std::uint32_t node;
+    };
+
+    bool is_empty() const { return count_ == 0; }
+    // False where there is no room.
+    bool push(const Entry& entry) {
+        if (count_ == capacity) {
+            return false;
+        }
+        std::size_t at = count_++;
+        for (; at > 0 && entry.key < entries_[(at - 1) / 2].key; at = (at - 1) / 2) {
+            entries_[at] = entries_[(at - 1) / 2];
+        }
+        entries_[at] = entry;
+        return true;
+    }
+    Entry pop() {
+        const Entry top = entries_[0];
+        const Entry last = entries_[--count_];
+        std::size_t at = 0;
+        for (std::size_t child = 1; child < count_; child = 2 * at + 1) {
+            child += child + 1 < count_ && entries_[child + 1].key < entries_[child].key;
+            if (!(entries_[child].key < last.key)) {
+                break;
+            }
+            entries_[at] = entries_[child];
+            at = child;
+        }
+        entries_[at] = last;
+        return top;
+    }
+
+private:
+    static constexpr std::size_t capacity = 768;
+    std::array<Entry, capacity> entries_;
+    std::size_t count_ = 0;
+};
+
+// Opens nodes in the order of their keys, so that whatever the budget leaves over lies beyond everything that
+// was seen. Returns a lower bound of the keys of all packs that were not visited.
+template <class Keys, class Visit>
+float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const {
+    VisitQueue queue;
+    queue.push({0.0f, 0});
+    FloatLanes beyond = splat_float(__builtin_inff());
+    float left_out = __builtin_inff();
+    while (!queue.is_empty()) {
+        const VisitQueue::Entry entry = queue.pop();
+        if (!(entry.key <= limit) || work.is_gone()) {
+            left_out = std::min(left_out, entry.key);
+            break;
+        }
+        if (entry.node & BoxNode::leaf_bit) {
+            visit(entry.node & ~BoxNode::leaf_bit);
+            continue;
+        }
+        work.spend(cost::box_node);
+        const BoxNode& node = nodes_[entry.node];
+        const FloatLanes key = keys(node);
+        const auto within = key <= splat_float(limit);
+        beyond = within ? beyond : box_detail::least(beyond, key);
+        for (unsigned bits = lanes_up_to(key, limit); bits != 0; bits &= bits - 1) {
+            const int i = std::countr_zero(bits);
+            const std::uint32_t child = node.child[i];
+            if (child & BoxNode::leaf_bit) {
+                fetch_pack(child & ~BoxNode::leaf_bit);
+            } else {
+                fetch_early(&nodes_[child], sizeof(BoxNode));
+            }
+            if (!queue.push({key[i], child})) {
+                left_out = std::min(left_out, key[i]);
+            }
+        }
+    }
+    for (int i = 0; i < node_width; ++i) {
+        left_out = std::min(left_out, beyond[i]);
+    }
+    return left_out;
+}
+
+template <class Visit>
+double TriangleTree::visit_near(const Vec3& point, const double& limit, WorkBudget& work,
+                                Visit&& visit) const {
+    const Vec3 relative = point - origin_;
+    const double slack = float_slack(relative);
+    const FloatPoint at = to_float_point(relative);
+    float bound = square_up(limit + slack);
+    const float left_out = visit_best_first(
+        bound, work, [&](const BoxNode& node) { return squared_distance_to_boxes(node, at); },
+        [&](std::uint32_t pack) {
+            visit(pack);
+            bound = square_up(limit + slack);
+        });
+    return std::max(0.0, std::sqrt(static_cast<double>(left_out)) * (1.0 - 1e-6) - slack);
+}
 
 }  // namespace tactus

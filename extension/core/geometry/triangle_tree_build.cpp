@@ -3,6 +3,7 @@
 // is the same whatever the number of threads.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -111,10 +112,11 @@ struct BinScale {
     Float4 factor;
 
     explicit BinScale(const Box& centers) : low(centers.low) {
+        constexpr float thin = 1e-30f;  // (unit: meters); the inverse of less may be infinite
         const Float4 size = centers.high - centers.low;
         for (int axis = 0; axis < 4; ++axis) {
             factor[axis] =
-                axis < 3 && size[axis] > 0.0f ? static_cast<float>(bin_count) * 0.9999f / size[axis] : 0.0f;
+                axis < 3 && size[axis] > thin ? static_cast<float>(bin_count) * 0.9999f / size[axis] : 0.0f;
         }
     }
     auto bins_of(Float4 center) const {
@@ -196,14 +198,29 @@ private:
     };
 
     void place_origin(TriangleTree& tree) {
-        // Of all vertices, used or not: any origin will do, the boxes only lose precision far from it.
-        Vec3 low(std::numeric_limits<double>::infinity());
-        Vec3 high(-std::numeric_limits<double>::infinity());
-        for (const Vec3& vertex : mesh_.vertices) {
-            low = glm::min(low, vertex);
-            high = glm::max(high, vertex);
+        // The middle of the corners, not of the vertices: one that no triangle uses may be anywhere.
+        struct Extent {
+            Vec3 low{std::numeric_limits<double>::infinity()};
+            Vec3 high{-std::numeric_limits<double>::infinity()};
+        };
+        const std::size_t count = mesh_.triangles.size();
+        std::vector<Extent> partial((count + chunk - 1) / chunk);
+        run_in_parts(run_, count, chunk, [&](std::size_t part, std::size_t i, std::size_t end) {
+            Extent extent;
+            for (; i < end; ++i) {
+                for (const std::uint32_t corner : mesh_.triangles[i]) {
+                    extent.low = glm::min(extent.low, mesh_.vertices[corner]);
+                    extent.high = glm::max(extent.high, mesh_.vertices[corner]);
+                }
+            }
+            partial[part] = extent;
+        });
+        Extent all;
+        for (const Extent& part : partial) {
+            all.low = glm::min(all.low, part.low);
+            all.high = glm::max(all.high, part.high);
         }
-        tree.origin_ = 0.5 * (low + high);
+        tree.origin_ = 0.5 * (all.low + all.high);
         origin_ = tree.origin_;
     }
 
@@ -531,7 +548,10 @@ void TriangleTree::place_features(const TriangleMesh& mesh, const ParallelRunner
 }
 
 TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner& run) {
-    return TriangleTreeBuilder(mesh, run).build();
+    static std::atomic<std::uint64_t> last_lineage{0};
+    TriangleTree tree = TriangleTreeBuilder(mesh, run).build();
+    tree.lineage_ = ++last_lineage;
+    return tree;
 }
 
 }  // namespace tactus

@@ -130,6 +130,17 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
     magnitude_ = all.magnitude;
 }
 
+TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {
+    TriangleTree tree;
+    tree.nodes_ = nodes_;
+    tree.labels_ = labels_;
+    tree.origin_ = origin_;
+    tree.triangle_count_ = triangle_count_;
+    tree.lineage_ = lineage_;
+    tree.refit(moved, run);
+    return tree;
+}
+
 void TriangleTree::forget_sides(const ParallelRunner& run) {
     run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
         for (; p < end; ++p) {

@@ -13,18 +13,34 @@ namespace tactus {
 
 namespace {
 
-static_assert(ContactList::capacity <= most_halfspaces);
+static_assert(ContactList::capacity <= max_halfspaces);
 
-using HalfSpaces = std::array<HalfSpace, ContactList::capacity>;
+// The contacts that count, as the solver takes them.
+struct HalfSpaces {
+    std::array<HalfSpace, ContactList::capacity> planes;
+    std::array<int, ContactList::capacity> contact;  // which each one is
+    std::size_t count = 0;
+
+    explicit HalfSpaces(const ContactList& contacts) {
+        for (int i = 0; i < contacts.count; ++i) {
+            if (contacts[i].state != ContactState::covered) {
+                planes[count] = {contacts[i].normal, -contacts[i].gap};
+                contact[count++] = i;
+            }
+        }
+    }
+    std::span<HalfSpace> all() { return {planes.data(), count}; }
+};
 
 const Contact& pressing(const ContactList& contacts, const ConstrainedStep& step, int i) {
-    return contacts.items[static_cast<std::size_t>(step.pressing[i])];
+    return contacts[step.pressing[i]];
 }
 
 // How far along the unit vector `direction` the bends of the contact are true.
-double belief(const ContactList& contacts, const Contact& contact, const Vec3& direction) {
+double belief(const Curvature& curvature, const Vec3& direction) {
     double shortest = std::numeric_limits<double>::infinity();
-    for (const SurfaceEnd& end : contacts.ends_of(contact)) {
+    for (int i = 0; i < curvature.end_count; ++i) {
+        const SurfaceEnd& end = curvature.ends[static_cast<std::size_t>(i)];
         const double approach = glm::dot(end.direction, direction);
         if (approach * shortest > end.room) {
             shortest = end.room / approach;
@@ -59,63 +75,56 @@ double step_along(double pull, double curvature, double radius, double belief) {
     return std::max(pull, std::min(newton, belief));
 }
 
+// A bent surface at a pressing contact.
+struct Bend {
+    Vec3 normal, u, v;
+    double pressure;
+    const Curvature* curvature;
+};
+
 // (sum of pressure * bend) applied to a vector: what the surfaces' curvature takes from the distance's own.
-Vec3 bend_times(const ContactList& contacts, const ConstrainedStep& step, const Vec3& v) {
+Vec3 bend_times(std::span<const Bend> bends, const Vec3& x) {
     Vec3 result(0.0);
-    for (int i = 0; i < step.pressing_count; ++i) {
-        const Contact& contact = pressing(contacts, step, i);
-        const Vec3 w = glm::cross(contact.normal, contact.u);
-        result += step.pressure[i] *
-                  (contact.bend_u * glm::dot(contact.u, v) * contact.u + contact.bend_v * glm::dot(w, v) * w);
+    for (const Bend& b : bends) {
+        result += b.pressure * (b.curvature->bend_u * glm::dot(b.u, x) * b.u +
+                                b.curvature->bend_v * glm::dot(b.v, x) * b.v);
     }
     return result;
 }
 
-bool bends(const ContactList& contacts, const ConstrainedStep& step) {
-    for (int i = 0; i < step.pressing_count; ++i) {
-        const Contact& contact = pressing(contacts, step, i);
-        if (contact.bend_u > 0.0 || contact.bend_v > 0.0) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // One contact: its principal directions are independent of each other.
-Vec3 step_on_surface(const Vec3& pull, const ContactList& contacts, const Contact& contact, double pressure,
-                     double least) {
-    const Vec3 v = glm::cross(contact.normal, contact.u);
+Vec3 step_on_surface(const Vec3& pull, const Bend& at, double least, double trust) {
     const auto along = [&](const Vec3& axis, double bend) {
         const double wanted = glm::dot(axis, pull);
         const Vec3 direction = wanted < 0.0 ? -axis : axis;
         if (std::abs(wanted) <= least || bend <= 0.0) {
             return std::abs(wanted) <= least ? Vec3(0.0) : axis * wanted;
         }
-        return direction * step_along(std::abs(wanted), 1.0 - pressure * bend, 1.0 / bend,
-                                      belief(contacts, contact, direction));
+        return direction * step_along(std::abs(wanted), 1.0 - at.pressure * bend, 1.0 / bend,
+                                      std::min(trust, belief(*at.curvature, direction)));
     };
-    if (contact.bend_u == contact.bend_v) {  // a corner, a ball: any direction is principal
-        const Vec3 across = contact.u * glm::dot(contact.u, pull) + v * glm::dot(v, pull);
+    if (at.curvature->bend_u == at.curvature->bend_v) {  // a corner, a ball: any direction is principal
+        const Vec3 across = at.u * glm::dot(at.u, pull) + at.v * glm::dot(at.v, pull);
         const double length = glm::length(across);
-        return length > 0.0 ? along(across / length, contact.bend_u) : Vec3(0.0);
+        return length > 0.0 ? along(across / length, at.curvature->bend_u) : Vec3(0.0);
     }
-    return along(contact.u, contact.bend_u) + along(v, contact.bend_v);
+    return along(at.u, at.curvature->bend_u) + along(at.v, at.curvature->bend_v);
 }
 
 // Two contacts: along the line that both leave free. `base` meets both planes.
-Vec3 step_on_line(const Vec3& pull, const ContactList& contacts, const ConstrainedStep& flat,
-                  const Vec3& line, const Vec3& base, double least) {
-    const double wanted = glm::dot(line, pull - base + bend_times(contacts, flat, base));
+Vec3 step_on_line(const Vec3& pull, std::span<const Bend, 2> bends, const Vec3& line, const Vec3& base,
+                  double least, double trust) {
+    const double wanted = glm::dot(line, pull - base + bend_times(bends, base));
     const Vec3 direction = wanted < 0.0 ? -line : line;
     if (std::abs(wanted) <= least) {
         return Vec3(0.0);
     }
-    const double curvature = 1.0 - glm::dot(direction, bend_times(contacts, flat, direction));
-    const Contact& p = pressing(contacts, flat, 0);
-    const Contact& q = pressing(contacts, flat, 1);
+    const double curvature = 1.0 - glm::dot(direction, bend_times(bends, direction));
+    const Curvature& p = *bends[0].curvature;
+    const Curvature& q = *bends[1].curvature;
     const double radius = 1.0 / std::max({p.bend_u, p.bend_v, q.bend_u, q.bend_v});
     return direction * step_along(std::abs(wanted), curvature, radius,
-                                  std::min(belief(contacts, p, direction), belief(contacts, q, direction)));
+                                  std::min({trust, belief(p, direction), belief(q, direction)}));
 }
 
 bool is_free(const Vec3& motion, std::span<const HalfSpace> planes, double tolerance) {
@@ -127,14 +136,15 @@ bool is_free(const Vec3& motion, std::span<const HalfSpace> planes, double toler
     return true;
 }
 
-NearestInHalfSpaces nearest_free(const Vec3& pull, std::span<HalfSpace> planes, double tolerance) {
-    NearestInHalfSpaces nearest = nearest_in_halfspaces(pull, planes, tolerance);
+NearestInHalfSpaces nearest_free(const Vec3& pull, std::span<HalfSpace> planes, double tolerance,
+                                 WorkBudget& work) {
+    NearestInHalfSpaces nearest = nearest_in_halfspaces(pull, planes, tolerance, work);
     if (!nearest.feasible) {
         // Contacts a hair below rest in a narrow place: do not try to lift off all of them at once.
         for (HalfSpace& plane : planes) {
             plane.offset = std::min(plane.offset, 0.0);
         }
-        nearest = nearest_in_halfspaces(pull, planes, tolerance);
+        nearest = nearest_in_halfspaces(pull, planes, tolerance, work);
         if (!nearest.feasible) {
             nearest.point = Vec3(0.0);
         }
@@ -142,63 +152,63 @@ NearestInHalfSpaces nearest_free(const Vec3& pull, std::span<HalfSpace> planes, 
     return nearest;
 }
 
-std::span<HalfSpace> half_spaces(const ContactList& contacts, HalfSpaces& storage) {
-    for (std::size_t i = 0; i < contacts.all().size(); ++i) {
-        storage[i] = {contacts.items[i].normal, -contacts.items[i].gap};
-    }
-    return {storage.data(), contacts.all().size()};
-}
-
 }  // namespace
 
-Vec3 lift_to_rest(const ContactList& contacts, double tolerance) {
-    HalfSpaces storage;
-    return nearest_free(Vec3(0.0), half_spaces(contacts, storage), tolerance).point;
+Vec3 lift_to_rest(const ContactList& contacts, double tolerance, WorkBudget& work) {
+    HalfSpaces planes(contacts);
+    return nearest_free(Vec3(0.0), planes.all(), tolerance, work).point;
 }
 
-ConstrainedStep constrained_step(const Vec3& pull, const ContactList& contacts, double tolerance) {
+ConstrainedStep flat_step(const Vec3& pull, const ContactList& contacts, double tolerance, WorkBudget& work) {
     ConstrainedStep step;
     step.motion = pull;
-    if (contacts.count == 0) {
-        return step;
-    }
-    HalfSpaces storage;
-    const std::span<HalfSpace> planes = half_spaces(contacts, storage);
-    const NearestInHalfSpaces nearest = nearest_free(pull, planes, tolerance);
+    HalfSpaces planes(contacts);
+    const NearestInHalfSpaces nearest = nearest_free(pull, planes.all(), tolerance, work);
     step.motion = nearest.point;
     for (int i = 0; i < nearest.active_count; ++i) {
         if (nearest.multiplier[i] > 0.0) {
-            step.pressing[step.pressing_count] = nearest.active[i];
+            step.pressing[step.pressing_count] = planes.contact[static_cast<std::size_t>(nearest.active[i])];
             step.pressure[step.pressing_count++] = nearest.multiplier[i];
         }
     }
     step.slide = along_surfaces(nearest.point, contacts, step);
     step.drop = nearest.point - step.slide;
-    if (step.pressing_count == 0 || step.pressing_count == 3 || !bends(contacts, step)) {
-        return step;
+    return step;
+}
+
+void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& contacts,
+               std::span<const Curvature> curvatures, double tolerance, double trust) {
+    if (curvatures.empty() || std::ranges::all_of(curvatures, &Curvature::is_flat)) {
+        return;
     }
-    const HalfSpace& p = planes[static_cast<std::size_t>(step.pressing[0])];
+    std::array<Bend, 2> bends;
+    for (int i = 0; i < step.pressing_count; ++i) {
+        const Curvature& curvature = curvatures[static_cast<std::size_t>(i)];
+        const Vec3& normal = pressing(contacts, step, i).normal;
+        bends[static_cast<std::size_t>(i)] = {normal, curvature.u, glm::cross(normal, curvature.u),
+                                              step.pressure[i], &curvature};
+    }
+    const Contact& p = pressing(contacts, step, 0);
     Vec3 curved;
     if (step.pressing_count == 1) {
-        curved = p.normal * p.offset +
-                 step_on_surface(pull, contacts, pressing(contacts, step, 0), step.pressure[0], tolerance);
+        curved = -p.normal * p.gap + step_on_surface(pull, bends[0], tolerance, trust);
     } else {
-        const HalfSpace& q = planes[static_cast<std::size_t>(step.pressing[1])];
+        const Contact& q = pressing(contacts, step, 1);
         const Vec3 across = glm::cross(p.normal, q.normal);
         const double squared_sine = glm::dot(across, across);
         if (squared_sine < 1e-18) {
-            return step;
+            return;
         }
         const double cosine = glm::dot(p.normal, q.normal);
         const Vec3 base =
-            (p.normal * (p.offset - cosine * q.offset) + q.normal * (q.offset - cosine * p.offset)) /
-            squared_sine;
-        curved = base + step_on_line(pull, contacts, step, across / std::sqrt(squared_sine), base, tolerance);
+            -(p.normal * (p.gap - cosine * q.gap) + q.normal * (q.gap - cosine * p.gap)) / squared_sine;
+        curved = base + step_on_line(pull, bends, across / std::sqrt(squared_sine), base, tolerance, trust);
     }
-    if (is_free(curved, planes, tolerance)) {
+    HalfSpaces planes(contacts);
+    if (is_free(curved, planes.all(), tolerance)) {
         step.motion = curved;
+        step.bent = true;
     }
-    return step;
 }
 
 }  // namespace tactus

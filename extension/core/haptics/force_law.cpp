@@ -9,7 +9,7 @@ namespace tactus {
 namespace {
 
 // Speed at which the hand goes into the surface, seen from the body (unit: meters per second).
-double approach_speed(const TouchBody& body, const Contact& contact, const Vec3& hand_velocity,
+double approach_speed(const TouchBody& body, const Touch& contact, const Vec3& hand_velocity,
                       double seconds) {
     const Vec3 surface_velocity = (contact.point - previous_place(body, contact.point)) / seconds;
     return -glm::dot(hand_velocity - surface_velocity, contact.normal);
@@ -17,14 +17,14 @@ double approach_speed(const TouchBody& body, const Contact& contact, const Vec3&
 
 }  // namespace
 
-HandForce contact_force(const TouchScene& scene, std::span<const Contact> touching, const Vec3& slide,
+HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds) {
     HandForce force;
     double all_pressure = 0.0;
-    for (const Contact& contact : touching) {
+    for (const Touch& contact : touching) {
         all_pressure += contact.pressure;
     }
-    for (const Contact& contact : touching) {
+    for (const Touch& contact : touching) {
         if (force.contact_count == HandForce::most_contacts) {
             break;
         }

@@ -31,7 +31,7 @@ struct HandForce {
 // left along the surfaces) is shared among the contacts by how much each presses. Damping acts against the
 // speed of the hand into the surface, relative to the body, and never pulls. `seconds` is the tick (unit:
 // seconds).
-HandForce contact_force(const TouchScene& scene, std::span<const Contact> touching, const Vec3& slide,
+HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds);
 
 // Eq. 3.3: the mean of what the hand felt before and what it would feel now. The contacts share the change by

@@ -21,7 +21,7 @@ bool violates(const HalfSpace& h, const Vec3& point, double tolerance) {
 // The half-spaces in the order in which they are taken.
 struct Ordered {
     std::span<const HalfSpace> all;
-    std::array<std::uint16_t, most_halfspaces> order;
+    std::array<std::uint16_t, max_halfspaces> order;
 
     int index(int place) const { return order[static_cast<std::size_t>(place)]; }
     const HalfSpace& operator[](int place) const { return all[order[static_cast<std::size_t>(place)]]; }
@@ -32,7 +32,7 @@ struct Ordered {
 
 // Best on the border of both first and second, subject to the half-spaces before second.
 NearestInHalfSpaces nearest_on_line(const Vec3& goal, const Ordered& halfspaces, int first, int second,
-                                    double tolerance) {
+                                    double tolerance, WorkBudget& work) {
     const HalfSpace& p = halfspaces[first];
     const HalfSpace& q = halfspaces[second];
     const Vec3 across = glm::cross(p.normal, q.normal);
@@ -62,6 +62,7 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, const Ordered& halfspaces,
     double high_slope = 0.0;
     int low_plane = -1;
     int high_plane = -1;
+    work.spend(second * cost::half_space);
     for (int k = 0; k < second; ++k) {
         if (k == first) {
             continue;
@@ -104,16 +105,18 @@ NearestInHalfSpaces nearest_on_line(const Vec3& goal, const Ordered& halfspaces,
 }
 
 // Best on the border of `first`, subject to the half-spaces before it.
-NearestInHalfSpaces nearest_on_plane(const Vec3& goal, const Ordered& halfspaces, int first,
-                                     double tolerance) {
+NearestInHalfSpaces nearest_on_plane(const Vec3& goal, const Ordered& halfspaces, int first, double tolerance,
+                                     WorkBudget& work) {
     const HalfSpace& p = halfspaces[first];
     NearestInHalfSpaces best;
     best.point = goal + p.normal * (p.offset - glm::dot(p.normal, goal));
     best.active[0] = halfspaces.index(first);
     best.active_count = 1;
+    work.spend(first * cost::half_space);
     for (int j = 0; j < first && best.feasible; ++j) {
         if (violates(halfspaces[j], best.point, tolerance)) {
-            best = nearest_on_line(goal, halfspaces, first, j, tolerance);
+            best = nearest_on_line(goal, halfspaces, first, j, tolerance, work);
+            best.feasible = best.feasible && !work.is_gone();
         }
     }
     return best;
@@ -149,18 +152,19 @@ void find_multipliers(const Vec3& goal, std::span<const HalfSpace> halfspaces, N
 }  // namespace
 
 NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces,
-                                          double tolerance) {
+                                          double tolerance, WorkBudget& work) {
     NearestInHalfSpaces best;
     best.point = goal;
-    const int count = static_cast<int>(std::min<std::size_t>(halfspaces.size(), most_halfspaces));
+    const int count = static_cast<int>(std::min<std::size_t>(halfspaces.size(), max_halfspaces));
     Ordered ordered;
     ordered.all = halfspaces;
     for (int i = 0; i < count; ++i) {
         ordered.order[static_cast<std::size_t>(i)] = static_cast<std::uint16_t>(i);
     }
+    work.spend(count * cost::half_space);
     for (int i = 0; i < count && best.feasible; ++i) {
         if (violates(ordered[i], best.point, tolerance)) {
-            best = nearest_on_plane(goal, ordered, i, tolerance);
+            best = nearest_on_plane(goal, ordered, i, tolerance, work);
             ordered.move_to_front(i);
         }
     }

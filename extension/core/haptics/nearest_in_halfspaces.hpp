@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 
+#include "core/geometry/work.hpp"
 #include "core/math/types.hpp"
 
 namespace tactus {
@@ -19,10 +20,11 @@ struct NearestInHalfSpaces {
     int active_count = 0;
     // point - goal = sum of multiplier[i] * normal of active[i], each >= 0 (unit: meters)
     double multiplier[3] = {0.0, 0.0, 0.0};
-    bool feasible = true;  // false: the half-spaces have no common point; `point` is then meaningless
+    bool feasible = true;  // false: the half-spaces have no common point, or the budget was gone before one
+                           // was found; `point` is then meaningless
 };
 
-constexpr std::size_t most_halfspaces = 256;  // those beyond are left out
+constexpr std::size_t max_halfspaces = 128;  // those beyond are left out
 
 // Takes the half-spaces one by one (Seidel's incremental method for three dimensions): while the best point
 // so far satisfies the next one nothing changes; otherwise the new best lies on its border, a problem of one
@@ -30,6 +32,6 @@ constexpr std::size_t most_halfspaces = 256;  // those beyond are left out
 // time close to linear in their number. Exact up to rounding, no iteration that could cycle. Violations up to
 // `tolerance` are none.
 NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces,
-                                          double tolerance);
+                                          double tolerance, WorkBudget& work);
 
 }  // namespace tactus

@@ -1,6 +1,7 @@
 #include "core/haptics/nearest_surface.hpp"
 
 #include <glm/geometric.hpp>
+#include <limits>
 
 namespace tactus {
 
@@ -20,7 +21,8 @@ Vec3 normal_of_nearest(const TrianglePack& pack, const Vec3& point) {
 
 }  // namespace
 
-NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& point, double far) {
+NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& point, double far,
+                               WorkBudget& work) {
     NearestSurface nearest{far, {0.0, 1.0, 0.0}};
     const TouchBody& body = scene.body(index);
     for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
@@ -30,17 +32,25 @@ NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& p
             continue;
         }
         if (const TriangleTree* const tree = placed.part->tree()) {
-            const NearestTriangle found = tree->nearest(local, nearest.distance);
+            const NearestTriangle found = tree->nearest(local, nearest.distance, work);
+            nearest.complete = nearest.complete && found.complete;
             if (found.distance < nearest.distance) {
                 const Vec3 normal = normal_of_nearest(tree->pack(found.pack), local);
-                nearest = {found.distance, direction_to_parent(placed.pose, normal)};
+                nearest.distance = found.distance;
+                nearest.normal = direction_to_parent(placed.pose, normal);
             }
         } else if (const SolidDistance at = distance_to_solid(placed.part->solid(), local);
                    at.distance < nearest.distance) {
-            nearest = {at.distance, direction_to_parent(placed.pose, at.normal)};
+            nearest.distance = at.distance;
+            nearest.normal = direction_to_parent(placed.pose, at.normal);
         }
     }
     return nearest;
+}
+
+NearestSurface nearest_surface(const TouchScene& scene, int index, const Vec3& point, double far) {
+    WorkBudget unlimited(std::numeric_limits<std::int64_t>::max());
+    return nearest_surface(scene, index, point, far, unlimited);
 }
 
 }  // namespace tactus

@@ -8,9 +8,11 @@
 
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <span>
 
 #include "core/haptics/constrained_step.hpp"
+#include "core/haptics/letting_out.hpp"
 #include "core/haptics/surroundings.hpp"
 
 namespace tactus {
@@ -18,15 +20,19 @@ namespace tactus {
 struct ProxySettings {
     double radius = 0.01;               // (unit: meters), > 0
     std::uint32_t mask = 0xffff'ffffu;  // layers it touches
-    int most_steps = 64;                // a tick; what is missing then is made up in the next
+    int max_steps = 64;                 // a tick; what is missing then is made up in the next
+    std::int64_t max_work = 40'000;     // a tick (see WorkBudget): below 0.3 ms
 };
 
 enum ProxyStatus : std::uint32_t {
     proxy_absent = 1u << 0,      // the hand is inside a body since the start: no touch until it is out
     proxy_touching = 1u << 1,    // at least one contact holds it back
     proxy_sliding = 1u << 2,     // dynamic friction applies
-    proxy_unfinished = 1u << 3,  // the steps of this tick did not suffice: residual is not small
+    proxy_unfinished = 1u << 3,  // this tick's steps or work did not suffice: residual is not small
     proxy_squeezed = 1u << 4,    // moving bodies leave it no room
+    // A body has come to stand where the proxy is, or has squeezed it: it is not touched until the proxy is
+    // out of it.
+    proxy_letting_out = 1u << 5,
 };
 
 struct ProxyTick {
@@ -35,6 +41,9 @@ struct ProxyTick {
     double residual = 0.0;  // length of the step that would come next (unit: meters)
     std::uint32_t status = 0;
     int steps = 0;
+    // Something else than the motion of the hand and of bodies has changed what is touched since the last
+    // tick: the force may jump (see FadingForce).
+    bool jumped = false;
 };
 
 // Everything of a proxy that its next move depends on, besides the scene.
@@ -43,12 +52,12 @@ struct ProxyMemory {
     bool present = false;
     bool sliding = false;
     Vec3 hand{0.0};  // in the world (unit: meters)
-    ContactList touching;
+    TouchList touching;
 };
 
 class Proxy {
 public:
-    Proxy(std::size_t most_parts, const ProxySettings& settings);
+    Proxy(std::size_t max_parts, const ProxySettings& settings);
 
     void set_settings(const ProxySettings& settings) { settings_ = settings; }
     const ProxySettings& settings() const { return settings_; }
@@ -57,7 +66,7 @@ public:
     ProxyTick move(const TouchScene& scene, const Vec3& hand);
 
     // The contacts that hold the proxy back after the last move, with their pressure.
-    std::span<const Contact> touching() const { return touching_.all(); }
+    std::span<const Touch> touching() const { return touching_.all(); }
     const Vec3& position() const { return position_; }
 
     // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
@@ -78,9 +87,10 @@ public:
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
     // The surface of a body breaks: the proxy goes through it and is held back again once it is clear of it.
+    // False where it goes through too many bodies already.
     bool pass_through(int body) {
         contacts_hold_ = false;
-        return surroundings_.pass_through(body);
+        return surroundings_.passed().pass(body, PassedBecause::broken);
     }
 
     // As if just started: present again as soon as the hand is in a free place.
@@ -91,17 +101,36 @@ public:
     }
 
 private:
+    // What steers the steps of one tick.
+    struct Descent {
+        double beyond = 0.0;   // how far above a surface the last step may have ended (unit: meters)
+        double dropped = 0.0;  // the same, where it led along one
+        double trust = std::numeric_limits<double>::infinity();  // see bend_step (unit: meters)
+        double last_bent = 0.0;  // length of the last bent step (unit: meters)
+        double nearest =
+            std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
+        bool slid = false;
+    };
+
     bool appear();
+    TouchingSphere sphere() const { return {position_, settings_.radius, settings_.mask, touching()}; }
+    bool take_in_jumps();
+    void let_go(bool every);
     void ride_along(ProxyTick& tick);
-    void advance(const Vec3& motion, bool& free, int except = -1);
+    void ride_deformations(ProxyTick& tick);
+    bool ride_deformation(int body);
+    Hit advance(const Vec3& motion, FeatureId& stopped_by, int except = -1);
     int carrier() const;
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, ProxyTick& tick);
+    ConstrainedStep plan(const Vec3& pull, Descent& descent);
+    void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     bool lift();
     void brake(ConstrainedStep& step, double dropped);
     double drop_after(double length) const;
     double friction_limit(const ConstrainedStep& step, double dropped) const;
     void keep_touching(const ConstrainedStep& step);
+    const Tolerances& tolerances() const { return surroundings_.tolerances(); }
 
     ProxySettings settings_;
     Surroundings surroundings_;
@@ -109,10 +138,16 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Vec3 hand_{0.0};  // the last that was a place
+    Vec3 hand_{0.0};       // the last that was a place
+    double stride_ = 0.0;  // how far the last ways were free (unit: meters)
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
-    ContactList touching_;
+    // What the last move has seen.
+    std::uint64_t scene_ticks_ = 0;
+    std::uint64_t revision_ = 0;
+    std::uint64_t material_changes_ = 0;
+    ProxySettings settled_{0.0, 0, 0};
+    TouchList touching_;
 };
 
 }  // namespace tactus

@@ -30,7 +30,7 @@ double pixel(const HeightImage& image, std::int64_t column, std::int64_t row) {
 
 // The relief stores energy like the spring it lies on: U = k (pressure + height)^2 / 2. Its slope pushes the
 // hand downhill, its height away from the surface.
-Vec3 texture_force(const TouchBody& body, const Contact& contact) {
+Vec3 texture_force(const TouchBody& body, const Touch& contact) {
     const TextureSample relief = sample_texture(body.material, to_local(body.pose, contact.point),
                                                 direction_to_local(body.pose, contact.normal));
     const double stiffness = body.material.stiffness;
@@ -41,7 +41,7 @@ Vec3 texture_force(const TouchBody& body, const Contact& contact) {
 
 // A spring to the place where the hand stuck; when it is stretched beyond its force, the hand sticks anew
 // where it is.
-Vec3 stick_slip_force(const TouchBody& body, const Contact& contact, const Vec3& hand, EffectMemory& memory) {
+Vec3 stick_slip_force(const TouchBody& body, const Touch& contact, const Vec3& hand, EffectMemory& memory) {
     if (memory.stuck_body != contact.body) {
         memory = {contact.body, to_local(body.pose, hand)};
     }
@@ -88,11 +88,11 @@ double magnet_pull(const TouchMaterial& material, double gap) {
     return material.magnet_force * std::clamp(1.0 - gap / material.magnet_range, 0.0, 1.0);
 }
 
-void add_surface_effects(const TouchScene& scene, std::span<const Contact> touching, const HandMotion& hand,
+void add_surface_effects(const TouchScene& scene, std::span<const Touch> touching, const HandMotion& hand,
                          Nanoseconds now, double seconds, EffectMemory& memory, HandForce& force) {
     bool sticks = false;
     for (int i = 0; i < force.contact_count; ++i) {
-        const Contact& contact = touching[static_cast<std::size_t>(i)];
+        const Touch& contact = touching[static_cast<std::size_t>(i)];
         const TouchBody& body = scene.body(contact.body);
         const TouchMaterial& material = body.material;
         Vec3 added(0.0);

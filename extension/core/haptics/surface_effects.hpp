@@ -22,7 +22,7 @@ struct HandMotion {
 
 // Adds to each contact of `force` what its material's effects give, and updates the total. `force` is that of
 // the contacts in `touching`, in the same order; `now` and `seconds` are the tick's time and length.
-void add_surface_effects(const TouchScene& scene, std::span<const Contact> touching, const HandMotion& hand,
+void add_surface_effects(const TouchScene& scene, std::span<const Touch> touching, const HandMotion& hand,
                          Nanoseconds now, double seconds, EffectMemory& memory, HandForce& force);
 
 // The pull of a magnetic body on a proxy whose surface is `gap` away from it, along -normal (unit: newtons).

@@ -3,520 +3,322 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "core/geometry/surface.hpp"
 #include "core/haptics/nearest_surface.hpp"
 
 namespace tactus {
 
 namespace {
 
-constexpr std::size_t hood_count = 12;  // meshes near one proxy whose triangles it remembers
-
-// A mesh is remembered this many ticks' travel around the proxy: fewer means gathering more often, more means
-// looking at more packs in between. Chosen by the bench `proxy`.
+// A mesh is remembered this many ticks' travel around the sphere: fewer means gathering more often, more
+// means looking at more packs in between. Chosen by the bench `proxy`.
 constexpr double ticks_remembered = 2.5;
-// Share of that by which its ball is put ahead of the proxy: most ways go on as they began.
+// Share of that by which its ball is put ahead of the sphere: most ways go on as they began.
 constexpr double ahead_share = 0.6;
 
-double largest_length(const Vec3& center, double radius) {
-    return std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z), radius});
+// What is within reach of the nearest surface, or of rest where that is higher.
+double limit_from(double nearest, double rest, double reach, double limit) {
+    return std::min(limit, std::max(rest, nearest) + reach);
 }
 
 }  // namespace
 
-bool Surroundings::is_due_later(const Far& p, const Far& q) {
-    return p.due > q.due;
-}
+Surroundings::Surroundings(std::size_t max_parts)
+    : broad_phase_(max_parts), memories_(std::make_unique<PackMemory[]>(max_memories)) {}
 
-Surroundings::Surroundings(std::size_t most_parts)
-    : records_(most_parts),
-      hoods_(std::make_unique<Neighbourhood[]>(hood_count)),
-      near_triangles_(std::make_unique<NearTriangles>()) {
-    far_.reserve(2 * most_parts + 1);
-    near_.reserve(most_parts);
-    free_hoods_.reserve(hood_count);
-}
-
-bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius,
-                              std::uint32_t mask) {
-    const bool changed = take_in_changes(scene, center, radius, mask);
-    work_left_ = most_work;
-    pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
-    odometer_at_tick_ = odometer_;
-    last_way_ = center - center_at_tick_;
-    center_at_tick_ = center;
-    follow_moved_bodies();
-    return_passed(center);
-    retire_distant_parts();
-    return changed || passed_count_ > 0 || !scene.moved_bodies().empty();
-}
-
-bool Surroundings::take_in_changes(const TouchScene& scene, const Vec3& center, double radius,
-                                   std::uint32_t mask) {
-    const double farthest = largest_length(center, radius);
-    // Bodies may have gone anywhere in ticks without this proxy.
-    const bool missed = scene.ticks() > ticks_ + 1;
-    ticks_ = scene.ticks();
-    const bool other =
-        scene_ != &scene || mask_ != mask || radius_ != radius || farthest > magnitude_ || missed;
-    if (!other && revision_ == scene.revision()) {
-        return false;
-    }
+bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask,
+                              const WorkBudget& work) {
     scene_ = &scene;
-    mask_ = mask;
     radius_ = radius;
-    if (other || scene.revision() - revision_ > TouchScene::remembered_changes) {
-        forget_all(center);
-    } else {
-        const double good_for = magnitude_;
-        for (std::uint64_t revision = revision_ + 1; revision <= scene.revision(); ++revision) {
-            const TouchScene::Change& change = scene.change(revision);
-            for (std::uint32_t i = 0; i < change.part_count; ++i) {
-                forget(change.first_part + i, center);
-            }
+    work_ = work;
+    in_mind_count_ = 0;
+    ++ticks_;
+    const bool changed = broad_phase_.begin_tick(scene, center, radius, mask);
+    const bool passes = !passed_.empty();
+    if (changed || passes) {
+        insisted_count_ = 0;
+    }
+    passed_.update(scene, center, rest(), work_);
+    return changed || passes;
+}
+
+// Whether a part may be met within `length` of the sphere.
+bool Surroundings::counts(std::uint32_t part, double length, int except) const {
+    const std::uint32_t body = scene_->parts()[part].body;
+    return static_cast<int>(body) != except && !broad_phase_.is_clear(part, length) &&
+           !passed_.contains(static_cast<int>(body));
+}
+
+// The memory of a part: its own, or the one that was least recently used.
+std::size_t Surroundings::owner_of(std::uint32_t part) {
+    const std::uint32_t stamp = broad_phase_.stamp(part);
+    std::size_t oldest = 0;
+    for (std::size_t i = 0; i < max_memories; ++i) {
+        if (owners_[i].part == part && owners_[i].stamp == stamp) {
+            owners_[i].used_at = ticks_;
+            return i;
         }
-        if (magnitude_ > good_for) {
-            forget_all(center);
-        }
+        oldest = owners_[i].used_at < owners_[oldest].used_at ? i : oldest;
     }
-    revision_ = scene.revision();
-    return true;
-}
-
-// What moves comes nearer by as much. A far part has been given some way to move before that matters.
-void Surroundings::follow_moved_bodies() {
-    for (const int index : scene_->moved_bodies()) {
-        const TouchBody& body = scene_->body(index);
-        for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
-            const auto part = static_cast<std::uint32_t>(body.first_part + i);
-            Record& record = records_[part];
-            if (record.place == Place::absent) {
-                continue;
-            }
-            record.slack += body.moved_by;
-            if (record.place == Place::far && record.slack > record.slack_until) {
-                make_near(part);
-            }
-        }
-    }
-}
-
-bool Surroundings::pass_through(int body) {
-    if (passed_count_ == most_passed) {
-        return false;
-    }
-    passed_[passed_count_++] = {body, false};
-    return true;
-}
-
-bool Surroundings::is_passed(std::uint32_t body) const {
-    for (std::size_t i = 0; i < passed_count_; ++i) {
-        if (passed_[i].body == static_cast<int>(body)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it.
-void Surroundings::return_passed(const Vec3& center) {
-    const double room = radius_ + tolerances_.skin;
-    for (std::size_t i = 0; i < passed_count_;) {
-        Passed& passed = passed_[i];
-        const bool gone = !scene_->body(passed.body).shape;
-        const double distance =
-            gone ? 0.0 : nearest_surface(*scene_, passed.body, center, 2.0 * room).distance;
-        passed.entered = passed.entered || distance < room - tolerances_.skin;
-        if (gone || distance >= (passed.entered ? room : 1.5 * room)) {
-            passed = passed_[--passed_count_];
-        } else {
-            ++i;
-        }
-    }
-}
-
-// Everything is as far as the ball around it; what that is not enough for is looked at when it is asked for.
-void Surroundings::forget_all(const Vec3& center) {
-    far_.clear();
-    near_.clear();
-    free_hoods_.clear();
-    for (std::size_t i = 0; i < hood_count; ++i) {
-        free_hoods_.push_back(static_cast<std::int16_t>(i));
-    }
-    const double farthest = largest_length(center, radius_);
-    magnitude_ = 1.1 * farthest;
-    for (const ScenePart& placed : scene_->parts()) {
-        if (placed.part && placed.part->tree()) {
-            magnitude_ = std::max(magnitude_, placed.part->tree()->magnitude());
-        }
-    }
-    tolerances_ = make_tolerances(radius_, magnitude_);
-    for (std::size_t i = 0; i < scene_->parts().size(); ++i) {
-        records_[i] = {0.0, 0.0, 0.0, Place::absent, -1, records_[i].stamp};
-        forget(static_cast<std::uint32_t>(i), center);
-    }
-}
-
-void Surroundings::forget(std::uint32_t part, const Vec3& center) {
-    Record& record = records_[part];
-    leave_near(part);
-    record = {0.0, 0.0, 0.0, Place::absent, -1, record.stamp + 1};
-    const ScenePart& placed = scene_->parts()[part];
-    if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
-        return;
-    }
-    if (const TriangleTree* tree = placed.part->tree()) {
-        magnitude_ = std::max(magnitude_, tree->magnitude());
-    }
-    send_far(part, std::max(0.0, distance_to_ball(part, center)));
-}
-
-void Surroundings::make_near(std::uint32_t part) {
-    Record& record = records_[part];
-    record.place = Place::near;
-    ++record.stamp;
-    record.clear_until = 0.0;
-    near_.push_back(part);
-}
-
-void Surroundings::leave_near(std::uint32_t part) {
-    Record& record = records_[part];
-    if (record.place == Place::near) {
-        std::erase(near_, part);
-    }
-    if (record.hood >= 0) {
-        free_hoods_.push_back(record.hood);
-        record.hood = -1;
-    }
-}
-
-// A part that has never moved may be met after the whole distance; of one that has, half is its own.
-void Surroundings::send_far(std::uint32_t part, double distance) {
-    Record& record = records_[part];
-    const double own = record.slack > 0.0 ? 0.5 * distance : 0.0;
-    record.place = Place::far;
-    record.slack_until = record.slack + own;
-    push_far({odometer_ + distance - own, part, ++record.stamp});
-}
-
-// Entries that are out of date leave the heap when it is full: far rarer than entries come.
-void Surroundings::push_far(const Far& far) {
-    if (far_.size() == far_.capacity()) {
-        std::erase_if(far_, [&](const Far& entry) { return records_[entry.part].stamp != entry.stamp; });
-        std::make_heap(far_.begin(), far_.end(), &is_due_later);
-    }
-    far_.push_back(far);
-    std::push_heap(far_.begin(), far_.end(), &is_due_later);
-}
-
-// A part that cannot be reached within the next ticks leaves the near list.
-void Surroundings::retire_distant_parts() {
-    for (std::size_t i = 0; i < near_.size();) {
-        const std::uint32_t part = near_[i];
-        const Record& record = records_[part];
-        const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
-        const double distance = record.clear_until - odometer_for(record);
-        if (distance <= 40.0 * (pace_ + body.moved_by) + 0.1 * radius_) {
-            ++i;
-            continue;
-        }
-        leave_near(part);
-        send_far(part, distance);
-    }
-}
-
-// How far the sphere is from the ball around the part, and a little less.
-double Surroundings::distance_to_ball(std::uint32_t index, const Vec3& center) const {
-    const ScenePart& placed = scene_->parts()[index];
-    const double margin = radius_ + 2.0 * tolerances_.reach + tolerances_.skin;
-    return glm::distance(center, to_parent(placed.pose, placed.part->center)) - placed.part->radius - margin;
-}
-
-// A lower bound of the distance between the sphere and the part.
-double Surroundings::distance_bound(std::uint32_t index, const Vec3& center) const {
-    const ScenePart& placed = scene_->parts()[index];
-    const Vec3 local = to_local(placed.pose, center);
-    const double margin = radius_ + 2.0 * tolerances_.reach + tolerances_.skin;
-    if (!placed.part->tree()) {
-        return distance_to_solid(placed.part->solid(), local).distance - margin;
-    }
-    const double to_ball = distance_to_ball(index, center);
-    return to_ball > placed.part->radius ? to_ball : placed.part->tree()->least_distance(local) - margin;
-}
-
-// Makes sure that every part within `length` of the sphere is on the near list.
-void Surroundings::bring_near(double length, const Vec3& center) {
-    while (!far_.empty() && far_.front().due <= odometer_ + length) {
-        const Far soonest = far_.front();
-        std::pop_heap(far_.begin(), far_.end(), &is_due_later);
-        far_.pop_back();
-        Record& record = records_[soonest.part];
-        if (record.stamp != soonest.stamp) {
-            continue;
-        }
-        const double distance = distance_bound(soonest.part, center);
-        if (distance > 4.0 * length) {
-            send_far(soonest.part, distance);
-            continue;
-        }
-        make_near(soonest.part);
-        record.clear_until = odometer_for(record) + distance;
-    }
+    owners_[oldest] = {part, stamp, ticks_};
+    memories_[oldest].clear();
+    return oldest;
 }
 
 // The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of
-// the given length from there.
-Neighbourhood* Surroundings::hood_around(std::uint32_t index, const Vec3& local, double way) {
-    Record& record = records_[index];
-    const double now = odometer_for(record);
-    const double needed = radius_ + tolerances_.skin + tolerances_.reach + way;
-    if (record.hood >= 0 && hoods_[static_cast<std::size_t>(record.hood)].covered_around(local) >= needed) {
-        return &hoods_[static_cast<std::size_t>(record.hood)];
+// the given length from there. Null where they are too many: the ball is then made smaller, and not tried
+// again until the sphere has moved on.
+PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way) {
+    const double now = broad_phase_.reading(index);
+    const double needed = rest() + tolerances().reach + way;
+    const std::size_t place = owner_of(index);
+    Owner& owner = owners_[place];
+    PackMemory& memory = memories_[place];
+    if (memory.covered_around(local) >= needed) {
+        return &memory;
     }
-    if (record.hood < 0) {
-        if (free_hoods_.empty()) {
-            return nullptr;
-        }
-        record.hood = free_hoods_.back();
-        free_hoods_.pop_back();
-        hoods_[static_cast<std::size_t>(record.hood)].clear();
+    if (now < owner.crowded_until) {
+        return nullptr;
     }
-    Neighbourhood& hood = hoods_[static_cast<std::size_t>(record.hood)];
     const ScenePart& placed = scene_->parts()[index];
-    const TriangleTree& tree = *placed.part->tree();
-    const double length = glm::length(last_way_);
+    const Vec3& last_way = broad_phase_.last_way();
+    const double length = glm::length(last_way);
     const Vec3 heading =
-        length > tolerances_.reach ? direction_to_local(placed.pose, last_way_ / length) : Vec3(0.0);
-    double margin = std::max(ticks_remembered * pace_, 4.0 * tolerances_.reach);
-    for (int attempt = 0; attempt < 4; ++attempt) {
-        const Vec3 center = local + heading * (ahead_share * margin);
-        if (hood.gather(tree, center, needed + margin, local, needed, now)) {
-            return &hood;
-        }
-        margin *= 0.25;
+        length > tolerances().reach ? direction_to_local(placed.pose, last_way / length) : Vec3(0.0);
+    const double margin =
+        owner.share * std::max(ticks_remembered * broad_phase_.pace(), 4.0 * tolerances().reach);
+    const Vec3 center = local + heading * (ahead_share * margin);
+    if (!memory.gather(*placed.part->tree(), center, needed + margin, local, needed, now, work_)) {
+        owner.share = std::max(0.25 * owner.share, 1.0 / 64.0);
+        owner.crowded_until = now + margin;
+        return nullptr;
     }
-    return nullptr;
-}
-
-void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, double beyond,
-                                      ContactList& out) {
-    const ScenePart& placed = scene_->parts()[index];
-    const SolidDistance at = distance_to_solid(placed.part->solid(), local);
-    Record& record = records_[index];
-    const double gap = at.distance - (radius_ + tolerances_.skin);
-    record.clear_until = odometer_for(record) + gap - tolerances_.reach;
-    if (gap > tolerances_.reach + beyond) {
-        return;
+    if (memory.count() < PackMemory::capacity / 4) {
+        owner.share = std::min(1.0, 2.0 * owner.share);
     }
-    Contact contact;
-    contact.normal = direction_to_parent(placed.pose, at.normal);
-    contact.force_direction = contact.normal;
-    contact.u = direction_to_parent(placed.pose, at.u);
-    contact.point = to_parent(placed.pose, local - at.normal * at.distance);
-    contact.gap = gap;
-    contact.bend_u = at.bend_u;
-    contact.bend_v = at.bend_v;
-    contact.first_end = out.end_count;
-    for (int i = 0; i < at.end_count; ++i) {
-        const SurfaceEnd& end = at.ends[static_cast<std::size_t>(i)];
-        out.add_end({direction_to_parent(placed.pose, end.direction), end.room});
-    }
-    contact.end_count = out.end_count - contact.first_end;
-    contact.body = static_cast<int>(placed.body);
-    out.add(contact);
-}
-
-// Adds the triangles within `limit` of the centre to near_triangles_. Returns a lower bound of the distance
-// to the nearest one, exact where it is below `limit`.
-double Surroundings::look_around(Neighbourhood& hood, const TriangleTree& tree, double now, const Vec3& local,
-                                 double limit) {
-    const LanesVec3 center = splat(local);
-    double nearest = std::numeric_limits<double>::infinity();
-    const double others = hood.visit_between(center, center, 0.0, limit, now, [&](std::size_t i) {
-        --work_left_;
-        const Lanes distances = hood.distances(i, tree, center, limit, now);
-        for (int k = 0; k < lane_count; ++k) {
-            if (distances[k] <= limit) {
-                near_triangles_->add(tree, hood.pack(i), k, local);
-            }
-        }
-        nearest = std::min(nearest, smallest(distances));
-    });
-    nearest = std::min(nearest, others);
-    // In free space what is remembered ends long before the surface begins.
-    const double covered = hood.covered_around(local);
-    return nearest <= covered ? nearest : std::max(covered, tree.least_distance(local));
-}
-
-// The same where too many triangles are near to remember them.
-double Surroundings::look_everywhere(const TriangleTree& tree, const Vec3& local, double limit) {
-    std::array<FoundPack, 1024> packs;
-    const FoundPacks found = tree.packs_within(local, limit, packs);
-    const LanesVec3 center = splat(local);
-    double nearest = limit;
-    for (std::size_t i = 0; i < found.count; ++i) {
-        --work_left_;
-        const PackOffset seen = offset_from_triangles(tree.pack(packs[i].pack), center);
-        for (int k = 0; k < lane_count; ++k) {
-            const double distance = std::sqrt(seen.squared[k]);
-            if (distance <= limit) {
-                near_triangles_->add(tree, packs[i].pack, k, local);
-            }
-            nearest = std::min(nearest, distance);
-        }
-    }
-    return nearest;
-}
-
-void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double beyond, ContactList& out,
-                                      bool keep_all) {
-    const ScenePart& placed = scene_->parts()[index];
-    const TriangleTree& tree = *placed.part->tree();
-    const double rest = radius_ + tolerances_.skin;
-    const double limit = rest + tolerances_.reach + beyond;
-    near_triangles_->clear();
-    Neighbourhood* const hood = hood_around(index, local, beyond);
-    Record& record = records_[index];
-    const double now = odometer_for(record);
-    const double nearest =
-        hood ? look_around(*hood, tree, now, local, limit) : look_everywhere(tree, local, limit);
-    record.clear_until = now + nearest - rest - tolerances_.reach;
-    for (int i = 0; i < near_triangles_->count(); ++i) {
-        if (keep_all || !near_triangles_->is_covered(i, tolerances_.same)) {
-            near_triangles_->add_contact(i, placed, rest, tolerances_.same, out);
-        }
-    }
+    return &memory;
 }
 
 bool Surroundings::is_clear(double length) const {
-    if (!far_.empty() && far_.front().due <= odometer_ + length) {
-        return false;
-    }
-    return std::ranges::all_of(near_, [&](std::uint32_t index) {
-        return records_[index].clear_until > odometer_for(records_[index]) + length;
-    });
+    return broad_phase_.far_are_clear(length) &&
+           std::ranges::all_of(broad_phase_.near(),
+                               [&](std::uint32_t part) { return broad_phase_.is_clear(part, length); });
 }
 
-void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond, bool keep_all) {
+void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
-    bring_near(2.0 * tolerances_.reach + beyond, center);
-    for (const std::uint32_t index : near_) {
-        const Record& record = records_[index];
-        if (record.clear_until > odometer_for(record) + beyond) {
+    broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center);
+    double limit = rest() + tolerances().reach + beyond;
+    for (const std::uint32_t part : broad_phase_.near()) {
+        if (!counts(part, beyond, -1)) {
             continue;
         }
-        const ScenePart& placed = scene_->parts()[index];
-        if (is_passed(placed.body)) {
-            continue;
-        }
+        const ScenePart& placed = scene_->parts()[part];
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
-            find_tree_contacts(index, local, beyond, out, keep_all);
+            find_tree_contacts(part, local, limit, out);
         } else {
-            find_solid_contact(index, local, beyond, out);
+            find_solid_contact(part, local, limit, out);
+        }
+    }
+    // What was taken in before something nearer was found.
+    const auto kept = std::remove_if(out.items.begin(), out.items.begin() + out.count,
+                                     [&](const Contact& contact) { return contact.gap > limit - rest(); });
+    out.count = static_cast<int>(kept - out.items.begin());
+    add_in_mind(center, tolerances().reach + beyond, out);
+    add_insisted(center, out);
+}
+
+void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, double& limit,
+                                      ContactList& out) {
+    const ScenePart& placed = scene_->parts()[index];
+    const SolidDistance at = distance_to_solid(placed.part->solid(), local);
+    work_.spend(cost::solid_look);
+    broad_phase_.set_clear(index, at.distance - rest() - tolerances().reach);
+    if (at.distance <= limit) {
+        out.add({direction_to_parent(placed.pose, at.normal),
+                 at.distance - rest(),
+                 {index},
+                 ContactState::exact});
+        limit = limit_from(at.distance, rest(), tolerances().reach, limit);
+    }
+}
+
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double& limit,
+                                      ContactList& out) {
+    const ScenePart& placed = scene_->parts()[index];
+    const TriangleTree& tree = *placed.part->tree();
+    const int first_count = out.count;
+    double nearest = std::numeric_limits<double>::infinity();
+    std::uint32_t last_id = Hit::no_triangle;
+    const auto take = [&](std::uint32_t pack, const PackBound& tangents, const Lanes& distances) {
+        const double least = smallest(distances);
+        nearest = std::min(nearest, least);
+        limit = limit_from(least, rest(), tolerances().reach, limit);
+        for (int k = 0; k < lane_count; ++k) {
+            const std::uint32_t slot = pack * lane_count + static_cast<std::uint32_t>(k);
+            const std::uint32_t id = tree.triangle_at(slot);
+            if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
+                work_.spend(cost::closest_point);
+                last_id = id;
+                const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
+                add_seen({normal, distances[k] - rest(), {index, slot}, ContactState::seen}, out);
+            }
+        }
+    };
+    double others = 0.0;
+    bool is_known = false;
+    if (PackMemory* const memory = memory_around(index, local, 0.0)) {
+        others = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
+        // What is remembered ends somewhere: in free space before the surface begins.
+        const double covered = memory->covered_around(local);
+        if (std::min(others, nearest) > covered) {
+            others = std::max(covered, tree.least_distance(local));
+        }
+        is_known = limit <= std::max(covered, others);
+    }
+    if (!is_known) {
+        out.count = first_count;
+        const LanesVec3 center = splat(local);
+        others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
+            work_.spend(cost::pack_look);
+            const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
+            take(pack, tangents, least_distances(tangents, center));
+        });
+    }
+    broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
+}
+
+// An edge or corner is found once with every triangle that shares it: the first stands for all.
+void Surroundings::add_seen(const Contact& contact, ContactList& out) const {
+    Contact added = contact;
+    const double same = tolerances().same;
+    for (int i = 0; i < out.count && added.state == ContactState::seen; ++i) {
+        const Contact& other = out[i];
+        if (std::abs(other.gap - contact.gap) <= same && other.feature.part == contact.feature.part &&
+            glm::length(other.normal - contact.normal) * (rest() + contact.gap) <= same_point * same) {
+            added.state = ContactState::covered;
+        }
+    }
+    out.add(added);
+}
+
+void Surroundings::keep_in_mind(const FeatureId& feature) {
+    const auto end = in_mind_.begin() + static_cast<std::ptrdiff_t>(in_mind_count_);
+    if (std::find(in_mind_.begin(), end, feature) != end) {
+        return;
+    }
+    if (in_mind_count_ == max_in_mind) {
+        std::shift_left(in_mind_.begin(), in_mind_.end(), 1);
+        --in_mind_count_;
+    }
+    in_mind_[in_mind_count_++] = feature;
+}
+
+// What is within the limit was found already; what is covered does not count, whatever the distance.
+void Surroundings::add_in_mind(const Vec3& center, double max_gap, ContactList& out) {
+    const ContactLook look = look_from(center);
+    for (std::size_t i = 0; i < in_mind_count_; ++i) {
+        const auto is_it = [&](const Contact& other) { return other.feature == in_mind_[i]; };
+        if (in_mind_[i].triangle == Hit::no_triangle || std::ranges::any_of(out.all(), is_it)) {
+            continue;
+        }
+        const Contact contact = look.exact_contact(in_mind_[i]);
+        if (contact.gap <= max_gap && !look.is_covered_by_any(contact)) {
+            out.add(contact);
+        }
+    }
+}
+
+bool Surroundings::insist_on(const FeatureId& feature, const Vec3& center) {
+    if (center != insisted_at_) {
+        insisted_count_ = 0;
+        insisted_at_ = center;
+    }
+    const auto end = insisted_.begin() + static_cast<std::ptrdiff_t>(insisted_count_);
+    if (insisted_count_ == max_insisted || std::find(insisted_.begin(), end, feature) != end) {
+        return false;
+    }
+    insisted_[insisted_count_++] = feature;
+    return true;
+}
+
+void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
+    for (std::size_t i = 0; i < insisted_count_ && center == insisted_at_; ++i) {
+        const Contact contact = look_from(center).exact_contact(insisted_[i]);
+        const auto end = out.items.begin() + out.count;
+        const auto same = std::find_if(
+            out.items.begin(), end, [&](const Contact& other) { return other.feature == contact.feature; });
+        if (same != end) {
+            *same = contact;
+        } else {
+            out.count = std::min(out.count, ContactList::capacity - 1);
+            out.add(contact);
         }
     }
 }
 
 // Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at.
 // A way that leads out of it is answered by gathering farther, or, where it is long, by the tree itself.
-double Surroundings::sweep_tree(std::uint32_t index, const Vec3& start, const Vec3& motion, double length,
-                                double limit) {
+Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double limit) {
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
-    const double stop = radius_ + tolerances_.stop;
-    for (const double way : {0.0, length * limit}) {
-        if (way > 2.0 * ticks_remembered * pace_) {
+    const double length = glm::length(way.motion);
+    for (const double ahead : {0.0, length * limit}) {
+        if (ahead > 2.0 * ticks_remembered * broad_phase_.pace()) {
             break;
         }
-        Neighbourhood* const hood = hood_around(index, start, way);
-        if (!hood) {
+        PackMemory* const memory = memory_around(index, way.start, ahead);
+        if (!memory) {
             break;
         }
-        const double now = odometer_for(records_[index]);
-        const double reached = hood->covered_share(start, motion, stop + tolerances_.arrival);
-        const double covered = std::min(limit, reached);
-        const double t = sweep_hood(*hood, tree, now, start, motion, covered);
-        if (t <= covered || reached >= limit) {
-            return t <= covered ? t : 2.0 * limit + 1.0;
+        const double reached = memory->covered_share(way.start, way.motion, way.distance + way.slack);
+        const Hit hit =
+            memory->sweep(tree, way, std::min(limit, reached), broad_phase_.reading(index), work_);
+        if (!hit.is_free() || reached >= limit) {
+            return hit;
         }
     }
-    return tree.sweep(start, motion, stop, tolerances_.arrival, limit, work_left_);
+    return tree.sweep(way, limit, work_);
 }
 
-double Surroundings::sweep_hood(Neighbourhood& hood, const TriangleTree& tree, double now, const Vec3& start,
-                                const Vec3& motion, double limit) {
-    const double stop = radius_ + tolerances_.stop;
-    const double reach = stop + tolerances_.arrival;
+Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except) {
     const double length = glm::length(motion);
-    double best = limit;
-    bool found = false;
-    const LanesVec3 from = splat(start);
-    LanesVec3 to = splat(start + motion * best);
-    hood.visit_between(from, to, length * limit, reach, now, [&](std::size_t i) {
-        --work_left_;
-        if (!hood.may_meet(i, tree, from, to, length * best, reach, now)) {
-            return;
-        }
-        work_left_ -= sweep_work;
-        const double t =
-            sweep_to_triangles(tree.pack(hood.pack(i)), start, motion, stop, tolerances_.arrival, best);
-        if (t <= best) {
-            best = t;
-            found = true;
-            to = splat(start + motion * best);
-        }
-    });
-    return found ? best : 2.0 * limit + 1.0;
-}
-
-double Surroundings::sweep(const Vec3& center, const Vec3& motion, int except) {
-    const double length = glm::length(motion);
-    bring_near(length, center);
-    double best = 1.0;
-    bool found = false;
-    for (const std::uint32_t index : near_) {
-        const Record& record = records_[index];
-        const ScenePart& placed = scene_->parts()[index];
-        if (static_cast<int>(placed.body) == except || is_passed(placed.body) ||
-            record.clear_until > odometer_for(record) + best * length) {
+    broad_phase_.bring_near(length, center);
+    Hit first;
+    for (const std::uint32_t part : broad_phase_.near()) {
+        if (!counts(part, first.t * length, except)) {
             continue;
         }
-        const Vec3 start = to_local(placed.pose, center);
-        const Vec3 way = direction_to_local(placed.pose, motion);
-        const double t = placed.part->tree()
-                             ? sweep_tree(index, start, way, length, best)
-                             : sweep_to_solid(placed.part->solid(), start, way, radius_ + tolerances_.stop,
-                                              tolerances_.arrival, best);
-        if (t <= best) {
-            best = t;
-            found = true;
+        const ScenePart& placed = scene_->parts()[part];
+        const SphereWay way{to_local(placed.pose, center), direction_to_local(placed.pose, motion),
+                            radius_ + tolerances().stop, tolerances().arrival};
+        const Hit hit = placed.part->tree() ? sweep_tree(part, way, first.t)
+                                            : sweep_surface(*placed.part, way, first.t, work_);
+        if (!hit.is_free()) {
+            first = hit;
+            stopped_by = {part, hit.triangle};
         }
     }
-    return found ? best : 2.0;
+    return first;
 }
 
-// Seen from a moving part, the proxy is what moves. Where its way in the part's frame meets a surface, the
-// part ran into the proxy there, and takes it along from that place on.
+// Seen from a moving part, the sphere is what moves. Where its way in the part's frame meets a surface, the
+// part ran into the sphere there, and takes it along from that place on.
 bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier, Push& push) {
-    while (from < near_.size()) {
-        const std::uint32_t index = near_[from++];
-        const ScenePart& placed = scene_->parts()[index];
-        const TouchBody& body = scene_->body(static_cast<int>(placed.body));
-        const Record& record = records_[index];
-        if (!body.moved || static_cast<int>(placed.body) == carrier || is_passed(placed.body) ||
-            record.clear_until > odometer_for(record)) {
+    while (from < broad_phase_.near().size()) {
+        const std::uint32_t part = broad_phase_.near()[from++];
+        const ScenePart& placed = scene_->parts()[part];
+        if (!scene_->body(static_cast<int>(placed.body)).moved || !counts(part, 0.0, carrier)) {
             continue;
         }
         const Vec3 before = to_local(placed.previous, center);
-        const Vec3 way = to_local(placed.pose, center) - before;
-        const double stop = radius_ + tolerances_.stop;
-        const double t =
-            placed.part->tree()
-                ? placed.part->tree()->sweep(before, way, stop, tolerances_.arrival, 1.0, work_left_)
-                : sweep_to_solid(placed.part->solid(), before, way, stop, tolerances_.arrival, 1.0);
-        if (t < 1.0) {
-            push = {static_cast<int>(placed.body), to_parent(placed.pose, before + way * t) - center};
+        const SphereWay way{before, to_local(placed.pose, center) - before, radius_ + tolerances().stop,
+                            tolerances().arrival};
+        const Hit hit = sweep_surface(*placed.part, way, 1.0, work_);
+        if (!hit.is_free()) {
+            push = {static_cast<int>(placed.body),
+                    to_parent(placed.pose, before + way.motion * hit.t) - center};
             return true;
         }
     }
@@ -524,12 +326,14 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
 }
 
 bool Surroundings::has_room(const Vec3& center, double room) {
-    bring_near(room, center);
-    return std::ranges::all_of(near_, [&](std::uint32_t index) {
-        const Record& record = records_[index];
-        const auto body = static_cast<int>(scene_->parts()[index].body);
-        return record.clear_until > odometer_for(record) + room ||
-               nearest_surface(*scene_, body, center, 2.0 * room).distance >= room;
+    broad_phase_.bring_near(room, center);
+    return std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) {
+        if (broad_phase_.is_clear(part, room)) {
+            return true;
+        }
+        const auto body = static_cast<int>(scene_->parts()[part].body);
+        const NearestSurface nearest = nearest_surface(*scene_, body, center, room, work_);
+        return nearest.complete && nearest.distance >= room;
     });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
@@ -25,6 +26,7 @@ bool same_pose(const Pose& p, const Pose& q) {
 TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts)
     : bodies_(most_bodies), parts_(most_parts) {
     moved_.reserve(most_bodies);
+    deformed_.reserve(most_bodies);
 }
 
 // First fit: removed bodies leave gaps that later ones fill.
@@ -49,7 +51,8 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
         return -1;
     }
     const int index = static_cast<int>(slot - bodies_.begin());
-    *slot = {&shape, pose, pose, material, layer, false, 0.0, static_cast<std::uint32_t>(first_part)};
+    *slot = {
+        &shape, pose, pose, material, layer, false, 0.0, nullptr, static_cast<std::uint32_t>(first_part)};
     for (std::size_t i = 0; i < shape.parts.size(); ++i) {
         const Pose placed = compose(pose, shape.parts[i].pose);
         parts_[slot->first_part + i] = {&shape.parts[i], static_cast<std::uint32_t>(index), placed, placed};
@@ -58,7 +61,7 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
     if (slot->first_part <= parts_full_below_) {
         parts_full_below_ = slot->first_part + shape.parts.size();
     }
-    note_change(*slot);
+    note_change(index, Change::Kind::came, pose, 0);
     return index;
 }
 
@@ -68,15 +71,18 @@ void TouchScene::remove(int body) {
         parts_[removed.first_part + i] = {};
     }
     std::erase(moved_, body);
-    note_change(removed);
+    std::erase(deformed_, body);
+    note_change(body, Change::Kind::went, removed.pose, removed.layer);
     bodies_full_below_ = std::min(bodies_full_below_, static_cast<std::size_t>(body));
     parts_full_below_ = std::min(parts_full_below_, static_cast<std::size_t>(removed.first_part));
     removed = {};
 }
 
-void TouchScene::note_change(const TouchBody& body) {
-    changes_[++revision_ % remembered_changes] = {body.first_part,
-                                                  static_cast<std::uint32_t>(body.shape->parts.size())};
+void TouchScene::note_change(int index, Change::Kind kind, const Pose& from, std::uint32_t layer_from) {
+    const TouchBody& changed = body(index);
+    changes_[++revision_ % remembered_changes] = {
+        kind, changed.first_part, static_cast<std::uint32_t>(changed.shape->parts.size()), index,
+        from, layer_from};
 }
 
 void TouchScene::begin_tick() {
@@ -92,6 +98,30 @@ void TouchScene::begin_tick() {
         }
     }
     moved_.clear();
+    for (const int index : deformed_) {
+        body_at(index).former = nullptr;
+    }
+    deformed_.clear();
+}
+
+bool TouchScene::deform(int index, const TouchShape& shape) {
+    TouchBody& body = body_at(index);
+    if (shape.parts.size() != body.shape->parts.size()) {
+        return false;
+    }
+    if (!body.former) {
+        deformed_.push_back(index);
+        body.former = body.shape;
+    }
+    body.shape = &shape;
+    for (std::size_t i = 0; i < shape.parts.size(); ++i) {
+        ScenePart& part = parts_[body.first_part + i];
+        part.part = &shape.parts[i];
+        part.pose = compose(body.pose, shape.parts[i].pose);
+        part.previous = compose(body.previous, shape.parts[i].pose);
+    }
+    note_change(index, Change::Kind::form, body.pose, body.layer);
+    return true;
 }
 
 void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {
@@ -99,10 +129,10 @@ void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {
     if (same_pose(pose, body.pose)) {
         return;
     }
-    body.pose = pose;
+    const Pose from = std::exchange(body.pose, pose);
     if (teleport) {
         body.previous = pose;
-        note_change(body);
+        note_change(index, Change::Kind::elsewhere, from, body.layer);
     } else if (!body.moved) {
         body.moved = true;
         moved_.push_back(index);
@@ -124,8 +154,8 @@ void TouchScene::displace(int index, const Pose& motion) {
 }
 
 void TouchScene::set_layer(int body, std::uint32_t layer) {
-    body_at(body).layer = layer;
-    note_change(body_at(body));
+    const std::uint32_t before = std::exchange(body_at(body).layer, layer);
+    note_change(body, Change::Kind::layer, this->body(body).pose, before);
 }
 
 }  // namespace tactus

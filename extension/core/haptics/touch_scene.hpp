@@ -23,6 +23,7 @@ struct TouchBody {
     std::uint32_t layer = 1;  // bits; a proxy touches it where its mask has one of them
     bool moved = false;       // since the last tick
     double moved_by = 0.0;    // no point of the body moved farther since the last tick (unit: meters)
+    const TouchShape* former = nullptr;  // its form one tick ago; null: it has not deformed since
     std::uint32_t first_part =
         0;  // its parts are scene parts first_part … first_part + shape->parts.size() - 1
 };
@@ -49,36 +50,53 @@ public:
     void set_pose(int body, const Pose& pose, bool teleport = false);
     // The body, and the way it took this tick, is rigidly moved elsewhere: a correction, not a motion.
     void displace(int body, const Pose& motion);
-    void set_material(int body, const TouchMaterial& material) { body_at(body).material = material; }
+    void set_material(int body, const TouchMaterial& material) {
+        body_at(body).material = material;
+        ++material_changes_;
+    }
     void set_layer(int body, std::uint32_t layer);
+    // The body takes another form, its parts one by one; the former must live until the next tick has begun.
+    // Proxies sweep along the way of the triangles that are refits of those before. False, and nothing
+    // happens, where the parts are not as many.
+    bool deform(int body, const TouchShape& shape);
 
+    std::size_t slots() const { return bodies_.size(); }
     const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
     std::span<const ScenePart> parts() const { return parts_; }
     std::span<const int> moved_bodies() const { return moved_; }
+    std::span<const int> deformed_bodies() const { return deformed_; }
     std::uint64_t ticks() const { return ticks_; }  // begun so far
 
-    // Parts of a body that was added, removed, teleported or changed its layer: what a proxy remembers of
-    // them is void.
+    // Parts of a body that was added, removed, teleported, deformed or changed its layer: what a proxy
+    // remembers of them is void.
     struct Change {
+        enum class Kind : std::uint8_t { came, went, elsewhere, layer, form } kind = Kind::came;
         std::uint32_t first_part = 0;
         std::uint32_t part_count = 0;
+        int body = -1;
+        Pose from;                     // its pose before; the same as now where that did not change
+        std::uint32_t layer_from = 0;  // its layer before
     };
     // Counts the changes. The last `remembered_changes` can be asked for by their number.
     static constexpr std::uint64_t remembered_changes = 64;
     std::uint64_t revision() const { return revision_; }
     const Change& change(std::uint64_t revision) const { return changes_[revision % remembered_changes]; }
+    // Counts materials that were set.
+    std::uint64_t material_changes() const { return material_changes_; }
 
 private:
     TouchBody& body_at(int slot) { return bodies_[static_cast<std::size_t>(slot)]; }
     int find_parts(std::size_t count) const;
-    void note_change(const TouchBody& body);
+    void note_change(int body, Change::Kind kind, const Pose& from, std::uint32_t layer_from);
 
     std::vector<TouchBody> bodies_;
     std::vector<ScenePart> parts_;
     std::vector<int> moved_;
+    std::vector<int> deformed_;
     std::size_t bodies_full_below_ = 0, parts_full_below_ = 0;  // no slot is free before these
     std::array<Change, remembered_changes> changes_;
     std::uint64_t revision_ = 1;
+    std::uint64_t material_changes_ = 0;
     std::uint64_t ticks_ = 0;
 };
 

@@ -36,6 +36,10 @@ public:
     // The oldest datagram that is there by `now` and has not been taken. `into` holds most_datagram_bytes; a
     // datagram that does not fit is dropped and counted.
     virtual ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) = 0;
+
+    // What the way adds to each datagram (unit: bytes): the headers of IPv4 and UDP where nothing else is
+    // said.
+    virtual std::size_t overhead() const { return 28; }
 };
 
 }  // namespace tactus

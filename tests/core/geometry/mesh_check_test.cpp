@@ -51,6 +51,22 @@ TEST(MeshCheck, RefusesAMeshWithoutAnyArea) {
     expect_refused(mesh, "area");
 }
 
+TEST(MeshCheck, RefusesAMeshTooSmallForNumbers) {
+    for (const double scale : {1e-10, 1e-100, 1e-310}) {
+        TriangleMesh mesh = shared::icosphere(1, 1.0);
+        for (Vec3& v : mesh.vertices) {
+            v *= scale;
+        }
+        expect_refused(mesh, "smaller than");
+    }
+    EXPECT_EQ(check_mesh(shared::icosphere(1, 1e-8)), "");
+}
+
+TEST(MeshCheck, RefusesAMeshScaledOutOfReach) {
+    expect_refused(shared::icosphere(1, 1e20), "vertex 0");
+    EXPECT_EQ(check_mesh(shared::icosphere(1, -1.0)), "");
+}
+
 TEST(MeshCheck, AcceptsSingleTrianglesWithoutArea) {
     TriangleMesh mesh = one_triangle();
     mesh.triangles.push_back({1, 1, 2});

@@ -56,8 +56,9 @@ TEST(ObjText, NamesTheLineOfAWordThatIsNoNumber) {
 }
 
 TEST(ObjText, NamesTheLineOfAVertexThatDoesNotExist) {
-    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 2\n").error,
-              "line 2: vertex 2 does not exist: there are 1 so far");
+    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 2\n").error, "line 2: vertex 2 does not exist: there are 1");
+    EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 4294967796\n").error,
+              "line 2: vertex 4294967796 does not exist: there are 1 so far");
     EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 0\n").error,
               "line 2: vertex 0 does not exist: there are 1 so far");
     EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 -2\n").error,
@@ -68,6 +69,57 @@ TEST(ObjText, NamesTheLineOfAVertexThatDoesNotExist) {
 TEST(ObjText, RefusesAFaceOfTwoCorners) {
     EXPECT_EQ(read_obj_text("v 0 0 0\nv 1 0 0\nf 1 2\n").error,
               "line 3: a face needs at least three corners");
+}
+
+TEST(ObjText, ReadsByteOrderMarksContinuedLinesAndOldMacintoshLines) {
+    for (const char* text :
+         {"\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",
+          "v 0 \\\n0 0\nv 1 0 \\\r\n 0\nv 0 1 0\nf 1 \\\r2 \\\n 3"}) {
+        const ObjResult result = read_obj_text(text);
+        ASSERT_EQ(result.error, "");
+        EXPECT_EQ(result.mesh.vertices.size(), 3u);
+        ASSERT_EQ(result.mesh.triangles.size(), 1u);
+        EXPECT_EQ(result.mesh.triangles[0], (Triangle{0, 1, 2}));
+    }
+    EXPECT_EQ(read_obj_text("v 0 0 \\\n0\r\nv 1 x 0\n").error, "line 3: 'x' is not a number");
+}
+
+TEST(ObjText, ReadsFacesThatComeBeforeTheirVertices) {
+    const ObjResult result = read_obj_text("f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -1 -2 -3\n");
+    ASSERT_EQ(result.error, "");
+    EXPECT_EQ(result.mesh.triangles, (std::vector<Triangle>{{3, 2, 1}, {0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(read_obj_text("f 1 2 3\nv 0 0 0\nv 1 0 0\n").error,
+              "line 1: vertex 3 does not exist: there are 2");
+}
+
+TEST(ObjText, SaysWhereATextIsTooLarge) {
+    const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n";
+    ObjLimits limits;
+    limits.bytes = text.size() - 1;
+    EXPECT_EQ(read_obj_text(text, limits).error,
+              "the text has 40 bytes, the limit is 39: split it into several meshes");
+    limits = {};
+    limits.vertices = 2;
+    EXPECT_EQ(read_obj_text(text, limits).error, "line 3: more than 2 vertices: split the mesh into several");
+    limits = {};
+    limits.triangles = 1;
+    EXPECT_EQ(read_obj_text(text, limits).error,
+              "line 5: more than 1 triangles: split the mesh into several");
+}
+
+TEST(ObjText, AConcaveFaceThatWouldTakeTooLongIsAnError) {
+    std::string text;
+    for (int i = 0; i < 400; ++i) {
+        text += "v " + std::to_string(i) + " " + std::to_string(i % 2) + " 0\n";
+    }
+    text += "v 400 -9 0\nv -1 -9 0\nf";
+    for (int i = 1; i <= 402; ++i) {
+        text += " " + std::to_string(i);
+    }
+    ObjLimits limits;
+    EXPECT_EQ(read_obj_text(text, limits).error, "");
+    limits.polygon_work = 10'000;
+    EXPECT_NE(read_obj_text(text, limits).error.find("too long"), std::string::npos);
 }
 
 TEST(ObjText, GivesAnEmptyMeshForEmptyText) {

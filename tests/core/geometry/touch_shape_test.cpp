@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "shared/meshes.hpp"
@@ -72,6 +73,22 @@ TEST(TouchShape, RefusesAHeightFieldOfTheWrongSizeOrWithNan) {
     const auto bad = std::make_shared<const std::vector<float>>(
         std::vector<float>{0, std::numeric_limits<float>::quiet_NaN(), 2, 3});
     EXPECT_NE(error_of(HeightFieldShape{2, 2, Vec3(1.0), bad}).find("finite"), std::string::npos);
+}
+
+TEST(TouchShape, AMirroredHeightFieldIsTheMirrorImageWithItsFrontUp) {
+    const auto heights = std::make_shared<const std::vector<float>>(std::vector<float>{0, 1, 2, 4, 8, 16});
+    const TriangleMesh plain = height_field_mesh({3, 2, Vec3(0.5, 1.0, 2.0), heights});
+    const TriangleMesh mirrored = height_field_mesh({3, 2, Vec3(-0.5, 1.0, 2.0), heights});
+    ASSERT_EQ(plain.triangles.size(), mirrored.triangles.size());
+    for (std::size_t i = 0; i < plain.vertices.size(); ++i) {
+        EXPECT_EQ(mirrored.vertices[i], plain.vertices[i] * Vec3(-1.0, 1.0, 1.0));
+    }
+    for (const auto& [a, b, c] : mirrored.triangles) {
+        const auto& v = mirrored.vertices;
+        EXPECT_GT(glm::cross(v[b] - v[a], v[c] - v[a]).y, 0.0);
+    }
+    EXPECT_EQ(error_of(HeightFieldShape{3, 2, Vec3(-0.5, 1.0, 2.0), heights}), "");
+    EXPECT_NE(error_of(HeightFieldShape{3, 2, Vec3(0.5, 1e20, 2.0), heights}), "");
 }
 
 TEST(TouchShape, RefusesAPoseThatIsNone) {

@@ -119,6 +119,45 @@ TEST(TriangleTree, FindsEveryPackWithinReach) {
     }
 }
 
+// Heights that fade out beyond what single precision holds as normal numbers: extents whose inverse is
+// infinite.
+TriangleMesh fading_heights(int cells, double size) {
+    TriangleMesh mesh = shared::terrain(cells, size, 0.0);
+    for (Vec3& v : mesh.vertices) {
+        v.y = static_cast<float>(v.x * std::exp(-v.x * v.x - v.z * v.z));
+    }
+    return mesh;
+}
+
+TEST(TriangleTree, ExtentsBelowNormalNumbersAreNoTrouble) {
+    RandomValues random(49);
+    for (const double size : {19.0, 20.0, 24.0, 60.0}) {
+        const TriangleMesh mesh = fading_heights(80, size);
+        const TriangleTree tree = TriangleTree::build(mesh);
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 p(random.between(-0.5, 0.5) * size, random.unit(), random.between(-0.5, 0.5) * size);
+            ASSERT_NEAR(tree.nearest(p, 1e30).distance, static_cast<double>(shared::slow_distance(p, mesh)),
+                        1e-13 * size);
+        }
+    }
+    TriangleMesh tiny = shared::icosphere(3, 1.0);
+    for (Vec3& v : tiny.vertices) {
+        v *= 1e-42;
+    }
+    tiny.vertices.push_back(Vec3(1.0));
+    tiny.triangles.push_back({0, 1, 642});
+    EXPECT_NEAR(TriangleTree::build(tiny).nearest(Vec3(0.0, 1.0, 0.0), 1e30).distance, std::sqrt(2.0 / 3.0),
+                1e-12);
+}
+
+TEST(TriangleTree, AVertexThatNoTriangleUsesCostsNoPrecision) {
+    TriangleMesh mesh = shared::icosphere(3, 1.0);
+    mesh.vertices.push_back(Vec3(1e9, -1e9, 1e9));
+    const TriangleTree tree = TriangleTree::build(mesh);
+    EXPECT_LT(glm::length(tree.center()), 1e-12);
+    EXPECT_LT(tree.radius(), 1.3);
+}
+
 TEST(TriangleTree, SaysWhenThereWereMorePacksThanRoom) {
     const TriangleTree tree = TriangleTree::build(shared::icosphere(3, 1.0));
     std::vector<FoundPack> room(3);
@@ -140,7 +179,11 @@ TEST(TriangleTree, LeastDistanceIsALowerBoundAndAtLeastHalf) {
     }
 }
 
-constexpr Work plenty = 1'000'000;
+Hit sweep(const TriangleTree& tree, const Vec3& start, const Vec3& motion, double radius, double slack,
+          std::int64_t units = 1'000'000) {
+    WorkBudget work(units);
+    return tree.sweep({start, motion, radius, slack}, 1.0, work);
+}
 
 // Whatever a sweep may look at, its answer is on the safe side.
 TEST(TriangleTree, ASweepThatMayNotLookFurtherEndsEarly) {
@@ -151,13 +194,13 @@ TEST(TriangleTree, ASweepThatMayNotLookFurtherEndsEarly) {
     for (int i = 0; i < 300; ++i) {
         const Vec3 start = 3.0 * random.direction();
         const Vec3 motion = 2.0 * (random.in_ball(0.8) - start);
-        Work all = plenty;
-        const double whole = tree.sweep(start, motion, 0.05, 1e-12, 1.0, all);
-        Work little = random.below(30);
-        const double part = tree.sweep(start, motion, 0.05, 1e-12, 1.0, little);
-        ASSERT_LE(part, whole);
-        ASSERT_GE(part, 0.0);
-        cut += part < whole;
+        const Hit whole = sweep(tree, start, motion, 0.05, 1e-12);
+        const Hit part = sweep(tree, start, motion, 0.05, 1e-12, random.below(120));
+        ASSERT_TRUE(whole.complete);
+        ASSERT_LE(part.t, whole.t);
+        ASSERT_GE(part.t, 0.0);
+        ASSERT_TRUE(part.complete ? part.t == whole.t : !part.found);
+        cut += part.t < whole.t;
     }
     EXPECT_GT(cut, 50);
 }
@@ -177,15 +220,22 @@ TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
             const Vec3 motion =
                 (extent.center + random.in_ball(extent.radius) - start) * random.between(0.2, 2.0);
             const auto expected = static_cast<double>(shared::slow_sweep(start, motion, radius, sample.mesh));
-            Work work = plenty;
-            const double found = tree.sweep(start, motion, radius, slack, 1.0, work);
+            const Hit hit = sweep(tree, start, motion, radius, slack);
+            const double found = hit.t;
             const double tolerance = 4.0 * slack / glm::length(motion) + 1e-12;
-            if (expected > 1.0 && found > 1.0) {
+            if (expected > 1.0 && !hit.found) {
                 continue;
             }
+            ASSERT_TRUE(hit.found) << sample.name << " " << i;
             ASSERT_LE(found, expected + tolerance) << sample.name << " " << i;
-            const auto gap =
-                static_cast<double>(shared::slow_distance(start + motion * found, sample.mesh)) - radius;
+            const Vec3 end = start + motion * found;
+            const auto gap = static_cast<double>(shared::slow_distance(end, sample.mesh)) - radius;
+            // It is the triangle it names that stops the way.
+            ASSERT_LE(static_cast<double>(shared::slow_distance(
+                          end, shared::corners_of(sample.mesh, tree.triangle_at(hit.triangle)))) -
+                          radius,
+                      4.0 * slack)
+                << sample.name << " " << i;
             ASSERT_GE(gap, -rounding(tree)) << sample.name << " " << i;
             ASSERT_LE(gap, 4.0 * slack) << sample.name << " " << i;
         }
@@ -200,8 +250,7 @@ TEST(TriangleTree, SweepAlongAnAxisMissesNothing) {
             Vec3 motion(0.0);
             start[axis] = 5.0 * side;
             motion[axis] = -10.0 * side;
-            Work work = plenty;
-            EXPECT_NEAR(tree.sweep(start, motion, 0.1, 1e-12, 1.0, work), 0.39, 1e-12);
+            EXPECT_NEAR(sweep(tree, start, motion, 0.1, 1e-12).t, 0.39, 1e-12);
         }
     }
 }
@@ -209,8 +258,7 @@ TEST(TriangleTree, SweepAlongAnAxisMissesNothing) {
 TEST(TriangleTree, SweepWithinAFaceOfABoxIsSeenAsContactNotLost) {
     const TriangleTree tree = TriangleTree::build(shared::box(Vec3(1.0)));
     // The centre glides in the very plane that bounds the box in the tree, towards an edge.
-    Work work = plenty;
-    EXPECT_NEAR(tree.sweep({-3.0, 1.0, 0.0}, {4.0, 0.0, 0.0}, 0.1, 1e-12, 1.0, work), 1.9 / 4.0, 1e-12);
+    EXPECT_NEAR(sweep(tree, {-3.0, 1.0, 0.0}, {4.0, 0.0, 0.0}, 0.1, 1e-12).t, 1.9 / 4.0, 1e-12);
 }
 
 TEST(TriangleTree, TheRunnerDoesNotChangeTheTree) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 #include "shared/random_values.hpp"
@@ -12,21 +13,43 @@ namespace {
 
 using shared::RandomValues;
 
-Contact flat(const Vec3& normal, double gap = 0.0) {
+struct Sample {
     Contact contact;
-    contact.normal = normal;
+    Curvature curvature;
+};
+
+Sample flat(const Vec3& normal, double gap = 0.0) {
+    Sample sample{{normal, gap, {}, ContactState::exact}, {}};
     const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-    contact.u = glm::normalize(glm::cross(normal, other));
-    contact.gap = gap;
-    return contact;
+    sample.curvature.u = glm::normalize(glm::cross(normal, other));
+    return sample;
 }
 
-ConstrainedStep step_over(const Vec3& pull, std::span<const Contact> contacts) {
+ConstrainedStep step_over(const Vec3& pull, std::span<const Sample> samples,
+                          double trust = std::numeric_limits<double>::infinity()) {
     ContactList list;
-    for (const Contact& contact : contacts) {
-        list.add(contact);
+    for (const Sample& sample : samples) {
+        list.add(sample.contact);
     }
-    return constrained_step(pull, list, 1e-12);
+    WorkBudget work(1'000'000);
+    ConstrainedStep step = flat_step(pull, list, 1e-12, work);
+    Curvature pressing[3];
+    for (int i = 0; i < step.pressing_count; ++i) {
+        pressing[i] = samples[static_cast<std::size_t>(step.pressing[i])].curvature;
+    }
+    if (step.pressing_count < 3) {
+        bend_step(step, pull, list, {pressing, static_cast<std::size_t>(step.pressing_count)}, 1e-12, trust);
+    }
+    return step;
+}
+
+Vec3 lift(std::span<const Sample> samples) {
+    ContactList list;
+    for (const Sample& sample : samples) {
+        list.add(sample.contact);
+    }
+    WorkBudget work(1'000'000);
+    return lift_to_rest(list, 1e-12, work);
 }
 
 TEST(ConstrainedStep, GoesAllTheWayWithoutContacts) {
@@ -36,7 +59,7 @@ TEST(ConstrainedStep, GoesAllTheWayWithoutContacts) {
 }
 
 TEST(ConstrainedStep, AFlatContactTakesThePullAcrossIt) {
-    const Contact contacts[] = {flat({0.0, 1.0, 0.0})};
+    const Sample contacts[] = {flat({0.0, 1.0, 0.0})};
     const ConstrainedStep step = step_over({1.0, -2.0, 0.5}, contacts);
     EXPECT_LT(glm::length(step.motion - Vec3(1.0, 0.0, 0.5)), 1e-15);
     ASSERT_EQ(step.pressing_count, 1);
@@ -44,24 +67,24 @@ TEST(ConstrainedStep, AFlatContactTakesThePullAcrossIt) {
 }
 
 TEST(ConstrainedStep, AContactWithAGapLetsTheProxyCloseIt) {
-    const Contact contacts[] = {flat({0.0, 1.0, 0.0}, 0.25)};
+    const Sample contacts[] = {flat({0.0, 1.0, 0.0}, 0.25)};
     EXPECT_NEAR(step_over({0.0, -2.0, 0.0}, contacts).motion.y, -0.25, 1e-15);
 }
 
 TEST(ConstrainedStep, AContactBelowRestPushesOut) {
-    const Contact contacts[] = {flat({0.0, 1.0, 0.0}, -1e-9)};
+    const Sample contacts[] = {flat({0.0, 1.0, 0.0}, -1e-9)};
     EXPECT_NEAR(step_over({0.0, -2.0, 0.0}, contacts).motion.y, 1e-9, 1e-15);
 }
 
 TEST(ConstrainedStep, PullAwayLeavesTheSurface) {
-    const Contact contacts[] = {flat({0.0, 1.0, 0.0})};
+    const Sample contacts[] = {flat({0.0, 1.0, 0.0})};
     const ConstrainedStep step = step_over({0.0, 2.0, 0.0}, contacts);
     EXPECT_EQ(step.motion, Vec3(0.0, 2.0, 0.0));
     EXPECT_EQ(step.pressing_count, 0);
 }
 
 TEST(ConstrainedStep, ContactsTooNarrowToLeaveHoldStill) {
-    const Contact contacts[] = {flat({0.0, 1.0, 0.0}, -1e-6), flat({0.0, -1.0, 0.0}, -1e-6)};
+    const Sample contacts[] = {flat({0.0, 1.0, 0.0}, -1e-6), flat({0.0, -1.0, 0.0}, -1e-6)};
     const ConstrainedStep step = step_over({0.0, -2.0, 0.0}, contacts);
     EXPECT_LT(glm::length(step.motion), 1e-6);
     const ConstrainedStep along = step_over({1.0, -2.0, 0.0}, contacts);
@@ -76,8 +99,8 @@ TEST(ConstrainedStep, CurvatureMakesTheStepOntoASphereSecondOrder) {
         const Vec3 hand(0.0, 0.8 * radius, 0.0);
         const Vec3 normal(std::sin(angle), std::cos(angle), 0.0);
         const Vec3 at = radius * normal;
-        Contact contact = flat(normal);
-        contact.bend_u = contact.bend_v = 1.0 / radius;
+        Sample contact = flat(normal);
+        contact.curvature.bend_u = contact.curvature.bend_v = 1.0 / radius;
         const ConstrainedStep step = step_over(hand - at, {&contact, 1});
         const Vec3 reached = glm::normalize(at + step.motion);
         EXPECT_LT(std::abs(reached.x), 2.0 * angle * angle) << angle;
@@ -89,9 +112,9 @@ TEST(ConstrainedStep, CurvatureMakesTheStepOntoAnEdgeSecondOrderAcrossAndExactAl
     const double angle = 1e-3;
     const Vec3 hand(0.0, 0.05, 0.03);
     const Vec3 normal(std::sin(angle), std::cos(angle), 0.0);
-    Contact contact = flat(normal);
-    contact.u = Vec3(std::cos(angle), -std::sin(angle), 0.0);
-    contact.bend_u = 1.0 / radius;
+    Sample contact = flat(normal);
+    contact.curvature.u = Vec3(std::cos(angle), -std::sin(angle), 0.0);
+    contact.curvature.bend_u = 1.0 / radius;
     const ConstrainedStep step = step_over(hand - radius * normal, {&contact, 1});
     const Vec3 reached = radius * normal + step.motion;
     EXPECT_NEAR(reached.z, 0.03, 1e-12);
@@ -101,48 +124,61 @@ TEST(ConstrainedStep, CurvatureMakesTheStepOntoAnEdgeSecondOrderAcrossAndExactAl
 // Around an edge that the hand is behind, a step leads to where the edge ends and not beyond.
 TEST(ConstrainedStep, AnEdgeIsBelievedInUpToItsEnd) {
     constexpr double radius = 0.1;
-    ContactList list;
-    list.add_end({Vec3(0.5, 0.0, 0.0), 0.5 * 0.02});
-    list.add_end({Vec3(-1.0, 0.0, 0.0), 0.03});
-    Contact contact = flat({0.0, 1.0, 0.0});
-    contact.u = Vec3(1.0, 0.0, 0.0);
-    contact.bend_u = 1.0 / radius;
-    contact.end_count = 2;
-    list.add(contact);
+    Sample contact = flat({0.0, 1.0, 0.0});
+    contact.curvature.u = Vec3(1.0, 0.0, 0.0);
+    contact.curvature.bend_u = 1.0 / radius;
+    contact.curvature.add_end({Vec3(0.5, 0.0, 0.0), 0.5 * 0.02});
+    contact.curvature.add_end({Vec3(-1.0, 0.0, 0.0), 0.03});
     for (const double side : {1.0, -1.0}) {
         const Vec3 pull(side * 1e-3, -3.0 * radius, 0.0);
-        const double reached = constrained_step(pull, list, 1e-12).motion.x * side;
+        const double reached = step_over(pull, {&contact, 1}).motion.x * side;
         const double end = side > 0.0 ? 0.02 : 0.03;
         EXPECT_GE(reached, end);
         EXPECT_LE(reached, 1.01 * end);
     }
 }
 
+// What is not trusted is the bent step: a flat one goes as far as the pull.
+TEST(ConstrainedStep, ABentStepGoesNoFartherThanItIsTrusted) {
+    constexpr double radius = 0.1;
+    Sample contact = flat({0.0, 1.0, 0.0});
+    contact.curvature.bend_u = contact.curvature.bend_v = 1.0 / radius;
+    const Vec3 pull(1e-3, -0.9 * radius, 0.0);
+    EXPECT_NEAR(step_over(pull, {&contact, 1}).motion.x, 1e-2, 1e-12);
+    EXPECT_NEAR(step_over(pull, {&contact, 1}, 4e-3).motion.x, 4e-3, 1e-12);
+    EXPECT_NEAR(step_over(pull, {&contact, 1}, 1e-5).motion.x, 1e-3, 1e-12);
+}
+
+TEST(ConstrainedStep, CoveredContactsDoNotCount) {
+    Sample covered = flat({0.0, 1.0, 0.0});
+    covered.contact.state = ContactState::covered;
+    EXPECT_EQ(step_over({0.0, -1.0, 0.0}, {&covered, 1}).motion, Vec3(0.0, -1.0, 0.0));
+}
+
 TEST(ConstrainedStep, LiftIsTheShortestWayToRest) {
-    ContactList list;
-    list.add(flat({0.0, 1.0, 0.0}, -1e-6));
-    list.add(flat({1.0, 0.0, 0.0}, 2.0));
-    EXPECT_LT(glm::distance(lift_to_rest(list, 1e-12), Vec3(0.0, 1e-6, 0.0)), 1e-15);
-    list.add(flat({1.0, 0.0, 0.0}, -2e-6));
-    EXPECT_LT(glm::distance(lift_to_rest(list, 1e-12), Vec3(2e-6, 1e-6, 0.0)), 1e-15);
+    std::vector<Sample> list{flat({0.0, 1.0, 0.0}, -1e-6), flat({1.0, 0.0, 0.0}, 2.0)};
+    EXPECT_LT(glm::distance(lift(list), Vec3(0.0, 1e-6, 0.0)), 1e-15);
+    list.push_back(flat({1.0, 0.0, 0.0}, -2e-6));
+    EXPECT_LT(glm::distance(lift(list), Vec3(2e-6, 1e-6, 0.0)), 1e-15);
 }
 
 // Whatever the contacts: no step may cross a contact plane, as the surfaces behind them are convex.
 TEST(ConstrainedStep, NeverCrossesAContactPlane) {
     RandomValues random(71);
     for (int i = 0; i < 20'000; ++i) {
-        std::vector<Contact> contacts;
+        std::vector<Sample> contacts;
         for (int k = 0; k < 1 + random.below(6); ++k) {
             contacts.push_back(flat(random.direction(), random.flip() ? 0.0 : random.magnitude(1e-9, 1e-2)));
             if (random.flip()) {
-                contacts.back().bend_u = random.magnitude(0.1, 100.0);
-                contacts.back().bend_v = random.flip() ? contacts.back().bend_u : 0.0;
+                contacts.back().curvature.bend_u = random.magnitude(0.1, 100.0);
+                contacts.back().curvature.bend_v = random.flip() ? contacts.back().curvature.bend_u : 0.0;
             }
         }
         const Vec3 pull = random.in_ball(0.2);
         const ConstrainedStep step = step_over(pull, contacts);
-        for (const Contact& contact : contacts) {
-            ASSERT_GE(glm::dot(contact.normal, step.motion), -contact.gap - 1e-10) << "case " << i;
+        for (const Sample& sample : contacts) {
+            ASSERT_GE(glm::dot(sample.contact.normal, step.motion), -sample.contact.gap - 1e-10)
+                << "case " << i;
         }
         for (int k = 0; k < step.pressing_count; ++k) {
             ASSERT_GT(step.pressure[k], 0.0);
@@ -154,7 +190,7 @@ TEST(ConstrainedStep, NeverCrossesAContactPlane) {
 TEST(ConstrainedStep, NeverMovesAwayFromTheHandOverFlatContacts) {
     RandomValues random(72);
     for (int i = 0; i < 20'000; ++i) {
-        std::vector<Contact> contacts;
+        std::vector<Sample> contacts;
         for (int k = 0; k < 1 + random.below(6); ++k) {
             contacts.push_back(flat(random.direction(), random.flip() ? 0.0 : random.magnitude(1e-9, 1e-2)));
         }

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "shared/bench_kit.hpp"
 #include "shared/free_way.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/rough_paths.hpp"
+#include "shared/stress_judge.hpp"
 
 namespace tactus {
 namespace {
@@ -102,6 +104,66 @@ TEST(FreeWay, LeavesNoClosedMesh) {
     const JudgeTree tree(mesh);
     EXPECT_EQ(find_free_way(tree, {0.85, 0.0, 0.0}, {1.15, 0.0, 0.0}, 0.1, {1.2, 0.0, 0.0}, 0.5),
               FreeWay::none);
+}
+
+TEST(BodyJudge, KnowsMeshesBoxesAndBallsWhereverTheyStand) {
+    const Vec3 half(0.3, 0.2, 0.4);
+    const TriangleMesh mesh = shared::box(half);
+    const JudgeTree tree(mesh);
+    shared::BodyJudge by_mesh = shared::BodyJudge::of_mesh(tree);
+    shared::BodyJudge by_box = shared::BodyJudge::of_box(half);
+    shared::BodyJudge by_ball = shared::BodyJudge::of_ball(0.3);
+    RandomValues random(91);
+    for (int i = 0; i < 200; ++i) {
+        const Pose pose{random.in_ball(3.0), random.rotation()};
+        const Vec3 local = random.in_ball(1.0);
+        for (shared::BodyJudge* const judge : {&by_mesh, &by_box, &by_ball}) {
+            judge->place(pose);
+            judge->changed();
+        }
+        const Vec3 p = to_parent(pose, local);
+        EXPECT_NEAR(by_ball.distance(p, 2.0), glm::length(local) - 0.3, 1e-14);
+        if (by_box.distance(p, 2.0) > 0.0) {
+            EXPECT_NEAR(by_box.distance(p, 2.0), by_mesh.distance(p, 2.0), 1e-14);
+        } else {
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(glm::abs(local), half)));
+        }
+    }
+}
+
+TEST(BodyJudge, SparesLooksOnlyWhereNothingCanHaveComeNear) {
+    const TriangleMesh mesh = shared::icosphere(2, 1.0);
+    const JudgeTree tree(mesh);
+    shared::BodyJudge judge = shared::BodyJudge::of_mesh(tree);
+    RandomValues random(92);
+    Vec3 p(1.3, 0.0, 0.0);
+    for (int i = 0; i < 5'000; ++i) {
+        p += random.in_ball(0.01) - 0.002 * (p - Vec3(1.2, 0.0, 0.0));
+        const bool near = tree.nearest(p, 9.0).distance < 0.1;
+        EXPECT_EQ(judge.distance(p, 0.1) < 0.1, near);
+    }
+    EXPECT_GT(judge.spared, 1'000u);
+    EXPECT_GT(judge.looks, 100u);
+    EXPECT_EQ(judge.bound_faults, 0u);
+}
+
+TEST(BodyJudge, ExcusesUntilTheSphereIsClear) {
+    shared::BodyJudge judge = shared::BodyJudge::of_ball(1.0);
+    judge.excuse();
+    EXPECT_FALSE(judge.is_penetrated({1.05, 0.0, 0.0}, 0.1));
+    EXPECT_TRUE(judge.is_excused());
+    EXPECT_FALSE(judge.is_penetrated({1.2, 0.0, 0.0}, 0.1));
+    EXPECT_TRUE(judge.is_penetrated({1.05, 0.0, 0.0}, 0.1));
+}
+
+TEST(Bench, ChoosesCasesByTheBeginningOfTheirNames) {
+    EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", ""));
+    EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_gear"));
+    EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_*_r0.2"));
+    EXPECT_FALSE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_*_r0.05"));
+    EXPECT_FALSE(shared::is_chosen("rough_gear", "rough_gear_1"));
+    EXPECT_TRUE(shared::is_chosen("rough_gear_", "rough_gear_100", false));
+    EXPECT_FALSE(shared::is_chosen("rough_gear_", "rough_scan", false));
 }
 
 // Closed: every edge has two sides, in opposite directions.

@@ -13,6 +13,11 @@ namespace {
 
 using shared::RandomValues;
 
+NearestInHalfSpaces solve(const Vec3& goal, std::span<const HalfSpace> halfspaces, double tolerance) {
+    WorkBudget work(1'000'000);
+    return nearest_in_halfspaces(goal, halfspaces, tolerance, work);
+}
+
 bool allowed(const Vec3& p, const std::vector<HalfSpace>& all, double tolerance) {
     for (const HalfSpace& h : all) {
         if (glm::dot(h.normal, p) < h.offset - tolerance) {
@@ -78,7 +83,7 @@ TEST(NearestInHalfSpaces, AgreesWithEnumeration) {
     for (int i = 0; i < 20'000; ++i) {
         const std::vector<HalfSpace> all = around_origin(random, 1 + random.below(9), 1.0);
         const Vec3 goal = random.in_ball(2.0);
-        const NearestInHalfSpaces found = nearest_in_halfspaces(goal, all, 1e-12);
+        const NearestInHalfSpaces found = solve(goal, all, 1e-12);
         const Enumerated expected = enumerate(goal, all, 1e-9);
         ASSERT_TRUE(found.feasible);
         ASSERT_TRUE(expected.feasible);
@@ -93,11 +98,11 @@ TEST(NearestInHalfSpaces, TheOrderDoesNotMatter) {
     for (int i = 0; i < 2'000; ++i) {
         std::vector<HalfSpace> all = around_origin(random, 6, 0.5);
         const Vec3 goal = random.in_ball(2.0);
-        const Vec3 first = nearest_in_halfspaces(goal, all, 1e-12).point;
+        const Vec3 first = solve(goal, all, 1e-12).point;
         for (int turn = 0; turn < 6; ++turn) {
             std::swap(all[static_cast<std::size_t>(random.below(6))],
                       all[static_cast<std::size_t>(random.below(6))]);
-            ASSERT_LT(glm::length(nearest_in_halfspaces(goal, all, 1e-12).point - first), 1e-7);
+            ASSERT_LT(glm::length(solve(goal, all, 1e-12).point - first), 1e-7);
         }
     }
 }
@@ -107,7 +112,7 @@ TEST(NearestInHalfSpaces, MultipliersAreWhatTheBordersHoldBack) {
     for (int i = 0; i < 10'000; ++i) {
         const std::vector<HalfSpace> all = around_origin(random, 5, 1.0);
         const Vec3 goal = random.in_ball(3.0);
-        const NearestInHalfSpaces found = nearest_in_halfspaces(goal, all, 1e-12);
+        const NearestInHalfSpaces found = solve(goal, all, 1e-12);
         Vec3 held(0.0);
         for (int k = 0; k < found.active_count; ++k) {
             ASSERT_GE(found.multiplier[k], 0.0);
@@ -119,14 +124,14 @@ TEST(NearestInHalfSpaces, MultipliersAreWhatTheBordersHoldBack) {
 
 TEST(NearestInHalfSpaces, AllowedGoalIsItsOwnAnswer) {
     const std::vector<HalfSpace> all{{Vec3(0.0, 1.0, 0.0), 0.0}, {Vec3(1.0, 0.0, 0.0), -1.0}};
-    const NearestInHalfSpaces found = nearest_in_halfspaces({0.0, 0.5, 0.0}, all, 1e-12);
+    const NearestInHalfSpaces found = solve({0.0, 0.5, 0.0}, all, 1e-12);
     EXPECT_EQ(found.point, Vec3(0.0, 0.5, 0.0));
     EXPECT_EQ(found.active_count, 0);
 }
 
 TEST(NearestInHalfSpaces, ThreePlanesMeetInACorner) {
     const std::vector<HalfSpace> all{{Vec3(1, 0, 0), 0.0}, {Vec3(0, 1, 0), 0.0}, {Vec3(0, 0, 1), 0.0}};
-    const NearestInHalfSpaces found = nearest_in_halfspaces({-1.0, -2.0, -3.0}, all, 1e-12);
+    const NearestInHalfSpaces found = solve({-1.0, -2.0, -3.0}, all, 1e-12);
     EXPECT_LT(glm::length(found.point), 1e-15);
     EXPECT_EQ(found.active_count, 3);
     EXPECT_NEAR(found.multiplier[0] + found.multiplier[1] + found.multiplier[2], 6.0, 1e-14);
@@ -142,7 +147,7 @@ TEST(NearestInHalfSpaces, NearlyParallelPlanesStaySmall) {
                            -random.magnitude(1e-12, 1e-3)});
         }
         const Vec3 goal = random.in_ball(0.1) - 0.1 * normal;
-        const NearestInHalfSpaces found = nearest_in_halfspaces(goal, all, 1e-12);
+        const NearestInHalfSpaces found = solve(goal, all, 1e-12);
         ASSERT_TRUE(found.feasible) << "case " << i;
         ASSERT_TRUE(allowed(found.point, all, 1e-9)) << "case " << i;
         // The origin is allowed, so the answer cannot be farther from the goal than that.
@@ -155,7 +160,7 @@ TEST(NearestInHalfSpaces, NarrowWedgesKeepTheirGroove) {
         const double half = degrees * 0.5 * 3.14159265358979 / 180.0;
         const std::vector<HalfSpace> all{{Vec3(std::cos(half), std::sin(half), 0.0), 0.0},
                                          {Vec3(-std::cos(half), std::sin(half), 0.0), 0.0}};
-        const NearestInHalfSpaces found = nearest_in_halfspaces({0.0, -1.0, 0.3}, all, 1e-14);
+        const NearestInHalfSpaces found = solve({0.0, -1.0, 0.3}, all, 1e-14);
         EXPECT_LT(glm::length(found.point - Vec3(0.0, 0.0, 0.3)), 1e-10) << degrees;
         EXPECT_NEAR(found.multiplier[0] * std::sin(half) + found.multiplier[1] * std::sin(half), 1.0, 1e-9)
             << degrees;
@@ -164,15 +169,15 @@ TEST(NearestInHalfSpaces, NarrowWedgesKeepTheirGroove) {
 
 TEST(NearestInHalfSpaces, OppositePlanesThatLeaveNothingAreInfeasible) {
     const std::vector<HalfSpace> all{{Vec3(0, 1, 0), 1.0}, {Vec3(0, -1, 0), 1.0}};
-    EXPECT_FALSE(nearest_in_halfspaces(Vec3(0.0), all, 1e-12).feasible);
+    EXPECT_FALSE(solve(Vec3(0.0), all, 1e-12).feasible);
     const std::vector<HalfSpace> three{
         {Vec3(0, 1, 0), 1.0}, {glm::normalize(Vec3(1, -1, 0)), 1.0}, {glm::normalize(Vec3(-1, -1, 0)), 1.0}};
-    EXPECT_FALSE(nearest_in_halfspaces(Vec3(0.0), three, 1e-12).feasible);
+    EXPECT_FALSE(solve(Vec3(0.0), three, 1e-12).feasible);
 }
 
 TEST(NearestInHalfSpaces, OppositePlanesThatTouchLeaveTheirPlane) {
     const std::vector<HalfSpace> all{{Vec3(0, 1, 0), 0.0}, {Vec3(0, -1, 0), 0.0}};
-    const NearestInHalfSpaces found = nearest_in_halfspaces({1.0, -2.0, 3.0}, all, 1e-12);
+    const NearestInHalfSpaces found = solve({1.0, -2.0, 3.0}, all, 1e-12);
     ASSERT_TRUE(found.feasible);
     EXPECT_LT(glm::length(found.point - Vec3(1.0, 0.0, 3.0)), 1e-12);
 }
@@ -182,7 +187,7 @@ TEST(NearestInHalfSpaces, AgreesWithEnumerationWhereAllBordersMeet) {
     for (int i = 0; i < 20'000; ++i) {
         const std::vector<HalfSpace> all = around_origin(random, 1 + random.below(9), 0.0);
         const Vec3 goal = random.in_ball(2.0);
-        const NearestInHalfSpaces found = nearest_in_halfspaces(goal, all, 1e-12);
+        const NearestInHalfSpaces found = solve(goal, all, 1e-12);
         const Enumerated expected = enumerate(goal, all, 1e-9);
         ASSERT_TRUE(found.feasible);
         ASSERT_TRUE(expected.feasible);

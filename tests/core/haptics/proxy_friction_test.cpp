@@ -35,7 +35,7 @@ double measured_ratio(double angle, double friction) {
     const HandForce force = contact_force(rig.scene, rig.proxy.touching(), tick.slide, Vec3(0.0), 1e-3);
     EXPECT_TRUE(tick.status & proxy_sliding);
     double pressing = 0.0;
-    for (const Contact& contact : rig.proxy.touching()) {
+    for (const Touch& contact : rig.proxy.touching()) {
         pressing += contact.pressure;
     }
     EXPECT_NEAR(force.total.z, -1000.0 * (hand.z - tick.position.z), 1e-6);
@@ -62,7 +62,7 @@ TEST(ProxyFriction, WallsOfAGroovePressAsStaticsSays) {
         const double height = radius / std::sin(0.5 * angle);
         rig.draw({0.0, height + 0.01, 0.0}, {0.0, height - 0.02, 0.0}, 20);
         ASSERT_EQ(rig.proxy.touching().size(), 2u);
-        for (const Contact& contact : rig.proxy.touching()) {
+        for (const Touch& contact : rig.proxy.touching()) {
             EXPECT_NEAR(contact.pressure, 0.02 / (2.0 * std::sin(0.5 * angle)), 1e-6);
         }
     }
@@ -158,7 +158,7 @@ TEST(ProxyFriction, HoldsAllTheWayAroundAFacetedBall) {
             continue;  // until static friction has given way
         }
         double pressure = 0.0;
-        for (const Contact& contact : rig.proxy.touching()) {
+        for (const Touch& contact : rig.proxy.touching()) {
             pressure += contact.pressure;
         }
         ASSERT_NEAR(glm::length(tick.slide) / pressure, friction, 0.005 * friction) << "angle " << angle;

@@ -90,7 +90,7 @@ TEST_P(ProxyGroove, RestsOnBothWallsWithTheRightPressure) {
     EXPECT_LT(glm::length(p - Vec3(0.0, height, 0.4)), tolerance / std::sin(0.5 * angle) + tolerance);
     ASSERT_EQ(rig.proxy.touching().size(), 2u);
     double held = 0.0;
-    for (const Contact& contact : rig.proxy.touching()) {
+    for (const Touch& contact : rig.proxy.touching()) {
         held += contact.pressure * contact.normal.y;
     }
     EXPECT_NEAR(held, depth, 1e-6);

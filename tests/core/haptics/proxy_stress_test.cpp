@@ -10,7 +10,7 @@ const shared::StressCounts& counts() {
     static const shared::StressCounts all = [] {
         shared::StressCounts c;
         for (std::uint64_t seed = 1; seed <= 700; ++seed) {
-            shared::run_stress_case(seed, 400, c);
+            shared::run_stress_case(seed, {.ticks = 400}, c);
         }
         return c;
     }();

@@ -1,0 +1,287 @@
+// A half-line from the point along an axis crosses a closed surface outwards once more often than inwards for
+// each time that the surface winds around the point.
+//
+// What would go wrong is a half-line that meets an edge or a corner and is counted for both neighbours or for
+// none. So the sides that the half-line passes are decided edge by edge, from the edge's two ends alone and
+// in one order, whichever triangle asks: neighbours get the same answer to the last bit. What rounding does
+// to it is what bending the edge by as much would do, and a bent surface is closed as well. What is left is
+// whether a triangle that the half-line's line passes through lies before or behind the point; where that
+// cannot be told the point is on the triangle, or the triangle is seen from its edge: another axis decides
+// then.
+#include "core/geometry/inside_test.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/geometry/triangle_tree.hpp"
+
+namespace tactus {
+
+namespace {
+
+// --- closed
+
+// Where a surface is drawn around a full turn, its seam is closed but for the rounding of single precision:
+// as a share of what the seams extend over.
+constexpr double seam_width = 1e-6;
+constexpr std::size_t max_rim = 20'000;  // vertices; what has more is no solid with seams
+
+std::uint64_t mixed(std::uint64_t x) {  // the finaliser of splitmix64
+    x = (x ^ (x >> 30)) * 0xbf58'476d'1ce4'e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d0'49bb'1331'11ebu;
+    return x ^ (x >> 31);
+}
+
+struct Sum {
+    std::uint64_t low = 0, high = 0;
+};
+
+std::uint64_t number_of(const Vec3& corner) {
+    std::uint64_t number = 0x9e37'79b9'7f4a'7c15u;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double coordinate = corner[axis] == 0.0 ? 0.0 : corner[axis];  // -0 is 0
+        number = mixed(number ^ std::bit_cast<std::uint64_t>(coordinate)) + 0x9e37'79b9'7f4a'7c15u;
+    }
+    return number;
+}
+
+// The same edge the other way takes away what this way adds.
+void add_edge(Sum& sum, std::uint64_t from, std::uint64_t to) {
+    const std::uint64_t there = mixed(from + 3 * std::rotl(to, 17));
+    const std::uint64_t back = mixed(to + 3 * std::rotl(from, 17));
+    sum.low += there - back;
+    sum.high += mixed(there + 1) - mixed(back + 1);
+}
+
+using Numbers = std::vector<std::uint64_t>;  // by vertex
+
+bool is_balanced(const TriangleMesh& mesh, const Numbers& numbers) {
+    Sum sum;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        add_edge(sum, numbers[a], numbers[b]);
+        add_edge(sum, numbers[b], numbers[c]);
+        add_edge(sum, numbers[c], numbers[a]);
+    }
+    return sum.low == 0 && sum.high == 0;
+}
+
+// The vertices with an edge that runs one way more often than the other: what each neighbour is reached by
+// has to cancel, over all vertices at the same place.
+std::vector<std::uint32_t> rim_of(const TriangleMesh& mesh, const Numbers& numbers) {
+    Numbers sums(mesh.vertices.size(), 0);
+    for (const auto& triangle : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t from = triangle[k], to = triangle[(k + 1) % 3];
+            sums[from] += mixed(numbers[to]);
+            sums[to] -= mixed(numbers[from]);
+        }
+    }
+    std::vector<std::uint32_t> suspects;
+    for (std::uint32_t v = 0; v < sums.size(); ++v) {
+        if (sums[v] != 0) {
+            suspects.push_back(v);
+        }
+    }
+    std::ranges::sort(suspects, {}, [&](std::uint32_t v) { return numbers[v]; });
+    std::vector<std::uint32_t> rim;
+    for (std::size_t first = 0, last = 0; first < suspects.size(); first = last) {
+        std::uint64_t sum = 0;
+        for (; last < suspects.size() && numbers[suspects[last]] == numbers[suspects[first]]; ++last) {
+            sum += sums[suspects[last]];
+        }
+        if (sum != 0) {
+            rim.insert(rim.end(), suspects.begin() + static_cast<std::ptrdiff_t>(first),
+                       suspects.begin() + static_cast<std::ptrdiff_t>(last));
+        }
+    }
+    return rim;
+}
+
+// Gives places on the rim that are within rounding of each other the same number.
+void weld(const TriangleMesh& mesh, std::vector<std::uint32_t> rim, Numbers& numbers) {
+    double farthest = 0.0;
+    for (const std::uint32_t v : rim) {
+        const Vec3 size = glm::abs(mesh.vertices[v] - mesh.vertices[rim.front()]);
+        farthest = std::max({farthest, size.x, size.y, size.z});
+    }
+    const double same = seam_width * farthest;
+    std::ranges::sort(rim, {}, [&](std::uint32_t v) { return mesh.vertices[v].x; });
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+        const Vec3& place = mesh.vertices[rim[i]];
+        for (std::size_t k = i; k-- > 0 && place.x - mesh.vertices[rim[k]].x <= same;) {
+            const Vec3 apart = glm::abs(place - mesh.vertices[rim[k]]);
+            if (apart.y <= same && apart.z <= same) {
+                numbers[rim[i]] = numbers[rim[k]];
+                break;
+            }
+        }
+    }
+}
+
+// --- crossings
+
+// The axes across the half-line, right-handed with it.
+struct Across {
+    int i, j;
+};
+
+Across across(int axis) {
+    return {(axis + 1) % 3, (axis + 2) % 3};
+}
+
+// +1 or -1 where the edge passes the point on its far side along i, upwards or downwards along j; else 0. Its
+// lower end counts as on it, its upper end does not: where edges meet, one of them passes.
+int passes(const Vec3& from, const Vec3& to, const Vec3& p, const Across& axes) {
+    const auto [i, j] = axes;
+    const bool from_below = from[j] <= p[j];
+    if (from_below == (to[j] <= p[j])) {
+        return 0;
+    }
+    const Vec3& low = from_below ? from : to;
+    const Vec3& high = from_below ? to : from;
+    // > 0: the point is on the left of the way up.
+    const double left = (high[i] - low[i]) * (p[j] - low[j]) - (p[i] - low[i]) * (high[j] - low[j]);
+    if (!(left > 0.0)) {
+        return 0;
+    }
+    return from_below ? 1 : -1;
+}
+
+enum class Where { behind, before, unclear };
+
+// Whether the line along `axis` through the point meets the triangle beyond the point. `turn`: how the
+// triangle winds around the line.
+Where meets(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p, int axis, int turn) {
+    if (std::min({a[axis], b[axis], c[axis]}) > p[axis]) {
+        return Where::before;
+    }
+    if (std::max({a[axis], b[axis], c[axis]}) < p[axis]) {
+        return Where::behind;
+    }
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double volume = glm::dot(glm::cross(ab, ac), ap);
+    // Each of the six products errs by a few roundings of its factors.
+    const double doubt = 0x1p-48 * glm::length(ab) * glm::length(ac) * glm::length(ap);
+    if (std::abs(volume) <= doubt) {
+        return Where::unclear;
+    }
+    return (volume < 0.0) == (turn > 0) ? Where::before : Where::behind;
+}
+
+}  // namespace
+
+bool is_closed(const TriangleMesh& mesh) {
+    Numbers numbers(mesh.vertices.size());
+    std::ranges::transform(mesh.vertices, numbers.begin(), number_of);
+    if (mesh.triangles.empty() || is_balanced(mesh, numbers)) {
+        return !mesh.triangles.empty();
+    }
+    std::vector<std::uint32_t> rim = rim_of(mesh, numbers);
+    if (rim.size() > max_rim) {
+        return false;
+    }
+    weld(mesh, std::move(rim), numbers);
+    return is_balanced(mesh, numbers);
+}
+
+// The boxes are wider than their triangles by rounding, never narrower.
+bool TriangleTree::crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const {
+    const auto axes = across(axis);
+    const Vec3 relative = point - origin_;
+    const auto slack = static_cast<float>(float_slack(relative) * (1.0 + 1e-6));
+    float at[3];
+    for (int k = 0; k < 3; ++k) {
+        at[k] = static_cast<float>(relative[k]);
+    }
+    std::uint32_t stack[24 * (node_width - 1) + 1];  // see triangle_tree.cpp
+    int depth = 0;
+    stack[depth++] = 0;
+    bool clear = true;
+    number = 0;
+    while (depth > 0) {
+        const BoxNode& node = nodes_[stack[--depth]];
+        if (work.is_gone()) {
+            return false;
+        }
+        work.spend(cost::box_node);
+        for (int slot = 0; slot < node_width; ++slot) {
+            const auto holds = [&](int k) {
+                return node.low[k][slot] <= at[k] + slack && node.high[k][slot] >= at[k] - slack;
+            };
+            const bool ahead = sign > 0.0 ? node.high[axis][slot] >= at[axis] - slack
+                                          : node.low[axis][slot] <= at[axis] + slack;
+            if (node.child[slot] == BoxNode::unused || !ahead || !holds(axes.i) || !holds(axes.j)) {
+                continue;
+            }
+            if (!(node.child[slot] & BoxNode::leaf_bit)) {
+                stack[depth++] = node.child[slot];
+                continue;
+            }
+            work.spend(cost::pack_look);
+            const std::uint32_t index = node.child[slot] & ~BoxNode::leaf_bit;
+            const TrianglePack& triangles = pack(index);
+            const auto ids = triangle_ids(index);
+            for (int k = 0; k < lane_count; ++k) {
+                if (k > 0 && ids[static_cast<std::size_t>(k)] == ids[static_cast<std::size_t>(k) - 1]) {
+                    break;  // the last triangle fills up the pack
+                }
+                const Vec3 a = lane(triangles.a, k), b = lane(triangles.b, k), c = lane(triangles.c, k);
+                const int turn =
+                    passes(a, b, point, axes) + passes(b, c, point, axes) + passes(c, a, point, axes);
+                if (turn == 0) {
+                    continue;
+                }
+                const Where where = meets(a, b, c, point, axis, turn);
+                clear = clear && where != Where::unclear;
+                const bool beyond = where == (sign > 0.0 ? Where::before : Where::behind);
+                number += beyond ? turn : 0;
+            }
+        }
+    }
+    number = sign > 0.0 ? number : -number;
+    return clear;
+}
+
+// The nearest way out of the tree's box first: it meets the least.
+Winding TriangleTree::winding(const Vec3& point, WorkBudget& work) const {
+    struct Way {
+        double length;
+        int axis;
+        double sign;
+    };
+    std::array<Way, 6> ways;
+    const Vec3 relative = point - origin_;
+    const double rim = extent_ + float_slack(relative);
+    if (std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)}) > rim) {
+        return {0, true};
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto k = static_cast<std::size_t>(axis);
+        double low = rim, high = -rim;
+        for (int slot = 0; slot < node_width; ++slot) {
+            if (nodes_[0].child[slot] != BoxNode::unused) {
+                low = std::min(low, static_cast<double>(nodes_[0].low[axis][slot]));
+                high = std::max(high, static_cast<double>(nodes_[0].high[axis][slot]));
+            }
+        }
+        ways[2 * k] = {high - relative[axis], axis, 1.0};
+        ways[2 * k + 1] = {relative[axis] - low, axis, -1.0};
+    }
+    std::ranges::sort(ways, {}, &Way::length);
+    Winding winding;
+    for (const Way& way : ways) {
+        winding.known = crossings(point, way.axis, way.sign, work, winding.number);
+        if (winding.known || work.is_gone()) {
+            break;
+        }
+    }
+    return winding;
+}
+
+}  // namespace tactus

@@ -1,0 +1,192 @@
+#include "core/haptics/contact_look.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+Vec3 any_perpendicular(const Vec3& n) {
+    const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
+    return glm::normalize(glm::cross(n, other));
+}
+
+}  // namespace
+
+SurfacePoint ContactLook::at(const FeatureId& feature) const {
+    work_.spend(cost::closest_point);
+    const ScenePart& part = placed(feature);
+    return surface_point(*part.part, feature.triangle, to_local(part.pose, center_));
+}
+
+Contact ContactLook::exact_contact(const FeatureId& feature) const {
+    const SurfacePoint nearest = at(feature);
+    return {direction_to_parent(placed(feature).pose, nearest.normal), nearest.distance - rest_, feature,
+            ContactState::exact};
+}
+
+void ContactLook::look_closely(ContactList& contacts, int index) const {
+    Contact& contact = contacts[index];
+    const SurfacePoint nearest = at(contact.feature);
+    contact.normal = direction_to_parent(placed(contact.feature).pose, nearest.normal);
+    contact.gap = nearest.distance - rest_;
+    contact.state = is_covered(contacts, index, nearest) ? ContactState::covered : ContactState::exact;
+}
+
+bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoint& candidate) const {
+    if (candidate.kind == TriangleFeature::face) {
+        return false;
+    }
+    const Contact contact = contacts[index];
+    const ScenePart& part = placed(contact.feature);
+    const TriangleTree& tree = *part.part->tree();
+    const Vec3 point = to_parent(part.pose, candidate.point);
+    const double on_it = same_point * same_;
+    const auto contains = [&](const Contact& other) {
+        work_.spend(cost::closest_point);
+        // Neighbours mostly have their closest point in common.
+        if (glm::distance(center_ - other.normal * (other.gap + rest_), point) <= on_it) {
+            return true;
+        }
+        const TriangleCorners t = triangle_corners(tree, other.feature.triangle);
+        const Vec3 low = glm::min(glm::min(t.a, t.b), t.c) - on_it;
+        const Vec3 high = glm::max(glm::max(t.a, t.b), t.c) + on_it;
+        return glm::clamp(candidate.point, low, high) == candidate.point &&
+               glm::distance(candidate.point,
+                             closest_point_on_triangle(candidate.point, t.a, t.b, t.c).point) <= on_it;
+    };
+    for (int i = 0; i < contacts.count; ++i) {
+        Contact& other = contacts[i];
+        if (i == index || other.feature.part != contact.feature.part || other.gap > contact.gap + same_ ||
+            !contains(other)) {
+            continue;
+        }
+        const bool nearer = other.gap < contact.gap - same_;
+        const bool stands_first = !nearer && at(other.feature).kind == TriangleFeature::face;
+        if (stands_first && other.state == ContactState::covered) {
+            other.state = ContactState::seen;
+        }
+        if (nearer || stands_first || i < index) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool ContactLook::is_covered_by_any(const Contact& contact) const {
+    const SurfacePoint candidate = at(contact.feature);
+    if (candidate.kind == TriangleFeature::face) {
+        return false;
+    }
+    const ScenePart& part = placed(contact.feature);
+    const TriangleTree& tree = *part.part->tree();
+    const LanesVec3 center = splat(to_local(part.pose, center_));
+    const LanesVec3 point = splat(candidate.point);
+    const double on_it = same_point * same_;
+    const double nearer = candidate.distance - same_;
+    bool covered = false;
+    tree.visit_near(candidate.point, on_it, work_, [&](std::uint32_t pack) {
+        work_.spend(2 * cost::pack_look);
+        const TrianglePack& triangles = tree.pack(pack);
+        const LaneMask containing = offset_from_triangles(triangles, point).squared <= splat(on_it * on_it);
+        const LaneMask is_nearer = offset_from_triangles(triangles, center).squared < splat(nearer * nearer);
+        covered = covered || any(containing & is_nearer);
+    });
+    return covered;
+}
+
+// An edge ends for a sphere that moves across it where it comes to stand above one of the edge's faces, and a
+// corner where it comes to stand beside one of the corner's edges: whichever triangle is first.
+void ContactLook::add_ends(const ContactList& contacts, const FeatureId& feature, const SurfacePoint& nearest,
+                           Curvature& out) const {
+    const ScenePart& part = placed(feature);
+    const TriangleTree& tree = *part.part->tree();
+    const Vec3 offset = nearest.normal * nearest.distance;
+    const double squared_same = same_point * same_point * same_ * same_;
+    const auto add = [&](const Vec3& direction) {
+        const double room = std::max(0.0, -glm::dot(offset, direction));
+        out.add_end({direction_to_parent(part.pose, direction), room});
+    };
+    for (const Contact& other : contacts.all()) {
+        if (other.feature.part != feature.part ||
+            std::abs(other.gap + rest_ - nearest.distance) > same_point * same_) {
+            continue;
+        }
+        const Vec3 apart = at(other.feature).point - nearest.point;
+        if (glm::dot(apart, apart) > squared_same) {
+            continue;
+        }
+        const TriangleCorners t = triangle_corners(tree, other.feature.triangle);
+        Vec3 widest(0.0);  // from the edge to the farthest corner
+        for (const Vec3& corner : {t.a, t.b, t.c}) {
+            const Vec3 way = corner - nearest.point;
+            if (nearest.kind == TriangleFeature::edge) {
+                const Vec3& along = nearest.edge_direction;
+                const Vec3 off_edge = way - along * glm::dot(along, way);
+                widest = glm::dot(off_edge, off_edge) > glm::dot(widest, widest) ? off_edge : widest;
+            } else if (glm::dot(way, way) > squared_same) {
+                add(way);
+            }
+        }
+        if (nearest.kind == TriangleFeature::edge) {
+            add(widest);
+        }
+    }
+}
+
+Curvature ContactLook::curvature_of(const ContactList& contacts, int index) const {
+    const FeatureId& feature = contacts[index].feature;
+    const ScenePart& part = placed(feature);
+    Curvature result;
+    if (!part.part->tree()) {
+        work_.spend(cost::solid_look);
+        const SolidDistance solid = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
+        result.u = direction_to_parent(part.pose, solid.u);
+        result.bend_u = solid.bend_u;
+        result.bend_v = solid.bend_v;
+        for (int i = 0; i < solid.end_count; ++i) {
+            const SurfaceEnd& end = solid.ends[static_cast<std::size_t>(i)];
+            result.add_end({direction_to_parent(part.pose, end.direction), end.room});
+        }
+        return result;
+    }
+    const SurfacePoint nearest = at(feature);
+    const double bend = nearest.distance > 0.0 ? 1.0 / nearest.distance : 0.0;
+    Vec3 u = any_perpendicular(nearest.normal);
+    if (nearest.kind == TriangleFeature::edge) {
+        // Normal and edge are perpendicular but for rounding; only a sphere of no size at all has neither.
+        const Vec3 across = glm::cross(nearest.normal, nearest.edge_direction);
+        const double length = glm::length(across);
+        u = length > 0.5 ? across / length : u;
+        result.bend_u = bend;
+    } else if (nearest.kind == TriangleFeature::corner) {
+        result.bend_u = result.bend_v = bend;
+    }
+    result.u = direction_to_parent(part.pose, u);
+    if (!result.is_flat()) {
+        add_ends(contacts, feature, nearest, result);
+    }
+    return result;
+}
+
+Touch ContactLook::touch_of(const Contact& contact, double pressure) const {
+    const ScenePart& part = placed(contact.feature);
+    Touch touch;
+    touch.point = center_ - contact.normal * (contact.gap + rest_);
+    touch.normal = touch.force_direction = contact.normal;
+    touch.pressure = pressure;
+    touch.body = static_cast<int>(part.body);
+    if (part.part->smooth_normals) {
+        const std::uint32_t slot = contact.feature.triangle;
+        const TriangleCorners t = triangle_corners(*part.part->tree(), slot);
+        const Vec3 smooth = interpolated_normal(
+            (*part.part->smooth_normals)[part.part->tree()->triangle_at(slot)], t.a, t.b, t.c,
+            to_local(part.pose, touch.point), direction_to_local(part.pose, contact.normal));
+        touch.force_direction = direction_to_parent(part.pose, smooth);
+    }
+    return touch;
+}
+
+}  // namespace tactus

@@ -1,0 +1,48 @@
+// A close look at the few contacts that matter: which edges and corners count, how the surface bends there,
+// and what forces need to know of it.
+#pragma once
+
+#include "core/geometry/surface.hpp"
+#include "core/haptics/contact.hpp"
+#include "core/haptics/touch_scene.hpp"
+
+namespace tactus {
+
+// Two points closer than this many times `same` are one point: on an edge that two triangles share, the
+// nearest point is found twice, with different rounding.
+constexpr double same_point = 16.0;
+
+class ContactLook {
+public:
+    // `rest` is the distance at which the sphere's centre rests; distances that differ by at most `same` are
+    // equal (unit: meters).
+    ContactLook(const TouchScene& scene, const Vec3& center, double rest, double same, WorkBudget& work)
+        : scene_(scene), center_(center), rest_(rest), same_(same), work_(work) {}
+
+    // Gap and normal become exact, or the contact is covered: an edge or corner counts only where it is
+    // nearest to the sphere on every triangle that shares it. Where another triangle contains the same point
+    // and is nearer, the surface there is flat or concave seen from the sphere: that triangle's own contact
+    // stands for it. Where several share it equally, the first owns it. Decided from the triangles at hand,
+    // it needs no adjacency, and holds for T-junctions and soups, from either side.
+    void look_closely(ContactList& contacts, int index) const;
+    Contact exact_contact(const FeatureId& feature) const;
+    // The same asked of the tree, for a contact whose neighbours may not be among the triangles at hand.
+    bool is_covered_by_any(const Contact& contact) const;
+    Curvature curvature_of(const ContactList& contacts, int index) const;
+    Touch touch_of(const Contact& contact, double pressure) const;
+
+private:
+    const ScenePart& placed(const FeatureId& feature) const { return scene_.parts()[feature.part]; }
+    SurfacePoint at(const FeatureId& feature) const;
+    bool is_covered(ContactList& contacts, int index, const SurfacePoint& candidate) const;
+    void add_ends(const ContactList& contacts, const FeatureId& feature, const SurfacePoint& at,
+                  Curvature& out) const;
+
+    const TouchScene& scene_;
+    Vec3 center_;
+    double rest_;
+    double same_;
+    WorkBudget& work_;
+};
+
+}  // namespace tactus

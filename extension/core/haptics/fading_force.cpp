@@ -1,0 +1,37 @@
+#include "core/haptics/fading_force.hpp"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "core/haptics/force_law.hpp"
+
+namespace tactus {
+
+namespace {
+
+Vec3 shortened_by(const Vec3& v, double length) {
+    const double before = glm::length(v);
+    return before > length ? v * ((before - length) / before) : Vec3(0.0);
+}
+
+double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to) {
+    return std::max(from.stiffness, to.stiffness) * glm::distance(from.hand, to.hand) +
+           std::max(from.damping, to.damping) * glm::distance(from.velocity, to.velocity);
+}
+
+}  // namespace
+
+Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step& step) {
+    const Vec3 given = limited_force(force, limit);
+    const double allowed = std::max(max_step, change_by_hand(step_, step));
+    step_ = step;
+    offset_ = shortened_by(offset_, max_step);
+    if (jumped) {
+        // What it jumps by beyond that joins what is still fading.
+        offset_ -= shortened_by(given + offset_ - felt_, allowed);
+    }
+    felt_ = limited_force(given + offset_, limit);
+    return offset_ == Vec3(0.0) ? force : felt_;
+}
+
+}  // namespace tactus

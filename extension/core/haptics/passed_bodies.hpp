@@ -1,0 +1,65 @@
+// Bodies that the proxy goes through for now: one whose surface broke under the hand, and one that stands
+// where the proxy is, because it appeared there, was put there, grew, or left it no room between itself and
+// others. Such a body is not touched until the sphere is clear of it again. So touch always begins with a
+// sphere that overlaps nothing, and without a kick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/geometry/triangle_tree.hpp"
+#include "core/haptics/touch_scene.hpp"
+
+namespace tactus {
+
+enum class PassedBecause : std::uint8_t {
+    broken,    // its surface gave way: it holds again on the other side as well
+    overlaps,  // it stands where the sphere is: the sphere has to be let out first
+    squeezes,  // likewise, and moving bodies have left no room
+};
+
+// How a sphere stands to a body.
+struct Overlap {
+    // From the centre to the nearest surface, negative inside a solid; `far` of the question where it is
+    // farther (unit: meters).
+    double distance = 0.0;
+    bool inside = false;  // a solid, or a closed mesh
+    bool known = true;    // false: the work ran out before that of a mesh was clear
+};
+
+// `pose`: of the body, in the world. Only the distance is looked for where `closed_meshes` is false, or where
+// only meshes that are touched from one side count and it is not one of them.
+enum class Insides { of_solids, of_one_sided, of_all };
+Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far,
+                     Insides insides, WorkBudget& work);
+
+class PassedBodies {
+public:
+    static constexpr std::size_t capacity = 8;
+
+    // False where there are too many already.
+    bool pass(int body, PassedBecause reason);
+    bool contains(int body) const;
+    bool empty() const { return count_ == 0; }
+    std::size_t count() const { return count_; }
+    bool any(PassedBecause reason) const;
+
+    // Takes out those that a sphere of that radius around `center` is clear of (unit: meters): by `room`, and
+    // outside where it has to be.
+    void update(const TouchScene& scene, const Vec3& center, double room, WorkBudget& work);
+    // Another body has its slot now, or none.
+    void forget(int body);
+
+private:
+    struct Passed {
+        int body;
+        PassedBecause reason;
+        bool entered;  // the sphere has been within its surface since
+    };
+
+    std::array<Passed, capacity> passed_{};
+    std::size_t count_ = 0;
+};
+
+}  // namespace tactus

@@ -1,0 +1,288 @@
+// The fields of what is sent many times a second, in few bytes: positions in whole nanometers and the like,
+// as numbers of as many bytes as they need, and a sample that follows another one as what differs from it.
+// Private to messages.cpp; docs/wire_format.md, kinds 8 to 10.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+
+#include "network/messages.hpp"
+#include "network/wire_stream.hpp"
+
+namespace tactus {
+
+using WholeVector = std::array<std::int64_t, 3>;
+
+// In whole quanta; refuses what is no number or lies beyond `most`.
+inline WholeVector whole(WireStream& s, const Vec3& value, double quantum, double most) {
+    WholeVector result{};
+    for (int i = 0; i < 3; ++i) {
+        if (!std::isfinite(value[i])) {
+            s.refuse(Refusal::not_finite);
+        } else if (std::abs(value[i]) > most) {
+            s.refuse(Refusal::out_of_range);
+        } else {
+            result[static_cast<std::size_t>(i)] = std::llround(value[i] / quantum);
+        }
+    }
+    return result;
+}
+
+// `value` as what it differs by from `expected`.
+inline void whole_fields(WireWriter& s, Vec3 const& value, WholeVector& number, const WholeVector& expected,
+                         double quantum, double most) {
+    number = whole(s, value, quantum, most);
+    for (std::size_t i = 0; i < 3; ++i) {
+        s.folded_varint(number[i] - expected[i]);
+    }
+}
+inline void whole_fields(WireReader& s, Vec3& value, WholeVector& number, const WholeVector& expected,
+                         double quantum, double most) {
+    const auto limit = static_cast<std::int64_t>(std::ceil(most / quantum));
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::int64_t difference = 0;
+        s.folded_varint(difference);
+        constexpr std::int64_t no_overflow = std::int64_t{1} << 62;
+        s.require(difference > -no_overflow && difference < no_overflow);
+        number[i] = s.good() ? expected[i] + difference : 0;
+        s.require(number[i] >= -limit && number[i] <= limit);
+        value[static_cast<int>(i)] = s.good() ? static_cast<double>(number[i]) * quantum : 0.0;
+    }
+}
+template <typename Stream>
+void whole_fields(Stream& s, auto& value, double quantum, double most) {
+    WholeVector number{};
+    whole_fields(s, value, number, WholeVector{}, quantum, most);
+}
+
+// Three of four: the largest is told by its place and follows from the others, its sign made positive.
+inline constexpr double rotation_scale = 1518500249.98802484622;  // 2^30 * sqrt(2)
+inline constexpr std::int64_t max_rotation_part = (std::int64_t{1} << 30) + 1;
+
+inline std::uint8_t largest_part(const Quat& q) {
+    const std::array<double, 4> parts{q.x, q.y, q.z, q.w};
+    std::uint8_t largest = 0;
+    for (std::uint8_t i = 1; i < 4; ++i) {
+        largest = std::abs(parts[i]) > std::abs(parts[largest]) ? i : largest;
+    }
+    return largest;
+}
+
+inline void rotation_fields(WireWriter& s, const Quat& q, std::uint8_t largest) {
+    const std::array<double, 4> parts{q.x, q.y, q.z, q.w};
+    const double length = glm::length(q);
+    const double scale = rotation_scale / (parts[largest] < 0.0 ? -length : length);
+    s.require(std::isfinite(length) && std::abs(length - 1.0) < quaternion_tolerance);
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (i != largest && s.good()) {
+            s.integer(static_cast<std::int32_t>(std::llround(parts[i] * scale)));
+        }
+    }
+}
+inline void rotation_fields(WireReader& s, Quat& q, std::uint8_t largest) {
+    std::array<double, 4> parts{};
+    double rest = 1.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (i != largest) {
+            std::int32_t part = 0;
+            s.integer(part);
+            s.require(std::abs(std::int64_t{part}) <= max_rotation_part);
+            parts[i] = static_cast<double>(part) / rotation_scale;
+            rest -= parts[i] * parts[i];
+        }
+    }
+    constexpr double least = 0.25 - 1e-6;  // the square of the largest of four
+    s.require(rest >= least);
+    if (s.good()) {
+        parts[largest] = std::sqrt(rest);
+        q = glm::normalize(Quat(parts[3], parts[0], parts[1], parts[2]));
+    }
+}
+
+template <typename Stream>
+void single_vector(Stream& s, auto& value, double most) {
+    for (int i = 0; i < 3; ++i) {
+        auto single = static_cast<float>(value[i]);
+        s.real(single, static_cast<float>(-most), static_cast<float>(most));
+        if constexpr (Stream::reads) {
+            value[i] = s.good() ? static_cast<double>(single) : 0.0;
+        }
+    }
+}
+
+template <typename Stream>
+void object_fields(Stream& s, auto& object) {
+    std::uint64_t number = object;
+    s.varint(number);
+    s.require(number < no_object);
+    if constexpr (Stream::reads) {
+        object = s.good() ? static_cast<ObjectId>(number) : no_object;
+    }
+}
+
+template <typename Stream>
+void object_state_fields(Stream& s, auto& m) {
+    enum : std::uint8_t { asleep = 1, moving = 2, largest_shift = 2, known = 0x0f };
+    object_fields(s, m.object);
+    std::uint8_t flags = 0;
+    if constexpr (!Stream::reads) {
+        const bool moves = m.linear_velocity != Vec3(0.0) || m.angular_velocity != Vec3(0.0);
+        flags = static_cast<std::uint8_t>((m.asleep ? asleep : 0) | (moves ? moving : 0) |
+                                          largest_part(m.pose.rotation) << largest_shift);
+    }
+    s.integer(flags);
+    s.require((flags & ~known) == 0);
+    whole_fields(s, m.pose.position, position_quantum, plausible::max_position);
+    rotation_fields(s, m.pose.rotation, static_cast<std::uint8_t>(flags >> largest_shift & 3));
+    if constexpr (Stream::reads) {
+        m.asleep = (flags & asleep) != 0;
+        m.linear_velocity = m.angular_velocity = Vec3(0.0);
+    }
+    if ((flags & moving) != 0) {
+        single_vector(s, m.linear_velocity, plausible::max_speed);
+        single_vector(s, m.angular_velocity, plausible::max_angular_speed);
+    }
+}
+
+template <typename Stream>
+void force_sample_fields(Stream& s, auto& m) {
+    std::uint64_t pointer = m.pointer;
+    s.varint(pointer);
+    s.require(pointer <= 0xffffu);
+    s.time_near(m.true_at);
+    s.varint(m.newest_operator_sample);
+    s.require(m.newest_operator_sample <= plausible::max_sequence);
+    whole_fields(s, m.force, force_quantum, plausible::max_force);
+    whole_fields(s, m.proxy, position_quantum, plausible::max_position);
+    std::uint64_t object = m.object == no_object ? 0 : std::uint64_t{m.object} + 1;  // 0: none
+    s.varint(object);
+    s.require(object <= no_object);
+    if constexpr (Stream::reads) {
+        m.pointer = static_cast<std::uint16_t>(pointer);
+        m.object = object == 0 ? no_object : static_cast<ObjectId>(object - 1);
+    }
+}
+
+// A sample in whole numbers, as the next one of its pointer is told from it.
+struct WholeSample {
+    WholeVector position{}, velocity{}, force{}, relative{};
+};
+
+// Where the hand was `later` nanoseconds before, had it kept its velocity: 1e-6 m/s · 1e-9 s = 1e-6 · 1e-9 m.
+inline WholeVector carried_back(const WholeSample& sample, std::int64_t later) {
+    constexpr std::int64_t per_quantum = 1'000'000;
+    WholeVector result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        result[i] = sample.position[i] - sample.velocity[i] * later / per_quantum;
+    }
+    return result;
+}
+
+enum SampleFlag : std::uint8_t {
+    sample_connected = 1,
+    sample_follows = 2,  // is told from the one before it, of the same pointer
+    sample_buttons = 4,
+    sample_force = 8,
+    sample_nearest = 16,
+    sample_time = 32,  // is not taken when its place in the sequence says
+    sample_known = 63,
+};
+
+// The farthest that a sample is told from another one (unit: nanoseconds).
+inline constexpr std::int64_t max_sample_step = nanoseconds_per_second;
+
+inline bool can_follow(const OperatorSample& before, const OperatorSample& sample, Nanoseconds period) {
+    const auto apart = static_cast<std::int64_t>(before.sequence - sample.sequence);
+    return before.pointer == sample.pointer && apart > 0 && apart <= max_sample_step / period;
+}
+
+// One sample; `before`: the one that stands before it in the packet, null for the first.
+template <typename Stream, typename Sample>
+void operator_sample(Stream& s, Sample& m, const OperatorSample* before, WholeSample& number,
+                     Nanoseconds period) {
+    std::uint8_t flags = 0;
+    Nanoseconds expected_time = s.sent_at();
+    std::int64_t apart = 0;
+    if constexpr (!Stream::reads) {
+        const bool follows = before != nullptr && can_follow(*before, m, period);
+        apart = follows ? static_cast<std::int64_t>(before->sequence - m.sequence) : 0;
+        expected_time = follows ? before->time - apart * period : expected_time;
+        flags = static_cast<std::uint8_t>(
+            (m.connected ? sample_connected : 0) | (follows ? sample_follows : 0) |
+            (m.buttons != 0 ? sample_buttons : 0) | (m.force != Vec3(0.0) ? sample_force : 0) |
+            (m.nearest_object != no_object ? sample_nearest : 0) |
+            (m.time != expected_time ? sample_time : 0));
+    }
+    s.integer(flags);
+    s.require((flags & ~sample_known) == 0);
+    const bool follows = (flags & sample_follows) != 0;
+    s.require(!follows || before != nullptr);
+    std::uint64_t pointer = m.pointer;
+    std::uint64_t place = follows ? static_cast<std::uint64_t>(apart) : m.sequence;
+    if (follows && s.good()) {
+        s.varint(place);
+        s.require(place >= 1 && place <= static_cast<std::uint64_t>(max_sample_step / period) &&
+                  place < before->sequence);
+    } else {
+        s.varint(pointer);
+        s.varint(place);
+        s.require(pointer <= 0xffffu && place >= 1 && place <= plausible::max_sequence);
+    }
+    if (!s.good()) {
+        return;
+    }
+    if constexpr (Stream::reads) {
+        apart = follows ? static_cast<std::int64_t>(place) : 0;
+        m.pointer = follows ? before->pointer : static_cast<std::uint16_t>(pointer);
+        m.sequence = follows ? before->sequence - place : place;
+        m.connected = (flags & sample_connected) != 0;
+        expected_time = follows ? before->time - apart * period : expected_time;
+    }
+    std::int64_t beside = m.time - expected_time;
+    if ((flags & sample_time) != 0) {
+        s.folded_varint(beside);
+    } else {
+        beside = 0;
+    }
+    s.require(beside >= -plausible::max_age && beside <= plausible::max_age);
+    if constexpr (Stream::reads) {
+        m.time = s.good() ? expected_time + beside : 0;
+    }
+    const WholeSample from = follows ? number : WholeSample{};
+    whole_fields(s, m.position, number.position, carried_back(from, apart * period), position_quantum,
+                 plausible::max_position);
+    whole_fields(s, m.velocity, number.velocity, from.velocity, velocity_quantum, plausible::max_speed);
+    std::uint64_t buttons = m.buttons;
+    if ((flags & sample_buttons) != 0) {
+        s.varint(buttons);
+        s.require(buttons >= 1 && buttons <= 0xffff'ffffu);
+    }
+    number.force = {};
+    if ((flags & sample_force) != 0) {
+        whole_fields(s, m.force, number.force, from.force, force_quantum, plausible::max_force);
+    }
+    number.relative = {};
+    if ((flags & sample_nearest) != 0) {
+        object_fields(s, m.nearest_object);
+        whole_fields(s, m.position_in_object, number.relative, from.relative, position_quantum,
+                     plausible::max_position);
+    }
+    if constexpr (Stream::reads) {
+        m.buttons = (flags & sample_buttons) != 0 ? static_cast<std::uint32_t>(buttons) : 0;
+        m.force = (flags & sample_force) != 0 ? m.force : Vec3(0.0);
+        m.nearest_object = (flags & sample_nearest) != 0 ? m.nearest_object : no_object;
+        m.position_in_object = (flags & sample_nearest) != 0 ? m.position_in_object : Vec3(0.0);
+    }
+}
+
+template <typename Stream>
+void operator_sample_fields(Stream& s, auto& m) {
+    WholeSample number;
+    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
+        operator_sample(s, m.samples[i], i > 0 ? &m.samples[i - 1] : nullptr, number, m.period);
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,136 @@
+#include "network/sample_stream.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+
+#include "network/plausibility.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr double all_lost = 1e-4;  // the share of samples that may be lost with all of their repeats
+constexpr std::uint32_t least_repeats = 2;
+constexpr double much_lost = 0.1;
+// A way that takes so much longer than it did has a queue (unit: nanoseconds).
+constexpr double queue = 30e6;
+// Of the way's jitter: so much is no queue.
+constexpr double times_jitter = 4.0;
+constexpr Nanoseconds halve_every = 400'000'000;
+constexpr Nanoseconds double_after = 2 * nanoseconds_per_second;
+constexpr Nanoseconds max_double_after = 32 * nanoseconds_per_second;
+// Who congests the way so soon after more was sent has asked for too much.
+constexpr Nanoseconds shows_after = 1'500'000'000;
+
+std::uint32_t repeats_for(double lost) {
+    if (lost <= 0.0) {
+        return least_repeats;
+    }
+    const double packets = std::ceil(std::log(all_lost) / std::log(std::min(lost, 0.9)));
+    return std::max(least_repeats, static_cast<std::uint32_t>(packets) - 1);
+}
+
+// One that may not be sent must not keep the others of its packet back.
+bool is_plausible(const OperatorSample& sample) {
+    const auto within = [](const Vec3& value, double most) {
+        return glm::all(glm::lessThanEqual(glm::abs(value), Vec3(most)));  // false for what is no number
+    };
+    return within(sample.position, plausible::max_position) &&
+           within(sample.velocity, plausible::max_speed) &&
+           within(sample.position_in_object, plausible::max_position) &&
+           within(sample.force, std::numeric_limits<double>::max());
+}
+
+}  // namespace
+
+SampleStream::SampleStream(const SampleStreamSettings& settings)
+    : settings_(settings), pointers_(std::max(1u, settings.max_pointers)) {}
+
+void SampleStream::add(const OperatorSample& sample) {
+    if (sample.pointer >= pointers_.size() || !is_plausible(sample)) {
+        return;
+    }
+    Pointer& pointer = pointers_[sample.pointer];
+    std::shift_right(pointer.samples.begin(), pointer.samples.end(), 1);
+    pointer.samples[0] = sample;
+    pointer.samples[0].force = glm::clamp(sample.force, -plausible::max_force, plausible::max_force);
+    const auto most = static_cast<std::uint32_t>(pointer.samples.size());
+    pointer.count = std::min(pointer.count + 1, most);
+    pointer.waiting = std::min(pointer.waiting + 1, most);
+}
+
+void SampleStream::end_tick(Endpoint& link, Nanoseconds now) {
+    adapt(link.statistics(), now);
+    if (++tick_ % stride_ == 0) {
+        send(link);
+    }
+}
+
+void SampleStream::restart() {
+    for (Pointer& pointer : pointers_) {
+        pointer.count = pointer.waiting = 0;
+    }
+    stride_ = 1;
+    repeats_ = least_repeats;
+    patience_ = double_after;
+}
+
+void SampleStream::adapt(const LinkStatistics& link, Nanoseconds now) {
+    const ClockFigures& clock = link.clock;
+    const double queued = clock.mean_delay - static_cast<double>(clock.least_delay);
+    const bool queues = clock.known && queued > std::max(queue, times_jitter * clock.jitter);
+    const bool congested = queues || link.lost_there > much_lost;
+    congested_at_ = congested ? now : congested_at_;
+    if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
+        tried_more_ = false;
+        patience_ = congested ? std::min(2 * patience_, max_double_after) : double_after;
+    }
+    if (congested && stride_ < max_stride && now - changed_at_ >= halve_every) {
+        stride_ *= 2;
+        changed_at_ = now;
+    } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= patience_) {
+        stride_ /= 2;
+        changed_at_ = now;
+        tried_more_ = true;
+    }
+    // Where a queue is the trouble, repeats make it longer.
+    repeats_ = queues ? 0 : std::min(settings_.max_repeats, repeats_for(link.lost_there));
+}
+
+void SampleStream::send(Endpoint& link) {
+    OperatorSamples message;
+    message.period = settings_.period;
+    for (Pointer& pointer : pointers_) {
+        if (pointer.waiting == 0) {
+            continue;
+        }
+        // Repeats bridge lost packets, each of `stride_` ticks.
+        const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + repeats_ * stride_);
+        if (message.count + wanted > OperatorSamples::most) {
+            send_message(link, message);
+        }
+        const auto room = std::min<std::uint32_t>(wanted, OperatorSamples::most);
+        std::copy_n(pointer.samples.begin(), room, message.samples.begin() + message.count);
+        message.count = static_cast<std::uint8_t>(message.count + room);
+        pointer.waiting = 0;
+    }
+    send_message(link, message);
+}
+
+// What does not fit at its longest goes in two.
+void SampleStream::send_message(Endpoint& link, OperatorSamples& message) const {
+    if (message.count > 0 && !link.send(message) && message.count > 1) {
+        OperatorSamples half = message;
+        half.count = message.count / 2;
+        std::copy(message.samples.begin() + half.count, message.samples.begin() + message.count,
+                  message.samples.begin());
+        message.count = static_cast<std::uint8_t>(message.count - half.count);
+        link.send(half);
+        link.send(message);
+    }
+    message.count = 0;
+}
+
+}  // namespace tactus

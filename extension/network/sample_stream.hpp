@@ -1,0 +1,70 @@
+// What an operator sends of its hands: one packet a tick for all of its pointers, or fewer packets of several
+// ticks when the network cannot take so many, each with as many older samples as losses ask for.
+//
+// Of older samples so many are repeated that all packets with a sample are lost at most once in ten thousand
+// times, were losses independent: two where nothing is lost, since a loss is known only later. Packets are
+// halved in number where more than a tenth is lost for a while, or where what is on its way queues up, and
+// doubled again when neither has been so for two seconds, or longer where that was too much the last time. No
+// tick's sample is left out by that.
+//
+// Belongs to whoever ticks; allocates nothing after its constructor.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "network/endpoint.hpp"
+
+namespace tactus {
+
+struct SampleStreamSettings {
+    std::uint32_t max_repeats = 8;   // older samples in a packet, at most
+    std::uint32_t max_pointers = 8;  // > 0
+    Nanoseconds period = 1'000'000;  // of a tick, > 0
+};
+
+class SampleStream {
+public:
+    explicit SampleStream(const SampleStreamSettings& settings);
+
+    void set_max_repeats(std::uint32_t repeats) { settings_.max_repeats = repeats; }
+
+    // A pointer's sample of this tick; pointers beyond `max_pointers` are left out. None need be added where
+    // nothing is to be said (deadband).
+    void add(const OperatorSample& sample);
+
+    // Once a tick, after the last add(): sends what is due.
+    void end_tick(Endpoint& link, Nanoseconds now);
+
+    // The far side is another one: nothing before counts.
+    void restart();
+
+    std::uint32_t ticks_a_packet() const { return stride_; }
+    std::uint32_t repeats() const { return repeats_; }
+
+private:
+    static constexpr std::uint32_t max_stride = 8;
+
+    struct Pointer {
+        std::array<OperatorSample, OperatorSamples::most> samples{};  // newest first
+        std::uint32_t count = 0;
+        std::uint32_t waiting = 0;  // of them have not been sent yet
+    };
+
+    void adapt(const LinkStatistics& link, Nanoseconds now);
+    void send(Endpoint& link);
+    void send_message(Endpoint& link, OperatorSamples& message) const;
+
+    SampleStreamSettings settings_;
+    std::vector<Pointer> pointers_;
+    std::uint32_t stride_ = 1;
+    std::uint32_t repeats_ = 2;
+    std::uint64_t tick_ = 0;
+    Nanoseconds congested_at_ = 0;
+    Nanoseconds changed_at_ = 0;
+    Nanoseconds patience_ = 2 * nanoseconds_per_second;  // without trouble before more is tried
+    bool tried_more_ = false;                            // and not known yet whether it was too much
+};
+
+}  // namespace tactus

@@ -1,0 +1,74 @@
+// The devices and proxies of a scene and their twins in the session. Main thread only.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "nodes/body_mirrors.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/proxy_pointer.hpp"
+#include "session/session.hpp"
+
+namespace tactus {
+
+class HapticDevice;
+class HapticWorld;
+
+class HandMirrors {
+public:
+    // `stand_in`: what plays every device, as at a far side, where the hand is the operator's; null: each
+    // its own.
+    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in)
+        : world_(world), stand_in_(std::move(stand_in)) {}
+
+    void synchronise(Session& session, Complaints& complaints);
+    // Says what keeps fingertips from touching this.
+    void look_at_scene(const SceneFacts& facts, Complaints& complaints) const;
+    void forget(HapticDevice* device, Session& session);
+    void forget(ProxyPointer* proxy, Session& session);
+
+    // The node that shows a body; 0: none.
+    using NodeOf = std::function<std::uint64_t(SessionHandle)>;
+    void show_devices(const SessionSnapshot& snapshot);
+    void show_proxies(const SessionSnapshot& snapshot, const NodeOf& node_of);
+    // Ids of what proxies touch, as shown last.
+    const std::vector<std::uint64_t>& touched() const { return touched_; }
+    void clear_forces();
+    // All of them are told that nothing runs.
+    void release();
+
+    // no_handle where there is none.
+    SessionHandle handle_of(const ProxyPointer* proxy) const;
+    // The session has let go of what has left.
+    void forget_retired() { retired_.clear(); }
+
+private:
+    struct DeviceLink {
+        HapticDevice* node = nullptr;
+        std::shared_ptr<Device> port;
+        SessionHandle handle = no_handle;
+        Workspace sent;
+    };
+    struct ProxyLink {
+        ProxyPointer* node = nullptr;
+        SessionHandle handle = no_handle;
+        ProxyDescription sent;
+    };
+
+    void synchronise_devices(Session& session, Complaints& complaints);
+    void synchronise_proxies(Session& session, Complaints& complaints);
+    void connect_device(DeviceLink& link, Session& session, Complaints& complaints);
+    void drop_device(DeviceLink& link, Session& session);
+    SessionHandle device_handle(const HapticDevice* node) const;
+
+    const HapticWorld& world_;
+    std::shared_ptr<Device> stand_in_;
+    std::vector<DeviceLink> devices_;
+    std::vector<ProxyLink> proxies_;
+    std::vector<std::shared_ptr<Device>> retired_;  // live until the loop has let go of them
+    std::vector<std::uint64_t> touched_;
+};
+
+}  // namespace tactus

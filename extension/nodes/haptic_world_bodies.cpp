@@ -1,0 +1,134 @@
+// What scripts do to the bodies of a world: Godot's own physics, which RigidBody3D's methods speak to, does
+// not move them.
+#include <godot_cpp/classes/rigid_body3d.hpp>
+
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/world_run.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+Dictionary dictionary_of(const BodyPoint& found) {
+    Dictionary result;
+    if (found.body != nullptr) {
+        result["body"] = found.body;
+        result["position"] = to_godot(found.at.point);
+        result["normal"] = to_godot(found.at.normal);
+        result["distance"] = found.at.distance;
+    }
+    return result;
+}
+
+}  // namespace
+
+// As the method of a RigidBody3D has it: `position` is seen from the body's place, in the world's axes.
+bool HapticWorld::can_push(const char* method, const Body* body, const Vector3& with,
+                           const Vector3& at) const {
+    const char* wrong = nullptr;
+    const auto* rigid = Object::cast_to<RigidBody3D>(body);
+    if (run_ == nullptr) {
+        wrong = "this HapticWorld does not run: put it into the scene tree first";
+    } else if (rigid == nullptr || run_->body_of(body) == no_handle) {
+        wrong =
+            "the body is no RigidBody3D that this HapticWorld moves: put it below this world, and wait for "
+            "the next frame";
+    } else if (rigid->is_freeze_enabled()) {
+        wrong = "the body is frozen: switch its 'freeze' off";
+    } else if (!with.is_finite() || !at.is_finite()) {
+        wrong = "what it is given is not made of finite numbers";
+    }
+    if (wrong != nullptr) {
+        UtilityFunctions::push_error(name_of(*this), ": ", method, "() did nothing: ", wrong, ".");
+    }
+    return wrong == nullptr;
+}
+
+void HapticWorld::apply_central_impulse(Body* body, const Vector3& impulse) {
+    if (can_push("apply_central_impulse", body, impulse)) {
+        run_->push(run_->body_of(body), {.impulse = from_godot(impulse), .central = true}, false);
+    }
+}
+
+void HapticWorld::apply_impulse(Body* body, const Vector3& impulse, const Vector3& position) {
+    if (can_push("apply_impulse", body, impulse, position)) {
+        run_->push(run_->body_of(body), {.impulse = from_godot(impulse), .point = from_godot(position)},
+                   false);
+    }
+}
+
+void HapticWorld::apply_torque_impulse(Body* body, const Vector3& impulse) {
+    if (can_push("apply_torque_impulse", body, impulse)) {
+        run_->push(run_->body_of(body), {.central = true, .turn = from_godot(impulse)}, false);
+    }
+}
+
+void HapticWorld::apply_central_force(Body* body, const Vector3& force) {
+    if (can_push("apply_central_force", body, force)) {
+        run_->push(run_->body_of(body), {.impulse = from_godot(force), .central = true}, true);
+    }
+}
+
+void HapticWorld::apply_force(Body* body, const Vector3& force, const Vector3& position) {
+    if (can_push("apply_force", body, force, position)) {
+        run_->push(run_->body_of(body), {.impulse = from_godot(force), .point = from_godot(position)}, true);
+    }
+}
+
+void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
+    if (can_push("apply_torque", body, torque)) {
+        run_->push(run_->body_of(body), {.central = true, .turn = from_godot(torque)}, true);
+    }
+}
+
+Vector3 HapticWorld::get_linear_velocity(Body* body) const {
+    const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
+    return state != nullptr ? to_godot(state->linear_velocity) : Vector3();
+}
+
+Vector3 HapticWorld::get_angular_velocity(Body* body) const {
+    const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
+    return state != nullptr ? to_godot(state->angular_velocity) : Vector3();
+}
+
+bool HapticWorld::can_ask(const char* method, const Vector3& where, double size) const {
+    if (!where.is_finite() || !is_at_least_zero(size)) {
+        UtilityFunctions::push_error(
+            name_of(*this), ": ", method,
+            "() was asked with numbers that are no place or size: give finite ones.");
+        return false;
+    }
+    return run_ != nullptr;
+}
+
+Dictionary HapticWorld::get_nearest_surface(const Vector3& point, double max_distance, int64_t mask) const {
+    return can_ask("get_nearest_surface", point, max_distance)
+               ? dictionary_of(run_->bodies().nearest(from_godot(point), max_distance,
+                                                      static_cast<std::uint32_t>(mask)))
+               : Dictionary();
+}
+
+Dictionary HapticWorld::intersect_ray(const Vector3& from, const Vector3& to, int64_t mask) const {
+    return can_ask("intersect_ray", from, static_cast<double>(to.length()))
+               ? dictionary_of(run_->bodies().first_on_way(from_godot(from), from_godot(to),
+                                                           static_cast<std::uint32_t>(mask)))
+               : Dictionary();
+}
+
+TypedArray<CollisionObject3D> HapticWorld::intersect_sphere(const Vector3& center, double radius,
+                                                            int64_t mask) const {
+    TypedArray<CollisionObject3D> bodies;
+    if (can_ask("intersect_sphere", center, radius)) {
+        for (CollisionObject3D* body :
+             run_->bodies().within(from_godot(center), radius, static_cast<std::uint32_t>(mask))) {
+            bodies.push_back(body);
+        }
+    }
+    return bodies;
+}
+
+}  // namespace tactus

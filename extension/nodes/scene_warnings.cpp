@@ -1,0 +1,166 @@
+#include "nodes/scene_warnings.hpp"
+
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
+#include <godot_cpp/classes/time.hpp>
+#include <godot_cpp/classes/window.hpp>
+#include <godot_cpp/core/object.hpp>
+#include <godot_cpp/variant/callable.hpp>
+#include <godot_cpp/variant/callable_method_pointer.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
+#include <unordered_map>
+
+#include "nodes/body_reading.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/mmt_link.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+// A world of many bodies takes longer to look at: so rarely that it is a hundredth of the time.
+constexpr std::uint64_t max_share = 100;
+
+constexpr std::uint64_t look_again_after = 500;  // (unit: milliseconds)
+
+struct Watched {
+    PackedStringArray said;
+    std::uint64_t not_before = 0;  // (unit: milliseconds)
+    bool is_told = false;          // in the game: that there is no world
+};
+
+std::unordered_map<std::uint64_t, Watched>& watched() {
+    static std::unordered_map<std::uint64_t, Watched> nodes;
+    return nodes;
+}
+
+void look_in_editor(Node& node, Watched& memory) {
+    const std::uint64_t begin = Time::get_singleton()->get_ticks_msec();
+    if (begin < memory.not_before) {
+        return;
+    }
+    const PackedStringArray now = node.call("get_warnings");
+    const std::uint64_t end = Time::get_singleton()->get_ticks_msec();
+    memory.not_before = end + max_share * (end - begin);
+    if (!(now == memory.said)) {
+        memory.said = now;
+        node.update_configuration_warnings();
+    }
+}
+
+// What a running world does not say by itself.
+void look_in_game(Node& node, Watched& memory) {
+    if (const auto* link = Object::cast_to<MMTLink>(&node)) {
+        static Complaints complaints;
+        if (const String problem = link->is_networked() ? link->problem() : String(); !problem.is_empty()) {
+            complaints.say(node, problem);
+        }
+        return;
+    }
+    const String problem = memory.is_told ? String() : problem_without_world(node);
+    if (!problem.is_empty()) {
+        memory.is_told = true;
+        UtilityFunctions::push_warning(name_of(node), ": ", problem, ".");
+    }
+}
+
+void look_at_all() {
+    static std::uint64_t next = 0;
+    const std::uint64_t now = Time::get_singleton()->get_ticks_msec();
+    if (now < next) {
+        return;
+    }
+    next = now + look_again_after;
+    const bool is_edited = Engine::get_singleton()->is_editor_hint();
+    for (auto one = watched().begin(); one != watched().end();) {
+        auto* node = Object::cast_to<Node>(ObjectDB::get_instance(one->first));
+        if (node == nullptr || !node->is_inside_tree()) {
+            one = watched().erase(one);
+            continue;
+        }
+        is_edited ? look_in_editor(*node, one->second) : look_in_game(*node, one->second);
+        ++one;
+    }
+}
+
+const Node* body_outside(const Node& node) {
+    if (is_solid_body(&node)) {
+        return &node;
+    }
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        const Node* child = node.get_child(i);
+        const Node* found = Object::cast_to<HapticWorld>(child) != nullptr ? nullptr : body_outside(*child);
+        if (found != nullptr) {
+            return found;
+        }
+    }
+    return nullptr;
+}
+
+bool has_world(const Node& node) {
+    if (Object::cast_to<HapticWorld>(&node) != nullptr) {
+        return true;
+    }
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        if (has_world(*node.get_child(i))) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace
+
+String problem_without_world(const Node& node) {
+    const bool is_edited = Engine::get_singleton()->is_editor_hint();
+    const Node* scene = is_edited ? node.get_tree()->get_edited_scene_root() : nullptr;
+    const bool is_there =
+        is_edited ? HapticWorld::above(&node) != nullptr || (scene != nullptr && has_world(*scene))
+                  : HapticWorld::of(&node) != nullptr;
+    return is_there ? String()
+                    : String(
+                          "there is no HapticWorld: put one into the scene, with this node and the bodies "
+                          "below it");
+}
+
+String problem_of_emptiness(const HapticWorld& world) {
+    const Node* top = &world;
+    while (top->get_parent() != nullptr && Object::cast_to<Window>(top->get_parent()) == nullptr) {
+        top = top->get_parent();
+    }
+    const Node* outside = body_outside(*top);
+    return String("nothing in it can be touched: put bodies with collision shapes below this node") +
+           (outside != nullptr
+                ? "; '" + String(outside->get_name()) + "' stands outside of it and is not felt"
+                : String());
+}
+
+void watch_warnings(Node& node) {
+    watched()[node.get_instance_id()];
+    const Callable look = callable_mp_static(&look_at_all);
+    if (!node.get_tree()->is_connected("process_frame", look)) {
+        node.get_tree()->connect("process_frame", look);
+    }
+}
+
+String problem_of_kind(const Node& node) {
+    if (node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))) {
+        return "a " + node.get_class() +
+               " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D";
+    }
+    if (node.is_class("GridMap")) {
+        return "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes";
+    }
+    if (node.is_class("SoftBody3D")) {
+        return "a SoftBody3D is not carried over: touch a StaticBody3D or RigidBody3D in its place";
+    }
+    if (node.is_class("Area3D")) {
+        return "an Area3D is not solid and is not felt: use a StaticBody3D for what is to be touched";
+    }
+    return String();
+}
+
+}  // namespace tactus

@@ -1,0 +1,66 @@
+#include "nodes/signals.hpp"
+
+#include <deque>
+#include <godot_cpp/variant/array.hpp>
+#include <godot_cpp/variant/callable.hpp>
+#include <godot_cpp/variant/callable_method_pointer.hpp>
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+struct Posted {
+    std::uint64_t from = 0;
+    const char* name = "";
+    std::array<SignalArgument, max_signal_arguments> arguments;
+};
+
+std::deque<Posted>& posted() {
+    static std::deque<Posted> waiting;
+    return waiting;
+}
+
+void send(const Posted& signal) {
+    Object* from = ObjectDB::get_instance(signal.from);
+    Array call;
+    call.push_back(signal.name);
+    for (const SignalArgument& argument : signal.arguments) {
+        Object* object = argument.is_object ? ObjectDB::get_instance(argument.object_id) : nullptr;
+        if (argument.is_object && object == nullptr) {
+            return;
+        }
+        if (argument.is_object || argument.is_value) {
+            call.push_back(argument.is_object ? Variant(object) : argument.value);
+        }
+    }
+    if (from != nullptr) {
+        from->callv("emit_signal", call);
+    }
+}
+
+}  // namespace
+
+void post_signal(const Object& from, const char* name,
+                 const std::array<SignalArgument, max_signal_arguments>& arguments) {
+    if (posted().empty()) {
+        callable_mp_static(&deliver_signals).call_deferred();
+    }
+    posted().push_back({from.get_instance_id(), name, arguments});
+}
+
+// A handler may post more, or deliver by itself: each signal is off the list before it is sent.
+void deliver_signals() {
+    while (!posted().empty()) {
+        const Posted next = std::move(posted().front());
+        posted().pop_front();
+        send(next);
+    }
+}
+
+void forget_signals() {
+    posted().clear();
+}
+
+}  // namespace tactus

@@ -1,0 +1,70 @@
+// Threads for what takes longer than a frame: they take jobs in the order given and help each other inside
+// one. All worlds share them: a job owns what it works on, so that nobody has to wait for it.
+//
+// Threads: add() belongs to the main thread; runner()'s result may be called by anybody, also from inside a
+// job. None of them may be the haptic thread. They start with the first job.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "core/geometry/triangle_tree.hpp"
+
+namespace tactus {
+
+class Workers {
+public:
+    Workers() = default;
+    // What has not begun never will; waits for what has.
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    void add(std::function<void()> job);
+
+    // Those of the program; they end with end_shared().
+    static Workers& shared();
+    static void end_shared();
+
+    // Has it destroyed here, where that may take as long as it likes.
+    template <class Value>
+    static std::shared_ptr<Value> freed_aside(Value value) {
+        return std::shared_ptr<Value>(new Value(std::move(value)),
+                                      [](Value* gone) { discard([gone] { delete gone; }); });
+    }
+    // Called by one of the threads, or at once where there are none.
+    static void discard(std::function<void()> destroy);
+
+    // Calls tasks on the caller's thread and on those that have nothing to do.
+    ParallelRunner runner();
+
+    // Returns when all jobs are done.
+    void wait();
+
+private:
+    struct Batch;
+
+    void start();
+    void work();
+    void run(std::size_t count, const std::function<void(std::size_t)>& task);
+    static void take_part(Batch& batch);
+
+    static std::unique_ptr<Workers>& instance();
+
+    std::vector<std::thread> threads_;
+    std::mutex mutex_;  // of all below
+    std::condition_variable news_;
+    std::condition_variable all_done_;
+    std::deque<std::function<void()>> jobs_;
+    std::deque<std::shared_ptr<Batch>> batches_;  // that may still have tasks to give
+    std::size_t working_ = 0;                     // on a job
+    bool ending_ = false;
+};
+
+}  // namespace tactus

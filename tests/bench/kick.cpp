@@ -1,0 +1,69 @@
+// What a hand feels of changes of the scene, and whether what deforms passes it: build/bench/kick.json.
+//
+//   --seeds=N   runs of each kind of change (200)
+//   --deformations=N   of meshes (10000)
+#include <cstdio>
+#include <string>
+
+#include "shared/bench_kit.hpp"
+#include "shared/deforms.hpp"
+#include "shared/kicks.hpp"
+
+namespace {
+
+using namespace tactus::shared;
+
+void report_kicks(Report& report, int seeds) {
+    KickFigures all;
+    const auto tell = [&](const std::string& name, const KickFigures& figures) {
+        report.set("kick." + name + ".force_step_max_N", figures.force_step_max);
+        report.set("kick." + name + ".force_max_N", figures.force_max);
+        report.set("kick." + name + ".events", figures.events);
+        report.set("kick." + name + ".let_out", figures.let_out);
+        report.set("kick." + name + ".overlaps", figures.overlaps);
+        report.set("kick." + name + ".imprisoned", figures.imprisoned);
+        report.set("kick." + name + ".untouchable", figures.untouchable);
+        std::printf(
+            "kick %-10s step %.3f N, %d events, %d let out, overlaps %d, imprisoned %d, untouchable %d\n",
+            name.c_str(), figures.force_step_max, figures.events, figures.let_out, figures.overlaps,
+            figures.imprisoned, figures.untouchable);
+    };
+    for (const KickCase kick : kick_cases) {
+        KickFigures figures;
+        for (int seed = 0; seed < seeds; ++seed) {
+            figures.add(play_kick(kick, 1'000 + static_cast<std::uint64_t>(seed)));
+        }
+        tell(std::string(name_of(kick)), figures);
+        all.add(figures);
+    }
+    tell("all", all);
+}
+
+void report_deforms(Report& report, int deformations) {
+    DeformFigures figures;
+    for (std::uint64_t seed = 100'000; figures.deformations < deformations; ++seed) {
+        figures.add(play_deforms(seed));
+    }
+    report.set("deform.deformations", figures.deformations);
+    report.set("deform.passes", figures.passes);
+    report.set("deform.let_out", figures.let_out);
+    report.set("deform.touched", figures.touched);
+    report.set("deform.farthest_radii", figures.farthest);
+    std::printf("deform     %d, passes %d, let out %d, touched %d, up to %.1f radii\n", figures.deformations,
+                figures.passes, figures.let_out, figures.touched, figures.farthest);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+    Options options(count, arguments);
+    const int seeds = static_cast<int>(options.number("seeds", 200));
+    const int deformations = static_cast<int>(options.number("deformations", 10'000));
+    if (!options.understood()) {
+        return 2;
+    }
+    Report report;
+    report_kicks(report, seeds);
+    report_deforms(report, deformations);
+    return report.write_json(result_path("kick")) ? 0 : 1;
+}

@@ -1,0 +1,27 @@
+// Even meshes: a box, spheres and a terrain, whose error is known to the last digits.
+#pragma once
+
+#include <string>
+
+#include "shared/bench_kit.hpp"
+
+namespace tactus::bench {
+
+struct EvenSettings {
+    std::string only;  // see is_chosen()
+    int ticks = 20'000;
+    int rounds = 5;      // whose median counts, of the proxy's ticks as of the others' queries
+    int checks = 1'500;  // ticks held against exact descent
+    int max_triangles = 1'310'720;
+};
+
+// Sets box_12_rR.*, sphere_TRIANGLES_rR.* and terrain_524288_rR.*.
+void measure_even(const shared::SpanClock& clock, const EvenSettings& settings, shared::Report& report);
+
+// Sets friction.*: the largest deviation from Coulomb's law.
+void measure_friction(shared::Report& report);
+
+// Sets still.movement_max: how far the proxy strays while the hand rests for a million ticks (unit: meters).
+void measure_still_hand(shared::Report& report);
+
+}  // namespace tactus::bench

@@ -1,0 +1,76 @@
+#include "core/haptics/fading_force.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "shared/random_values.hpp"
+
+namespace tactus {
+namespace {
+
+using shared::RandomValues;
+
+const Vec3 up(0.0, 1.0, 0.0);
+
+constexpr double no_limit = 1e9;
+constexpr FadingForce::Step still{};
+
+TEST(FadingForce, MotionIsFeltAsItIs) {
+    FadingForce fading;
+    for (int i = 0; i < 10; ++i) {
+        const Vec3 force = 3.0 * i * up;
+        EXPECT_EQ(fading.felt(force, 8.0, false, still), force);  // the device limits what is too much
+    }
+}
+
+TEST(FadingForce, ASurfaceThatVanishesLetsGoStepByStep) {
+    FadingForce fading;
+    fading.felt(5.0 * up, no_limit, false, still);
+    double before = 5.0;
+    for (int i = 0; i < 20; ++i) {
+        const double felt = fading.felt(Vec3(0.0), no_limit, i == 0, still).y;
+        EXPECT_NEAR(before - felt, FadingForce::max_step, 1e-12) << i;
+        before = felt;
+    }
+    EXPECT_EQ(fading.felt(Vec3(0.0), no_limit, false, still), Vec3(0.0));
+    EXPECT_EQ(fading.offset(), Vec3(0.0));
+}
+
+TEST(FadingForce, WhatTheDeviceDidNotGiveNeedNotFade) {
+    FadingForce fading;
+    fading.felt(500.0 * up, 8.0, false, still);
+    EXPECT_NEAR(fading.felt(Vec3(0.0), 8.0, true, still).y, 8.0 - FadingForce::max_step, 1e-12);
+}
+
+TEST(FadingForce, WhatTheHandItselfDoesIsNotHeldBack) {
+    FadingForce fading;
+    FadingForce::Step step{Vec3(0.0), Vec3(0.0), 1000.0, 2.0};
+    fading.felt(Vec3(0.0), no_limit, false, step);
+    step.hand.y = -0.002;
+    EXPECT_NEAR(fading.felt(2.0 * up, no_limit, true, step).y, 2.0, 1e-12);  // it went in just then
+    step.velocity.y = -0.5;
+    EXPECT_NEAR(fading.felt(9.0 * up, no_limit, true, step).y, 3.0, 1e-12);
+}
+
+// Whatever jumps how often: no step is larger than the motion's own and the fading's.
+TEST(FadingForce, RandomChangesOneUponAnother) {
+    RandomValues random(17);
+    FadingForce fading;
+    Vec3 force(0.0), felt(0.0);
+    for (int i = 0; i < 20'000; ++i) {
+        const bool jumped = random.below(20) == 0;
+        force = jumped ? random.in_ball(40.0) : force + random.in_ball(0.1);
+        const Vec3 now = fading.felt(force, no_limit, jumped, still);
+        ASSERT_LE(glm::length(now - felt), FadingForce::max_step + 0.1 + 1e-9) << i;
+        felt = now;
+    }
+    for (int i = 0; i < 1'000; ++i) {
+        felt = fading.felt(force, no_limit, false, still);
+    }
+    EXPECT_EQ(felt, force);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,66 @@
+// Tolerances follow what is near the proxy: huge solids, far samples, meshes far away.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "shared/meshes.hpp"
+#include "shared/touch_rig.hpp"
+
+namespace tactus {
+namespace {
+
+using shared::TouchRig;
+
+constexpr double radius = 0.05;
+
+Pose at(const Vec3& position) {
+    return {position, Quat(1.0, 0.0, 0.0, 0.0)};
+}
+
+class ProxyOnAPlanet : public ::testing::TestWithParam<double> {};
+
+TEST_P(ProxyOnAPlanet, RestsStillAndSlides) {
+    const double planet = GetParam();
+    TouchRig rig(radius);
+    rig.add(SphereShape{planet}, at({0.0, -planet, 0.0}));
+    rig.draw({0.0, 0.5, 0.0}, {0.0, 0.02, 0.0}, 50);
+    Vec3 rest = rig.tick({0.0, 0.02, 0.0}).position;
+    EXPECT_NEAR(rest.y, radius, 1e-13 * planet + 1e-8);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 place = rig.tick({0.0, 0.02, 0.0}).position;
+        ASSERT_EQ(place, rest) << i;
+    }
+    const Vec3 slid = rig.draw({0.0, 0.02, 0.0}, {0.1, 0.02, 0.0}, 100).position;
+    EXPECT_NEAR(slid.x, 0.1, 1e-13 * planet + 1e-6);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ProxyOnAPlanet, ::testing::Values(1.0, 1e3, 6.4e6, 1e9));
+
+TEST(ProxyMagnitude, OneFarSampleIsForgotten) {
+    TouchRig rig(radius);
+    rig.add(BoxShape{Vec3(1.0, 0.1, 1.0)}, at({0.0, -0.1, 0.0}));
+    rig.tick({0.0, 0.3, 0.0});
+    rig.tick({0.0, 1e8, 0.0});
+    rig.draw({0.0, 0.3, 0.0}, {0.0, 0.02, 0.0}, 100);
+    EXPECT_GT(rig.proxy.position().y - radius, 1e-7);  // coarse at first
+    for (int i = 0; i < 1'200; ++i) {
+        rig.tick({1e-4 * (i % 10), 0.02, 0.0});
+    }
+    EXPECT_NEAR(rig.proxy.position().y, radius, 2e-9);
+}
+
+TEST(ProxyMagnitude, AMeshFarAwayDoesNotBlurWhatIsNear) {
+    TouchRig rig(radius);
+    TriangleMesh far = shared::box(Vec3(1.0));
+    for (Vec3& v : far.vertices) {
+        v.x += 1e8;
+    }
+    rig.add(far);
+    rig.add(BoxShape{Vec3(1.0, 0.1, 1.0)}, at({0.0, -0.1, 0.0}));
+    rig.draw({0.0, 0.3, 0.0}, {0.0, 0.02, 0.0}, 100);
+    EXPECT_NEAR(rig.proxy.position().y, radius, 2e-9);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,168 @@
+// What an operator sends of its hands: all of it, in few packets, and fewer when the network cannot take
+// more.
+#include "network/sample_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "endpoint_rig.hpp"
+#include "support/realtime_audit.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds ms = 1'000'000;
+
+struct StreamRig {
+    explicit StreamRig(const LinkConditions& conditions = {}) : rig(conditions) {
+        rig.on_far([this](const Message& message) {
+            const auto& samples = std::get<OperatorSamples>(message);
+            ++packets;
+            for (std::size_t i = 0; i < samples.count; ++i) {
+                heard[samples.samples[i].pointer].insert(samples.samples[i].sequence);
+            }
+        });
+    }
+    void run(Nanoseconds span, int pointers = 1) {
+        rig.run(span, [&] {
+            ++sequence;
+            for (int pointer = 0; pointer < pointers; ++pointer) {
+                OperatorSample sample;
+                sample.sequence = sequence;
+                sample.time = rig.now();
+                sample.pointer = static_cast<std::uint16_t>(pointer);
+                sample.connected = true;
+                const double t = 1e-3 * static_cast<double>(sequence);
+                sample.position = {0.1 * std::sin(5.0 * t), 0.2 * std::cos(4.0 * t), 0.1 * pointer};
+                sample.velocity = {0.5 * std::cos(5.0 * t), -0.8 * std::sin(4.0 * t), 0.0};
+                sample.force = {0.0, 5.0 * std::sin(3.0 * t), 0.0};
+                stream.add(sample);
+            }
+            stream.end_tick(rig.near(), rig.now());
+        });
+    }
+
+    EndpointRig rig;
+    SampleStream stream{{8, 16, ms}};
+    std::uint64_t sequence = 0;
+    std::uint64_t packets = 0;
+    std::map<std::uint16_t, std::set<std::uint64_t>> heard;
+};
+
+LinkConditions lossy(double loss) {
+    LinkConditions conditions;
+    conditions.delay = 20 * ms;
+    conditions.loss = loss;
+    return conditions;
+}
+
+TEST(SampleStream, EverySampleComesWhereNothingIsLost) {
+    StreamRig rig;
+    rig.run(50 * ms);
+    const std::uint64_t from = rig.sequence;
+    rig.run(2000 * ms);
+    rig.rig.run(5 * ms);
+    for (std::uint64_t sequence = from; sequence <= rig.sequence; ++sequence) {
+        ASSERT_TRUE(rig.heard[0].contains(sequence)) << sequence;
+    }
+    EXPECT_EQ(rig.stream.repeats(), 2u);
+    EXPECT_EQ(rig.stream.ticks_a_packet(), 1u);
+}
+
+// One hand, every tick, with all that IP and UDP add.
+TEST(SampleStream, AHandTakesAtMostOneAndAHalfMegabits) {
+    for (const double loss : {0.0, 0.02, 0.09, 0.3, 0.5}) {
+        StreamRig rig(lossy(loss));
+        rig.run(5000 * ms);
+        const LinkStatistics& link = rig.rig.near().statistics();
+        EXPECT_LT(link.sent_rate.bits_per_s, 1.5e6) << loss;
+        EXPECT_GT(link.sent_rate.bits_per_s, 0.1e6) << loss;
+    }
+}
+
+TEST(SampleStream, WhatIsLostIsRepeatedByNeed) {
+    StreamRig rig(lossy(0.09));
+    rig.run(4000 * ms);
+    const std::uint64_t from = rig.sequence;
+    rig.run(20'000 * ms);
+    rig.rig.run(100 * ms);
+    std::size_t lost = 0;
+    for (std::uint64_t sequence = from; sequence <= rig.sequence; ++sequence) {
+        lost += rig.heard[0].contains(sequence) ? 0 : 1;
+    }
+    EXPECT_LE(lost, 40u) << "one in five hundred, of which a tenth is left to the far side's guess";
+    EXPECT_GT(rig.stream.repeats(), 2u);
+}
+
+TEST(SampleStream, ALineThatIsTooNarrowIsNotFilledUp) {
+    LinkConditions narrow;
+    narrow.delay = 10 * ms;
+    narrow.rate = 500'000.0;
+    StreamRig rig(narrow);
+    rig.run(10'000 * ms);
+    EXPECT_GE(rig.stream.ticks_a_packet(), 2u);
+    const double delay_when_used = rig.rig.near().statistics().clock.mean_delay;
+    rig.run(10'000 * ms);
+    EXPECT_LT(rig.rig.near().statistics().clock.mean_delay, std::max(120e6, delay_when_used));
+    rig.rig.near_link().change({});
+    rig.rig.far_link().change({});
+    rig.run(60'000 * ms);
+    EXPECT_EQ(rig.stream.ticks_a_packet(), 1u) << "and all is as before when it is wide again";
+}
+
+TEST(SampleStream, SeveralPointersShareAPacket) {
+    StreamRig rig;
+    rig.run(50 * ms);
+    rig.packets = 0;
+    rig.run(1000 * ms, 3);
+    EXPECT_LE(rig.packets, 1001u);
+    rig.packets = 0;
+    rig.run(1000 * ms, 16);
+    EXPECT_LE(rig.packets, 4u * 1001u);
+    for (std::uint16_t pointer = 0; pointer < 16; ++pointer) {
+        EXPECT_GT(rig.heard[pointer].size(), 990u);
+    }
+}
+
+TEST(SampleStream, WhatMayNotBeSentKeepsNobodyElseBack) {
+    StreamRig rig;
+    rig.run(50 * ms);
+    rig.heard.clear();
+    rig.rig.run(100 * ms, [&] {
+        OperatorSample good, bad;
+        good.sequence = bad.sequence = ++rig.sequence;
+        good.time = bad.time = rig.rig.now();
+        bad.pointer = 1;
+        bad.position.y = std::numeric_limits<double>::quiet_NaN();
+        rig.stream.add(bad);
+        rig.stream.add(good);
+        rig.stream.end_tick(rig.rig.near(), rig.rig.now());
+    });
+    rig.rig.run(2 * ms);
+    EXPECT_GE(rig.heard[0].size(), 100u);
+    EXPECT_FALSE(rig.heard.contains(1));
+}
+
+TEST(SampleStream, ATickAllocatesNothing) {
+    StreamRig rig;
+    rig.run(50 * ms);
+    testing::AuditScope audit;
+    for (int i = 0; i < 100; ++i) {
+        OperatorSample sample;
+        sample.sequence = ++rig.sequence;
+        sample.time = rig.rig.now();
+        rig.stream.add(sample);
+        rig.stream.end_tick(rig.rig.near(), rig.rig.now());
+    }
+    audit.finish();
+    EXPECT_EQ(audit.allocations() + audit.frees() + audit.locks() + audit.system_calls(), 0u)
+        << audit.describe();
+}
+
+}  // namespace
+}  // namespace tactus

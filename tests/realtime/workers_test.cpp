@@ -1,0 +1,75 @@
+#include "realtime/workers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <numeric>
+#include <thread>
+
+namespace tactus {
+
+namespace {
+
+TEST(Workers, JobsAreDoneByTheEndOfWait) {
+    Workers workers;
+    std::atomic<int> done{0};
+    for (int i = 0; i < 50; ++i) {
+        workers.add([&done] { ++done; });
+    }
+    workers.wait();
+    EXPECT_EQ(done, 50);
+}
+
+TEST(Workers, ATaskIsCalledOnceForEachNumberAlsoFromInsideAJob) {
+    Workers workers;
+    std::vector<std::atomic<int>> calls(1000);
+    workers.add([&] {
+        const ParallelRunner run = workers.runner();
+        run(calls.size(), [&calls](std::size_t i) { ++calls[i]; });
+    });
+    workers.wait();
+    for (const std::atomic<int>& count : calls) {
+        EXPECT_EQ(count, 1);
+    }
+}
+
+// What a job owns may take long to destroy: that is done by its thread as well.
+TEST(Workers, WhatAJobOwnsGoesWithItOnItsThread) {
+    struct Owned {
+        explicit Owned(std::thread::id* place) : destroyed_on(place) {}
+        ~Owned() { *destroyed_on = std::this_thread::get_id(); }
+        std::thread::id* destroyed_on;
+    };
+    Workers workers;
+    std::thread::id on;
+    workers.add([owned = std::make_shared<Owned>(&on)] {});
+    workers.wait();
+    EXPECT_NE(on, std::thread::id());
+    EXPECT_NE(on, std::this_thread::get_id());
+}
+
+// With no threads there is nobody to wait for, and nothing is kept.
+TEST(Workers, WhatIsFreedAsideIsFreedAtOnceWhereNoThreadRuns) {
+    struct Counted {
+        explicit Counted(int* count) : freed(count) {}
+        Counted(Counted&& other) noexcept : freed(std::exchange(other.freed, nullptr)) {}
+        ~Counted() {
+            if (freed != nullptr) {
+                ++*freed;
+            }
+        }
+        int* freed;
+    };
+    int freed = 0;
+    Workers::freed_aside(Counted(&freed)).reset();
+    EXPECT_EQ(freed, 1);
+    Workers::shared().add([] {});
+    std::shared_ptr<Counted> kept = Workers::freed_aside(Counted(&freed));
+    kept.reset();
+    Workers::end_shared();
+    EXPECT_EQ(freed, 2);
+}
+
+}  // namespace
+
+}  // namespace tactus
