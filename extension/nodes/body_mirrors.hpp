@@ -31,7 +31,7 @@ struct SceneFacts {
 
 struct BodyPoint {
     godot::CollisionObject3D* body = nullptr;  // null: nothing is met
-    SurfacePoint at;
+    SurfaceHit at;
 };
 
 class BodyMirrors {

@@ -32,7 +32,7 @@ BodyPoint BodyMirrors::nearest_of(const std::vector<const BodyMirror*>& bodies, 
     BodyPoint best;
     best.at.distance = max_distance;
     for (const BodyMirror* mirror : bodies) {
-        const SurfacePoint found = nearest_surface(*mirror->touch(), mirror->pose(), point, best.at.distance);
+        const SurfaceHit found = nearest_surface(*mirror->touch(), mirror->pose(), point, best.at.distance);
         if (found.hit) {
             best = {mirror->body(), found};
         }

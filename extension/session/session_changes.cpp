@@ -128,7 +128,7 @@ bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
     const bool fits = deformed && c.shape->parts.size() == deformed->shape->parts.size();
     retired.kind = Retired::Kind::form;
     if (fits) {
-        timeline_.reshape(deformed->id, c.body, c.same_body);
+        physics_.reshape(deformed->id, c.body);
         if (deformed->takes_form) {
             retired.shape = std::exchange(deformed->shape, std::move(c.shape));
         } else {
@@ -141,7 +141,6 @@ bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
         retired.shape = std::move(c.shape);
     }
     retired.body = std::move(c.body);
-    retired.same_body = std::move(c.same_body);
     return true;
 }
 
@@ -248,8 +247,8 @@ bool SessionLoop::carry_out(command::PushBody& c, Retired&) {
     if (const Body* const pushed = body(c.handle)) {
         const Vec3 point = c.push.central ? physics_.center_of_mass(pushed->id)
                                           : physics_.pose(pushed->id).position + c.push.point;
-        timeline_.apply_force(pushed->id, c.push.impulse / seconds_, point);
-        timeline_.apply_torque(pushed->id, c.push.turn / seconds_);
+        physics_.apply_force(pushed->id, c.push.impulse / seconds_, point);
+        physics_.apply_torque(pushed->id, c.push.turn / seconds_);
     }
     return false;
 }

@@ -11,7 +11,7 @@ namespace tactus {
 namespace {
 
 // In the frame of the part.
-SurfacePoint nearest_in(const TouchPart& part, const Vec3& point, double max_distance) {
+SurfaceHit nearest_in(const TouchPart& part, const Vec3& point, double max_distance) {
     const TriangleTree* tree = part.tree();
     if (tree == nullptr) {
         const SolidDistance solid = distance_to_solid(part.solid(), point);
@@ -35,22 +35,22 @@ SurfacePoint nearest_in(const TouchPart& part, const Vec3& point, double max_dis
 
 }  // namespace
 
-SurfacePoint nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point,
-                             double max_distance) {
-    SurfacePoint best;
+SurfaceHit nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point,
+                           double max_distance) {
+    SurfaceHit best;
     best.distance = max_distance;
     for (const TouchPart& part : shape.parts) {
         const Vec3 in_part = to_local(part.pose, to_local(body, point));
         if (glm::length(in_part - part.center) - part.radius >= best.distance) {
             continue;
         }
-        const SurfacePoint found = nearest_in(part, in_part, best.distance);
+        const SurfaceHit found = nearest_in(part, in_part, best.distance);
         if (found.hit && found.distance < best.distance) {
             best = {true, to_parent(body, to_parent(part.pose, found.point)),
                     body.rotation * (part.pose.rotation * found.normal), found.distance};
         }
     }
-    return best.hit ? best : SurfacePoint{};
+    return best.hit ? best : SurfaceHit{};
 }
 
 // The ray's point nearest to the middle of each part's ball is farther from it than the ball reaches.

@@ -7,7 +7,7 @@
 
 namespace tactus {
 
-struct SurfacePoint {
+struct SurfaceHit {
     bool hit = false;
     Vec3 point{0.0};             // on the surface, in the world (unit: meters)
     Vec3 normal{0.0, 1.0, 0.0};  // unit, from the surface to where was asked from, in the world
@@ -16,8 +16,7 @@ struct SurfacePoint {
 
 // The point of the body's surface nearest to `point` (in the world), where one is nearer than `max_distance`
 // (unit: meters, > 0). A mesh has no inside: its distance is never negative.
-SurfacePoint nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point,
-                             double max_distance);
+SurfaceHit nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point, double max_distance);
 
 // Whether the way from `start` (in the world) along `direction` (unit), `length` meters long, comes near the
 // body at all: what does not need not be asked more.

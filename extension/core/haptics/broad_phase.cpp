@@ -11,7 +11,8 @@ namespace tactus {
 
 namespace {
 
-// A magnitude below this share of what the tolerances are good for, for so many ticks, makes them finer again.
+// A magnitude below this share of what the tolerances are good for, for so many ticks, makes them finer
+// again.
 constexpr double much_smaller = 1.0 / 16.0;
 constexpr std::uint32_t patience = 1'000;
 
@@ -20,12 +21,12 @@ double largest_coordinate(const Vec3& v) {
 }
 
 // The largest number that the distance between the sphere and a part is made of: its place, how far the
-// sphere is from there (as the part sees it, turned), and the corners of a mesh. The far sides of a solid have
-// no say: only the side that is near does, and that is no farther than the sphere.
+// sphere is from there (as the part sees it, turned), and the corners of a mesh. The far sides of a solid
+// have no say: only the side that is near does, and that is no farther than the sphere.
 double magnitude_of(const ScenePart& placed, const Vec3& center) {
     const double corners = placed.part->tree() ? placed.part->tree()->magnitude() : 0.0;
-    return std::max({corners, largest_coordinate(placed.pose.position),
-                     glm::length(center - placed.pose.position)});
+    return std::max(
+        {corners, largest_coordinate(placed.pose.position), glm::length(center - placed.pose.position)});
 }
 
 }  // namespace

@@ -95,9 +95,9 @@ private:
     std::uint32_t mask_ = 0;
     double radius_ = 0.0;
     Tolerances tolerances_{};
-    double magnitude_ = 0.0;  // largest coordinate that the tolerances are good for (unit: meters)
+    double magnitude_ = 0.0;           // largest coordinate that the tolerances are good for (unit: meters)
     std::uint32_t smaller_ticks_ = 0;  // since it was needed
-    double odometer_ = 0.0;   // s (unit: meters)
+    double odometer_ = 0.0;            // s (unit: meters)
     double odometer_at_tick_ = 0.0;
     double pace_ = 0.0;
     Vec3 center_at_tick_{0.0};  // in the world

@@ -48,7 +48,7 @@ TEST(SurfaceQuery, TheNearestPointOfASolidAndOfItsMeshIsTheBoxs) {
                 continue;
             }
             const Vec3 point = to_parent(somewhere(), in_body);
-            const SurfacePoint found = nearest_surface(shape, somewhere(), point, 10.0);
+            const SurfaceHit found = nearest_surface(shape, somewhere(), point, 10.0);
             ASSERT_TRUE(found.hit);
             EXPECT_NEAR(found.distance, expected, 1e-9);
             EXPECT_NEAR(glm::length(found.point + found.distance * found.normal - point), 0.0, 1e-9);

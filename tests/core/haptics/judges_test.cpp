@@ -167,7 +167,7 @@ TEST(Bench, ChoosesCasesByTheBeginningOfTheirNames) {
 }
 
 // Closed: every edge has two sides, in opposite directions.
-bool is_closed(const TriangleMesh& mesh) {
+bool has_two_sides_at_every_edge(const TriangleMesh& mesh) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> forth, back;
     for (const auto& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -184,9 +184,9 @@ TEST(RoughMeshes, AreWhatTheySay) {
     for (const TriangleMesh& mesh :
          {shared::blobs(20, 1), shared::branches(32, 0), shared::displaced(3), shared::shell(3),
           shared::rounded_box(4), shared::gear(600), shared::graded(24, 40), shared::cavity(3)}) {
-        EXPECT_TRUE(is_closed(mesh)) << mesh.triangles.size();
+        EXPECT_TRUE(has_two_sides_at_every_edge(mesh)) << mesh.triangles.size();
     }
-    EXPECT_FALSE(is_closed(shared::scanned(3)));
+    EXPECT_FALSE(has_two_sides_at_every_edge(shared::scanned(3)));
     for (const TriangleMesh& mesh : {shared::scanned(3), shared::clustered(2, 100)}) {
         Vec3 size(0.0);
         for (const Vec3& v : mesh.vertices) {
