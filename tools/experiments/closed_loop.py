@@ -4,12 +4,14 @@ local model (what a scripted path leaves open: thesis 5.3, inference 5).
     ./run experiment closed_loop [--delays=0,25,50,100,200,500] [--pictures=1]
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
-too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is traditional, traditional with
-each passive scheme (traditional_wave_variables, …_time_domain, …_two_layers), mmt (the default), mmt_right, never_corrected,
-pose_only and velocities. energy_created_J is the most that the hand has been given on balance at any moment of a contact,
-settled_force_share what is felt of the force that direct touch would give while the hand holds still (transparency), and
-restless_mm_s how fast it moves then. The other figures: how deep the hand goes into the environment (penetration), how far beyond where it then settles (overshoot), by
-how much deeper than by local touch (over_penetration), and the energy that the device gives the hand: a wall takes some.
+too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is traditional,
+traditional with each passive scheme (traditional_wave_variables, traditional_time_domain, traditional_two_layers), mmt
+(the default), mmt_right, never_corrected, pose_only and velocities.
+
+energy_created_J is the most that the hand has been given on balance at any moment of a contact, settled_force_share what
+is felt of the force that direct touch would give while the hand holds still (transparency), restless_mm_s how fast it
+moves then. The others: how deep the hand goes into the environment (penetration), how far beyond where it then settles
+(overshoot), by how much deeper than by local touch (over_penetration), and the energy that the device gives the hand.
 """
 
 from dataclasses import dataclass
