@@ -21,6 +21,9 @@ const OperatorPassivity::Past* OperatorPassivity::past(std::uint64_t sample) con
 }
 
 void OperatorPassivity::reset() {
+    if (!now_.begun) {
+        return;
+    }
     now_ = {};
     for (Past& one : past_) {
         one.sample = 0;
