@@ -55,6 +55,7 @@ private:
         Vec3 force{0.0};            // given to the hand, one tick ago (unit: newtons)
         bool known = false;         // there was such a tick
         bool answered = false;      // traditional: what the far side said last still held then
+        OperatorPassivity passivity;
         // Sending.
         OperatorSample sent;
         bool has_sent = false;
@@ -95,6 +96,7 @@ private:
     Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
                       bool changed);
+    Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot);
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 

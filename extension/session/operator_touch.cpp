@@ -157,6 +157,19 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
     return force;
 }
 
+// The far side's force, as much of it as makes no energy.
+Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot& slot) {
+    const TraditionalTouch::Far& far = traditional_.far(index);
+    OperatorPassivity::In in;
+    in.sample = sample_;
+    in.hand = slot.hand;
+    in.velocity = slot.hand_velocity;
+    in.far_force = far.force;
+    in.far_sample = far.sample;
+    in.seconds = seconds_;
+    return pointers_[index].passivity.force(settings().passivity, settings().passive, in);
+}
+
 void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now) {
     Pointer& pointer = pointers_[index];
     const Vec3 way = pointer.known ? slot.hand - pointer.hand : Vec3(0.0);
@@ -172,7 +185,10 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         const bool answers = traditional_.answers(index, sample_, channel_.link().hears_peer(),
                                                   static_cast<SampleSequence>(silence / seconds_));
         changed |= std::exchange(pointer.answered, answers) != answers;
-        in.modelled = answers ? traditional_.far(index).force : Vec3(0.0);
+        in.modelled = answers ? passive_force(index, slot) : Vec3(0.0);
+        if (!answers) {
+            pointer.passivity.reset();
+        }
         traditional_.describe(index, slot, in.modelled);
         in.stiffness = glm::length(in.modelled) > no_force ? usual_stiffness : 0.0;
     } else {
@@ -181,6 +197,7 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     }
     hide_changes(pointer, in.modelled, in.stiffness, way, changed);
     slot.state.force = pointer.felt.feel(settings().stealth, in);
+    pointer.passivity.given(slot.state.force);
     pointer.modelled_before =
         pointer.known && !changed ? pointer.modelled : in.modelled;  // a change is no trend
     pointer.modelled = in.modelled;

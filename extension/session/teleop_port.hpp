@@ -17,6 +17,7 @@
 #include "core/teleop/force_exit.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/parameter_estimate.hpp"
+#include "core/teleop/passivity.hpp"
 #include "core/teleop/pose_filter.hpp"
 #include "core/teleop/stealth.hpp"
 #include "network/discovery_receiver.hpp"
@@ -36,9 +37,11 @@ struct TeleopSettings {
     ControlScheme control = ControlScheme::spring;
     MotionThreshold threshold;
     StealthSettings stealth;
-    EstimateSettings estimate;  // with re-simulation
-    PoseFilterSettings filter;  // with re-simulation
-    ForceLimits limits;         // of what leaves for the devices
+    EstimateSettings estimate;              // with re-simulation
+    PoseFilterSettings filter;              // with re-simulation
+    ForceLimits limits;                     // of what leaves for the devices
+    Passivity passivity = Passivity::none;  // of traditional touch
+    PassivitySettings passive;
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200

@@ -154,14 +154,32 @@ void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::Pr
     if (!pointer.holds) {
         pointer.hand = pointer.here.position;
         pointer.holds = true;
+        pointer.passivity.reset();
         come_back(loop, pointer, slot);
     }
     slot.idle = false;
     newest_applied_ = std::max(newest_applied_, pointer.played.sequence);
-    pointer.hand =
-        stand_in_hand(settings().control, settings().stand_in, stand_in_input(loop, pointer, slot));
-    slot.hand = pointer.hand;
     slot.hand_velocity = pointer.here.velocity;
+    if (settings().traditional && settings().passivity != Passivity::none) {
+        const Vec3 before = pointer.hand;
+        pointer.hand = passive_hand(pointer, slot);
+        slot.hand_velocity = (pointer.hand - before) / seconds_;
+    } else {
+        pointer.hand =
+            stand_in_hand(settings().control, settings().stand_in, stand_in_input(loop, pointer, slot));
+    }
+    slot.hand = pointer.hand;
+}
+
+// Where the far hand may go so that no energy is made.
+Vec3 TeleoperatorSide::passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const {
+    FarPassivity::In in;
+    in.sample = pointer.here.sequence;
+    in.hand = pointer.here.position;
+    in.force = pointer.here.force;
+    in.own_force = slot.state.force;
+    in.seconds = seconds_;
+    return pointer.passivity.hand(settings().passivity, settings().passive, in);
 }
 
 // Where a hand that is lost has pressed, so that it can go on pressing.

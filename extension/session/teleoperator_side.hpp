@@ -24,6 +24,7 @@ private:
         OperatorSample here;                   // the same in this side's scene
         bool holds = false;                    // a hand is there
         Vec3 hand{0.0};                        // where the stand-in has put it (unit: meters)
+        FarPassivity passivity;                // traditional
         SessionHandle kept_on = no_handle;     // a body that was pressed when the hand was lost
         Vec3 kept_proxy{0.0}, kept_hand{0.0};  // in its frame (unit: meters)
         Vec3 had_force{0.0}, had_hand{0.0};    // one tick ago (unit: newtons, meters)
@@ -47,6 +48,7 @@ private:
     void release_hands();
     void describe(Nanoseconds now);
     void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
+    Vec3 passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,

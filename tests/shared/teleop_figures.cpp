@@ -98,13 +98,26 @@ struct Pushing {
 
 void evaluate_arm(const std::vector<TeleopRow>& rows, const TeleopCase& experiment, TeleopFigures& figures) {
     Pushing over_the_link, local;
-    Series deviation;
-    for (const TeleopRow& row : rows) {
+    PortEnergy local_port;
+    Series deviation, speed, felt, direct;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const TeleopRow& row = rows[i];
         const double time = to_seconds(row.time);
         over_the_link.add(experiment, time, row.depth, row.force, row.velocity);
         local.add(experiment, time, row.local_depth, row.local_force, row.local_velocity);
         deviation.add(glm::distance(row.hand, row.local_hand));
+        if (i > 0) {
+            local_port.add(rows[i - 1].local_force, row.local_hand - rows[i - 1].local_hand);
+        }
+        if (time >= experiment.settled_from && time < experiment.settled_to) {
+            speed.add(glm::length(row.velocity));
+            felt.add(glm::length(row.force));
+            direct.add(glm::length(row.direct));
+        }
     }
+    figures["local_energy_created_J"] = local_port.created();
+    figures["restless_mm_s"] = 1e3 * speed.mean();
+    figures["settled_force_share"] = direct.sum > 0.0 ? felt.sum / direct.sum : 0.0;
     over_the_link.tell("", figures);
     local.tell("local_", figures);
     figures["hand_deviation_rms_mm"] = 1e3 * deviation.rms();

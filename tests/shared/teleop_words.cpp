@@ -199,6 +199,26 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
     TeleopSettings& s = c.settings;
     if (key == "traditional") {
         s.traditional = number != 0.0;
+    } else if (key == "passivity") {
+        return choose(value, {"none", "wave_variables", "time_domain", "two_layers"}, s.passivity);
+    } else if (key == "wave_impedance") {
+        s.passive.impedance = number;
+    } else if (key == "wave_cutoff") {
+        s.passive.wave_cutoff = number;
+    } else if (key == "drift_rate") {
+        s.passive.drift_rate = number;
+    } else if (key == "reserve") {
+        s.passive.reserve = number;
+    } else if (key == "lightest_hand") {
+        s.passive.lightest_hand = number;
+    } else if (key == "far_store") {
+        s.passive.far_store = number;
+    } else if (key == "tank") {
+        s.passive.tank = number;
+    } else if (key == "refill") {
+        s.passive.refill = number;
+    } else if (key == "tank_share") {
+        s.passive.shared = number;
     } else if (key == "delay_ms") {  // there and back
         c.forth.delay = c.back.delay = from_seconds(0.5e-3 * number);
     } else if (key == "jitter_ms") {

@@ -1,27 +1,38 @@
 """A hand that is pushed back: an arm with mass, damping and stiffness presses, over a network, traditionally and with a
 local model (what a scripted path leaves open: thesis 5.3, inference 5).
 
-    ./run experiment closed_loop [--delays=0,25,50,100,200] [--pictures=1]
+    ./run experiment closed_loop [--delays=0,25,50,100,200,500] [--pictures=1]
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
-too heavy and 30 % too slippery, and holds. Cases are SCENE.local, SCENE.traditional_DELAYms and SCENE.mmt_DELAYms. The
-figures: how deep the hand goes into the environment (penetration), how far beyond where it then settles (overshoot), by
-how much deeper than by local touch (over_penetration), and the energy that the device gives the hand: a wall takes some.
+too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is traditional,
+traditional with each passive scheme (traditional_wave_variables, traditional_time_domain, traditional_two_layers), mmt
+(the default), mmt_right, never_corrected, pose_only and velocities.
+
+energy_created_J is the most that the hand has been given on balance at any moment of a contact, settled_force_share what
+is felt of the force that direct touch would give while the hand holds still (transparency), restless_mm_s how fast it
+moves then. The others: how deep the hand goes into the environment (penetration), how far beyond where it then settles
+(overshoot), by how much deeper than by local touch (over_penetration), and the energy that the device gives the hand.
 """
 
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import options, teleop_runs
+from measuring import options, teleop_grid, teleop_runs
 
 FIGURES = ("penetration_max_mm", "settled_depth_mm", "overshoot_mm", "energy_J")
+LINKED = (
+    "energy_created_J", "energy_at_hand_J", "energy_at_far_side_J", "settled_force_share", "restless_mm_s",
+    "force_error_mean_N", "felt_excess_1ms_N_max", "felt_excess_100ms_N_max", "felt_excess_100ms_jnd_p99",
+    "felt_excess_100ms_jnd_max", "bits_per_s",
+)  # fmt: skip
+PASSIVE = tuple(f"traditional_{scheme}" for scheme in teleop_runs.PASSIVITY)
 SCENES = ("static", "dynamic")
 
 
 @dataclass(frozen=True)
 class Settings:
-    delays: str = "0,25,50,100,200"
+    delays: str = "0,25,50,100,200,500"
     clock: Literal["virtual", "real"] = "virtual"
     pictures: int = 1
 
@@ -35,7 +46,11 @@ def cases(description: dict, scene: str, delays: list[str], output: Path) -> lis
         common |= {"object": place["object"]}
     found: list[teleop_runs.Case] = []
     for delay in delays:
-        ways = {"traditional": {"traditional": 1}, "mmt": teleop_runs.wrong(place.get("wrong", {}))}
+        wrong = teleop_runs.wrong(place.get("wrong", {}))
+        ways: dict[str, teleop_runs.Case] = {"traditional": {"traditional": 1}, "mmt": wrong, "mmt_right": {}}
+        ways |= {f"traditional_{scheme}": {"traditional": 1, "passivity": scheme} for scheme in teleop_runs.PASSIVITY}
+        for scheme in ("never_corrected", "pose_only", "velocities"):
+            ways[scheme] = teleop_grid.SCHEMES[scheme] | wrong
         for way, keys in ways.items():
             name = f"{scene}.{way}_{delay}ms"
             found.append({"name": name, "delay_ms": delay, "rows": output / f"{name}.csv", **common, **keys})
@@ -56,11 +71,12 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         local = next(iter(found.values()))
         summary |= {f"{scene}.local.{key}": local[f"local_{key}"] for key in FIGURES}
         for name, figures in found.items():
-            summary |= {f"{name}.{key}": figures[key] for key in FIGURES}
+            summary |= {f"{name}.{key}": figures[key] for key in (*FIGURES, *LINKED)}
             over = figures["penetration_max_mm"] - figures["local_penetration_max_mm"]
             summary[f"{name}.over_penetration_mm"] = over
             summary[f"{name}.hand_deviation_rms_mm"] = figures["hand_deviation_rms_mm"]
             summary[f"{name}.largest_difference_from_local"] = difference(figures)
+        summary[f"{scene}.local.energy_created_J"] = local["local_energy_created_J"]
     if settings.pictures:
         from plots import closed_loop
 

@@ -3,8 +3,9 @@
     ./run experiment data_reduction [--seconds=10] [--delay=100] [--pictures=1]
 
 Cases are WAY.BAND: WAY is traditional or mmt (its model 20 % too heavy and 30 % too slippery), BAND is none, fixed or
-weber. Beside the packets and bytes each way: by how much the force is another one than with everything said, in newtons
-and as a share of what a hand just notices (7 % of the force, at least 0.02 N).
+weber. Beside the packets and bits each way, against what is really sent at full rate: by how much the force is another one
+than with everything said, in newtons and as a share of what a hand just notices (7 % of the force, at least 0.02 N), and the
+share of the ticks with a touch in which it is more than that (noticeable_share_of_touch).
 """
 
 from dataclasses import dataclass
@@ -25,8 +26,10 @@ BANDS: dict[str, teleop_runs.Case] = {  # fmt: skip
         "deadband": 1, "deadband_position": 3e-5, "deadband_speed": 0.01, "deadband_force": 0.02, "deadband_weber": 0.1,
     },
 }
-FIGURES = ("packets_forth_per_s", "packets_back_per_s", "bytes_per_s", "force_error_mean_N", "box_position_error_rms_mm")
-FULL_RATE = 1000.0
+FIGURES = (
+    "packets_forth_per_s", "packets_back_per_s", "bits_per_s", "bits_forth_per_s", "bits_back_per_s", "bytes_per_s",
+    "force_error_mean_N", "box_position_error_rms_mm", "felt_excess_100ms_jnd_p99", "felt_excess_100ms_jnd_max",
+)  # fmt: skip
 WEBER, LEAST_NOTICEABLE = 0.07, 0.02
 
 
@@ -52,9 +55,11 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     summary: dict[str, object] = {}
     for name, figures in found.items():
         summary |= {f"{name}.{key}": figures[key] for key in FIGURES}
-        for key in ("forth", "back"):
-            summary[f"{name}.fewer_{key}_share"] = 1.0 - figures[f"packets_{key}_per_s"] / FULL_RATE
         way = name.split(".")[0]
+        full = found[f"{way}.none"]
+        for key in ("forth", "back"):
+            summary[f"{name}.fewer_{key}_share"] = 1.0 - figures[f"packets_{key}_per_s"] / full[f"packets_{key}_per_s"]
+        summary[f"{name}.fewer_bits_share"] = 1.0 - figures["bits_per_s"] / full["bits_per_s"]
         summary |= {f"{name}.{key}": value for key, value in change(output, f"{way}.none", name).items()}
     if settings.pictures:
         from plots import data_reduction

@@ -6,7 +6,7 @@
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 Cases are CORRECTION.DERIVATION.DELAYms.LOSSpct: how a correction is brought in, how the present is derived from a state
-that is one delay old, the delay there and back, and the share of packets lost. traditional.DELAYms.LOSSpct is beside them.
+that is one delay old, the delay there and back, and the share of packets lost. traditional.DELAYms.LOSSpct is beside them, and traditional_SCHEME with each passive scheme.
 
 The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
 pose alone, velocities and traditional touch, over models that are wrong in many ways. --table=0 and the options of the
@@ -25,7 +25,8 @@ DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resim
 FIGURES = (
     "box_position_error_rms_mm", "box_position_error_final_mm", "box_rotation_error_rms_deg", "force_error_mean_N",
     "force_jitter_rms_N", "correction_force_step_max_N", "correction_cost_jnd_p99", "packets_per_s",
-    "box_right_after_letting_go_s",
+    "box_right_after_letting_go_s", "felt_excess_1ms_N_max", "felt_excess_100ms_N_max", "felt_excess_100ms_jnd_p99",
+    "felt_excess_100ms_jnd_max", "energy_at_hand_J", "energy_at_far_side_J", "energy_created_J", "bits_per_s",
 )  # fmt: skip
 # Shown as curves: the model left alone, the thesis's correction, and ours.
 SHOWN = ("none.none.100ms.0pct", "pose.none.100ms.0pct", "stealthy_direction.resimulate.100ms.0pct")
@@ -55,7 +56,9 @@ def cases(description: dict, settings: Settings, output: Path) -> list[teleop_ru
         for loss in settings.losses.split(","):
             common = {"delay_ms": delay, "loss": float(loss) / 100, "seconds": settings.seconds}
             common["object"] = description["object"]
-            found.append({"name": f"traditional.{delay}ms.{loss}pct", "traditional": 1, **common})
+            for scheme in ("none", *teleop_runs.PASSIVITY):
+                way = "traditional" if scheme == "none" else f"traditional_{scheme}"
+                found.append({"name": f"{way}.{delay}ms.{loss}pct", "traditional": 1, "passivity": scheme, **common})
             for correction in CORRECTIONS:
                 for derivation in DERIVATIONS if correction != "none" else ("none",):
                     name = f"{correction}.{derivation}.{delay}ms.{loss}pct"

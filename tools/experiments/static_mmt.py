@@ -41,6 +41,10 @@ def cases(description: dict, path: str, settings: Settings, output: Path) -> lis
     found: list[teleop_runs.Case] = [
         {"name": f"traditional_{delay}ms", "traditional": 1, "delay_ms": delay} for delay in (0, 100)
     ]
+    found += [
+        {"name": f"traditional_{scheme}_100ms", "traditional": 1, "passivity": scheme, "delay_ms": 100}
+        for scheme in teleop_runs.PASSIVITY
+    ]
     for delay in (0, 100, 500):
         found.append({"name": f"mmt_right_{delay}ms", "delay_ms": delay})
     for delay in (0, 100, 500):

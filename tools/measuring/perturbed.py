@@ -10,7 +10,12 @@ from typing import Literal
 
 from measuring import teleop_runs
 
-SCHEMES = ("spring", "position", "position_force", "position_force_relative")
+SCHEMES = ("spring", "position", "position_force", "position_force_relative", "position_force_free", "relative_free")
+# With a free force, nothing but the force leads the far hand: it may be as far from the operator's place as it likes.
+KEYS: dict[str, teleop_runs.Case] = {
+    "position_force_free": {"control": "position_force", "leash": 0.03},
+    "relative_free": {"control": "position_force_relative", "leash": 0.03},
+}
 # "_alone": the model is never corrected, so that C' alone keeps the two together.
 VARIANTS = {"": "stealthy_direction", "_alone": "none"}
 
@@ -51,7 +56,7 @@ def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
     for scheme in SCHEMES:
         for variant, correction in VARIANTS.items():
             for run in range(settings.runs):
-                common = {"control": scheme, "correction": correction, "delay_ms": settings.delay}
+                common = {**KEYS.get(scheme, {"control": scheme}), "correction": correction, "delay_ms": settings.delay}
                 common |= {"seconds": description["seconds"], "object": description["object"]}
                 case = {"name": f"{scheme}{variant}.{run}", **common}
                 found.append(case | perturbation(description, settings.seed * 100_000 + run))
@@ -95,6 +100,10 @@ def shares(description: dict, runs: list[dict[str, float]]) -> dict[str, float]:
         "off_by_10mm_share": _mean(one["box_position_error_max_mm"] > 10.0 for one in runs),
         "box_position_error_rms_mean_mm": _mean(one["box_position_error_rms_mm"] for one in runs),
         "force_error_mean_N": _mean(one["force_error_mean_N"] for one in runs),
+        "felt_excess_100ms_jnd_p99_mean": _mean(one["felt_excess_100ms_jnd_p99"] for one in runs),
+        "felt_excess_100ms_N_max": max(one["felt_excess_100ms_N_max"] for one in runs),
+        "energy_created_max_J": max(one["energy_created_J"] for one in runs),
+        "bits_per_s": _mean(one["bits_per_s"] for one in runs),
     }
 
 

@@ -17,6 +17,7 @@ SCHEMES: dict[str, teleop_runs.Case] = {
     "pose_only": {"correction": "pose", "derivation": "none"},
     "velocities": {"correction": "pose_velocity", "derivation": "velocity"},
     "traditional": {"traditional": 1},
+    **{f"traditional_{scheme}": {"traditional": 1, "passivity": scheme} for scheme in teleop_runs.PASSIVITY},
 }
 WITH_LOSS = ("default", "never_corrected", "traditional")
 HANDS: dict[str, teleop_runs.Case] = {"scripted": {}, "arm": {"arm": 1}}
@@ -72,7 +73,7 @@ def _keys(description: dict, name: str, scheme: str) -> teleop_runs.Case:
     if scheme != "never_corrected" or wrong == BY_PLACE:
         # What is never corrected hears nothing; where its bodies should be is judged without a delay.
         keys |= link | {"delay_ms": delay.removesuffix("ms"), "loss": float(loss.removesuffix("pct")) / 100}
-    if scheme != "traditional":
+    if not scheme.startswith("traditional"):
         keys |= _wrong(description, scene, how)
     return keys
 

@@ -16,6 +16,9 @@ from setup import cache
 
 Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "name"
 
+# What keeps traditional touch from making energy (core/teleop/passivity.hpp).
+PASSIVITY = ("wave_variables", "time_domain", "two_layers")
+
 
 @dataclass(frozen=True)
 class Imperfections:

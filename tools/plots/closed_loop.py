@@ -10,26 +10,35 @@ from plots.teleop import read
 TITLES = {"static": "onto the ground", "dynamic": "against a box"}
 
 
+WAYS = {
+    "traditional": ("traditional", style.WARNING, "-"),
+    "traditional_wave_variables": ("wave variables", style.REFERENCE, "-"),
+    "traditional_time_domain": ("time domain", style.QUIET, "-"),
+    "traditional_two_layers": ("two layers", style.INK, "-"),
+    "mmt": ("local model", style.MEASURED, "-"),
+}
+
+
 def draw(folder: Path, scenes: tuple[str, ...], delays: list[str], summary: dict[str, object]) -> None:
-    slowest = delays[-1]
-    drawn, axes = style.figure(2, len(scenes), 11.0, 6.4)
+    shown = "100" if "100" in delays else delays[-1]
+    drawn, axes = style.figure(3, len(scenes), 12.0, 9.6)
     for column, scene in enumerate(scenes):
-        depth, energy = axes[0][column], axes[1][column]
-        traditional, model = (read(folder / f"{scene}.{way}_{slowest}ms.csv") for way in ("traditional", "mmt"))
-        depth.plot(
-            model["time"], model["direct_depth_m"] * 1e3, color=style.QUIET, linewidth=3.0, alpha=0.5, label="local touch"
-        )
-        for rows, colour, label in ((traditional, style.WARNING, "traditional"), (model, style.MEASURED, "local model")):
-            depth.plot(
-                rows["time"], rows["depth_m"] * 1e3, color=colour, linewidth=1.1, label=f"{label}, {slowest} ms"
-            )
-        depth.set(ylabel="hand below the surface (mm)", xlabel="time (s)", ylim=(0, None))
-        depth.set_title(f"An arm presses {TITLES[scene]}")
-        depth.legend(fontsize=8)
+        depth, energy, share = (axes[row][column] for row in range(3))
+        rows = read(folder / f"{scene}.mmt_{shown}ms.csv")
+        depth.plot(rows["time"], rows["local_depth_m"] * 1e3, color=style.QUIET, linewidth=4.0, alpha=0.4, label="local touch")
         along = np.array([float(delay) for delay in delays])
-        for way, colour in (("traditional", style.WARNING), ("mmt", style.MEASURED)):
-            values = [summary[f"{scene}.{way}_{delay}ms.energy_J"] for delay in delays]
-            energy.plot(along, values, color=colour, marker="o", markersize=4)
-        energy.axhline(float(summary[f"{scene}.local.energy_J"]), color=style.QUIET, linewidth=1.0)
-        energy.set(ylabel="energy given to the hand (J)", xlabel="delay there and back (ms)")
+        for way, (label, colour, dash) in WAYS.items():
+            rows = read(folder / f"{scene}.{way}_{shown}ms.csv")
+            depth.plot(rows["time"], rows["depth_m"] * 1e3, dash, color=colour, linewidth=1.0, label=label)
+            for key, one in (("energy_created_J", energy), ("settled_force_share", share)):
+                values = [float(summary[f"{scene}.{way}_{delay}ms.{key}"]) for delay in delays]
+                one.plot(along, values, dash, color=colour, marker="o", markersize=4)
+        depth.set(ylabel="far hand below the surface (mm)", xlabel="time (s)", ylim=(0, None))
+        depth.set_title(f"An arm presses {TITLES[scene]}, {shown} ms away")
+        depth.legend(fontsize=8, ncols=2)
+        energy.set(ylabel="energy made in a contact (J)", xlabel="delay there and back (ms)")
+        energy.set_yscale("symlog", linthresh=1e-6)
+        energy.axhline(1e-6, color=style.INK, linewidth=0.8, linestyle=":")
+        share.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
+        share.set(ylabel="felt of the true force\nwhile the hand holds", xlabel="delay there and back (ms)", ylim=(0, 1.6))
     style.save(drawn, folder / "closed_loop.png")

@@ -15,12 +15,10 @@ def draw(summary: dict[str, object], ways: tuple[str, ...], bands: tuple[str, ..
         values = [float(summary[f"{case}.packets_{key}_per_s"]) for case in cases]
         bars = packets.bar(places + offset, values, 0.38, color=colour, label=f"{key}")
         packets.bar_label(bars, [f"{value:.0f}" for value in values], fontsize=7)
-    packets.axhline(100.0, color=style.INK, linewidth=0.8, linestyle=":")
     packets.set(ylabel="packets (1/s)", yscale="log", ylim=(10, 4000))
     packets.legend(fontsize=8)
-    cost.bar(places, [float(summary[f"{case}.force_change_mean_jnd"]) for case in cases], 0.5, color=style.MEASURED)
-    cost.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
-    cost.set(ylabel="force changed by, mean (just-noticeable differences)")
+    cost.bar(places, [100.0 * float(summary[f"{case}.noticeable_share_of_touch"]) for case in cases], 0.5, color=style.MEASURED)
+    cost.set(ylabel="touching ticks whose force is noticeably another (%)", ylim=(0, None))
     for axes in (packets, cost):
         axes.set_xticks(places, [case.replace(".", "\n") for case in cases], fontsize=8)
     style.save(drawn, path)

@@ -20,13 +20,23 @@ const OperatorPassivity::Past* OperatorPassivity::past(std::uint64_t sample) con
     return sample != 0 && found.sample == sample ? &found : nullptr;
 }
 
+void OperatorPassivity::reset() {
+    if (!now_.begun) {
+        return;
+    }
+    now_ = {};
+    for (Past& one : past_) {
+        one.sample = 0;
+    }
+}
+
 Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& settings, const In& in) {
-    if (!begun_) {
-        hand_ = in.hand;
-        begun_ = true;
+    if (!now_.begun) {
+        now_.hand = in.hand;
+        now_.begun = true;
     }
     // The environment is passive: in a contact it gives back no more than this end has given.
-    net_ = given_ == Vec3(0.0) ? 0.0 : net_ + glm::dot(given_, in.hand - hand_);
+    now_.net = now_.given == Vec3(0.0) ? 0.0 : now_.net + glm::dot(now_.given, in.hand - now_.hand);
     hear(scheme, settings, in);
     Vec3 force(0.0);
     switch (scheme) {
@@ -43,95 +53,100 @@ Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& setting
             force = tank_force(settings, in);
             break;
     }
-    Past& now = past_[in.sample % samples];
-    now.sample = in.sample;
-    now.hand = in.hand;
-    const Vec3 velocity = (in.hand - hand_) / in.seconds;
-    now.wave = (settings.impedance * velocity - force) / std::sqrt(2.0 * settings.impedance);
-    hand_ = in.hand;
-    given_ = force;
+    Past& past = past_[in.sample % samples];
+    past.sample = in.sample;
+    past.hand = in.hand;
+    const Vec3 velocity = (in.hand - now_.hand) / in.seconds;
+    past.wave = (settings.impedance * velocity - force) / std::sqrt(2.0 * settings.impedance);
+    now_.hand = in.hand;
+    now_.velocity = in.velocity;
+    now_.given = force;
     return force;
 }
 
 // What the newest answer says about the far end: its wave, and the energy it has taken in. What was lost in
 // between is no energy, and a wave of the smaller of its neighbours.
 void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings, const In& in) {
-    if (in.far_sample <= heard_) {
+    if (in.far_sample <= now_.heard) {
         return;
     }
     const Past* const then = past(in.far_sample);
-    const Past* const before = past(heard_);
+    const Past* const before = past(now_.heard);
     if (then && before) {
         // The far hand went as the operator's did; of the forces on this way, the one that took in least.
         const Vec3 way = then->hand - before->hand;
-        const double held = glm::dot(far_force_, way);
-        const double other = in.far_sample == heard_ + 1 ? held : glm::dot(in.far_force, way);
+        const double held = glm::dot(now_.far_force, way);
+        const double other = in.far_sample == now_.heard + 1 ? held : glm::dot(in.far_force, way);
         const double taken = std::max(0.0, std::min(held, other));
-        far_in_ += taken;
-        tank_ += scheme == Passivity::two_layers ? settings.shared * taken : 0.0;
+        now_.far_in += taken;
+        now_.tank += scheme == Passivity::two_layers ? settings.shared * taken : 0.0;
     }
     if (then) {
         const Vec3 wave = then->wave + std::sqrt(2.0 / settings.impedance) * in.far_force;
-        const double lost = heard_ != 0 ? static_cast<double>(in.far_sample - heard_ - 1) : 0.0;
-        const double least = std::min(glm::dot(wave, wave), glm::dot(wave_, wave_));
-        wave_energy_ += 0.5 * in.seconds * (glm::dot(wave, wave) + lost * least);
-        wave_ = wave;
+        const double lost = now_.heard != 0 ? static_cast<double>(in.far_sample - now_.heard - 1) : 0.0;
+        const double least = std::min(glm::dot(wave, wave), glm::dot(now_.wave, now_.wave));
+        now_.wave_energy += 0.5 * in.seconds * (glm::dot(wave, wave) + lost * least);
+        now_.wave = wave;
     }
-    far_force_ = in.far_force;
-    heard_ = in.far_sample;
+    now_.far_force = in.far_force;
+    now_.heard = in.far_sample;
 }
 
 Vec3 OperatorPassivity::wave_force(const PassivitySettings& settings, const In& in) {
     const double b = settings.impedance;
-    const Vec3 velocity = (in.hand - hand_) / in.seconds;
+    const Vec3 velocity = (in.hand - now_.hand) / in.seconds;
     const double share = 1.0 - std::exp(-two_pi * settings.wave_cutoff * in.seconds);
-    smooth_ += share * (wave_ - smooth_);
-    Vec3 wave = smooth_;
+    now_.smooth += share * (now_.wave - now_.smooth);
+    Vec3 wave = now_.smooth;
     const double energy = 0.5 * in.seconds * glm::dot(wave, wave);
-    if (energy > wave_energy_) {
-        wave *= std::sqrt(std::max(0.0, wave_energy_) / energy);
+    if (energy > now_.wave_energy) {
+        wave *= std::sqrt(std::max(0.0, now_.wave_energy) / energy);
     }
-    wave_energy_ -= 0.5 * in.seconds * glm::dot(wave, wave);
+    now_.wave_energy -= 0.5 * in.seconds * glm::dot(wave, wave);
     return std::sqrt(2.0 * b) * wave - b * velocity;
 }
 
 // Of a force, what gives no more than `energy` in a tick in which the hand goes on as it does (unit: joules).
 // Less than none is owed: it is damped away, no faster than the device can. Where the hand is about to turn,
 // its velocity says little: a free hand of mass m that comes with v against the force turns where f dt > m v,
-// and what f has beyond that gives it f^2 dt^2 / m. No force is larger than what this end has left for that.
+// and what f has beyond that gives it f^2 dt^2 / m. No force is larger than half of what this end has left
+// for that; the other half is for a hand that goes on.
 Vec3 OperatorPassivity::affordable(const PassivitySettings& settings, const In& in, const Vec3& force,
                                    double energy) const {
-    const double left = std::max(0.0, std::min(energy, -net_ - settings.reserve) + settings.reserve);
+    const double left = std::max(0.0, std::min(energy, -now_.net - settings.reserve) + settings.reserve);
     const double size = glm::length(force);
-    const double against = size > 0.0 ? std::max(0.0, -glm::dot(force, in.velocity) / size) : 0.0;
+    // It goes on getting slower as it has done.
+    const Vec3 next = in.velocity + (in.velocity - now_.velocity);
+    const double comes = -std::max(glm::dot(force, in.velocity), glm::dot(force, next));
+    const double against = size > 0.0 ? std::max(0.0, comes / size) : 0.0;
     const double mass = settings.lightest_hand;
-    const double largest = (std::sqrt(left * mass) + mass * against) / in.seconds;
+    const double largest = (std::sqrt(0.5 * left * mass) + 0.5 * mass * against) / in.seconds;
     Vec3 affordable = size > largest ? force * (largest / size) : force;
     const double speed2 = glm::dot(in.velocity, in.velocity);
     const double power = glm::dot(affordable, in.velocity);
     if (speed2 < nothing || power <= 0.0) {
         return affordable;
     }
-    const double allowed = left / in.seconds;
-    const double owed = std::max(0.0, -settings.reserve - std::min(energy, -net_ - settings.reserve));
+    const double allowed = 0.5 * left / in.seconds;
+    const double owed = std::max(0.0, -settings.reserve - std::min(energy, -now_.net - settings.reserve));
     const double damping = std::max(0.0, power - allowed) / speed2 +
                            std::min(owed / (speed2 * in.seconds), settings.largest_damping);
     return affordable - damping * in.velocity;
 }
 
 Vec3 OperatorPassivity::damped_force(const PassivitySettings& settings, const In& in) {
-    out_ += std::max(0.0, glm::dot(given_, in.hand - hand_));
+    now_.out += std::max(0.0, glm::dot(now_.given, in.hand - now_.hand));
     const Vec3 wanted = in.far_sample != 0 ? in.far_force : Vec3(0.0);
-    return affordable(settings, in, wanted, far_in_ - out_);
+    return affordable(settings, in, wanted, now_.far_in - now_.out);
 }
 
 Vec3 OperatorPassivity::tank_force(const PassivitySettings& settings, const In& in) {
     // What the hand was given comes out of the tank; of what it gave, the far end gets its share.
-    const double given = glm::dot(given_, in.hand - hand_);
-    tank_ -= given > 0.0 ? given : (1.0 - settings.shared) * given;
+    const double given = glm::dot(now_.given, in.hand - now_.hand);
+    now_.tank -= given > 0.0 ? given : (1.0 - settings.shared) * given;
     const Vec3 wanted = in.far_sample != 0 ? in.far_force : Vec3(0.0);
-    const Vec3 force = affordable(settings, in, wanted, tank_);
-    return force - settings.refill * std::max(0.0, settings.tank - tank_) * in.velocity;
+    const Vec3 force = affordable(settings, in, wanted, now_.tank);
+    return force - settings.refill * std::max(0.0, settings.tank - now_.tank) * in.velocity;
 }
 
 Vec3 FarPassivity::hand(Passivity scheme, const PassivitySettings& settings, const In& in) {

@@ -34,17 +34,17 @@ namespace tactus {
 enum class Passivity : std::uint8_t { none, wave_variables, time_domain, two_layers };
 
 struct PassivitySettings {
-    double impedance = 4.0;       // wave variables: b (unit: newton-seconds per meter), > 0
+    double impedance = 20.0;      // wave variables: b (unit: newton-seconds per meter), > 0
     double wave_cutoff = 20.0;    // above it returning waves are smoothed (unit: hertz), > 0
     double drift_rate = 10.0;     // at which a far hand that has yielded comes back (unit: 1/seconds), >= 0
     double reserve = 1e-3;        // time domain, two layers: never given to the operator (unit: joules), >= 0
     double lightest_hand = 0.05;  // and its handle (unit: kilograms), > 0
     double largest_damping = 30.0;  // of what is owed (unit: newton-seconds per meter), > 0
     double largest_yield = 1.0;     // time domain (unit: meters per newton-second), > 0
-    double far_store = 0.02;  // that the far end may spend before it has heard of any (unit: joules), >= 0
-    double tank = 0.01;       // two layers: the operator's wanted level (unit: joules), >= 0
-    double refill = 200.0;    // two layers: d for each joule below it (unit: newton-seconds per meter joule)
-    double shared = 0.5;      // two layers: of what is taken in, what the other end gets, 0 … 1
+    double far_store = 0.005;  // that the far end may spend before it has heard of any (unit: joules), >= 0
+    double tank = 0.01;        // two layers: the operator's wanted level (unit: joules), >= 0
+    double refill = 200.0;     // two layers: d for each joule below it (unit: newton-seconds per meter joule)
+    double shared = 0.5;       // two layers: of what is taken in, what the other end gets, 0 … 1
 };
 
 class OperatorPassivity {
@@ -65,8 +65,8 @@ public:
     // The force on the hand in this tick (unit: newtons).
     Vec3 force(Passivity scheme, const PassivitySettings& settings, const In& in);
     // After limits behind it have changed what the hand is given.
-    void given(const Vec3& force) { given_ = force; }
-    void reset() { *this = {}; }
+    void given(const Vec3& force) { now_.given = force; }
+    void reset();
 
 private:
     struct Past {
@@ -81,19 +81,25 @@ private:
     Vec3 damped_force(const PassivitySettings& settings, const In& in);
     Vec3 tank_force(const PassivitySettings& settings, const In& in);
 
+    // All that a beginning forgets.
+    struct State {
+        bool begun = false;
+        Vec3 hand{0.0};           // one tick ago
+        Vec3 velocity{0.0};       // the same
+        Vec3 given{0.0};          // force, one tick ago
+        std::uint64_t heard = 0;  // the newest sample that was answered
+        Vec3 far_force{0.0};      // with it
+        double far_in = 0.0;      // taken in at the far end, as heard (unit: joules)
+        Vec3 wave{0.0};           // that has come last
+        Vec3 smooth{0.0};
+        double wave_energy = 0.0;  // that has come and has not been played (unit: joules)
+        double out = 0.0;          // given to the hand (unit: joules)
+        double tank = 0.0;         // (unit: joules)
+        double net = 0.0;          // given to the hand in this contact, less what it has given (unit: joules)
+    };
+
+    State now_;
     std::array<Past, samples> past_{};
-    bool begun_ = false;
-    Vec3 hand_{0.0};           // one tick ago
-    Vec3 given_{0.0};          // force, one tick ago
-    std::uint64_t heard_ = 0;  // the newest sample that was answered
-    Vec3 far_force_{0.0};      // with it
-    double far_in_ = 0.0;      // taken in at the far end, as heard (unit: joules)
-    Vec3 wave_{0.0};           // that has come last
-    Vec3 smooth_{0.0};
-    double wave_energy_ = 0.0;  // that has come and has not been played (unit: joules)
-    double out_ = 0.0;          // given to the hand (unit: joules)
-    double tank_ = 0.0;         // (unit: joules)
-    double net_ = 0.0;          // given to the hand in this contact, less what it has given (unit: joules)
 };
 
 class FarPassivity {
