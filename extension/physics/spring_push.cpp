@@ -21,9 +21,6 @@ struct PlainSettings final : JPH::ConstraintSettings {};
 // A body is light to a spring when k dt^2 exceeds this share of its mass.
 constexpr float light = 0.05f;
 
-// What a heavy one is still slowed by, as a share: enough to come to rest at last, too little to tell.
-constexpr float least_implicit = 0.05f;
-
 // Contacts of a single light body settle to a thousandth within the first, spring and contacts together in
 // the rest.
 constexpr int held_iterations = 24;
@@ -37,14 +34,6 @@ JPH::Mat44 inverse_mass_at(const JPH::Body& body, JPH::Vec3Arg arm) {
         cross.Multiply3x3(motion.GetInverseInertiaForRotation(JPH::Mat44::sRotation(body.GetRotation())))
             .Multiply3x3(cross.Transposed3x3());
     return JPH::Mat44::sScale(motion.GetInverseMass()) + turning;
-}
-
-// Which share of the way within a step the spring gives way by, for k dt^2 over the mass. A step takes the
-// same share of k dt^2 / m of the energy: all of it makes a light body calm, but takes 1.6 % from a 1 kg box
-// thrown by 100 N/m at 1 ms. A heavy one needs none: with the force of the step's begin and the velocity of
-// its end, energy is kept as long as k dt^2 < 4 m (semi-implicit Euler).
-float implicit_share(float lightness) {
-    return std::clamp(lightness / light, least_implicit, 1.0f);
 }
 
 }  // namespace
@@ -68,10 +57,9 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
     push_.damping = static_cast<float>(limits::cut(spring.damping, limits::stiffest));
 }
 
-// In terms of the impulse l and with the hand's velocity w, the force of a sub-step is
-//     l / dt = F0 + k (h - u) + s k dt (w - v) - c (v - v0)
-//     <=>   v + l / (dt (c + s k dt)) = (F0 + k (h - u) + s k dt w + c v0) / (c + s k dt):
-// with s = 1 the force at its end, with s = 0 that at its begin.
+// In terms of the impulse l and with the hand's velocity w, the force at a sub-step's end is
+//     l / dt = F0 + k (h + w dt - u - v dt) - c (v - v0)
+//     <=>   v + l / (dt (c + k dt)) = (F0 + k (h - u + w dt) + c v0) / (c + k dt).
 // A sliding fingertip solves it along n: numbers in place of vectors, n.v + (r x n).w in place of v.
 void SpringPush::SetupVelocityConstraint(float seconds) {
     const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
@@ -80,22 +68,20 @@ void SpringPush::SetupVelocityConstraint(float seconds) {
     turn_ = motion.MultiplyWorldSpaceInverseInertiaByVector(push_.body->GetRotation(), lever_);
     const JPH::Vec3 given = along(JPH::Vec3(push_.body->GetCenterOfMassPosition() - push_.start) + arm_);
     const JPH::Vec3 force = push_.force + push_.stiffness * (push_.hand_velocity * push_.elapsed - given);
-    const float inverse_mass_along = motion.GetInverseMass() + lever_.Dot(turn_);
-    const float give =
-        push_.stiffness * seconds * implicit_share(push_.stiffness * seconds * seconds * inverse_mass_along);
-    const float resistance = push_.damping + give;
+    const float resistance = push_.damping + push_.stiffness * seconds;
     softness_ = 1.0f / (seconds * resistance);
-    bias_ = (force + give * push_.hand_velocity + push_.damping * push_.first_velocity) / resistance;
+    bias_ = (force + push_.stiffness * seconds * push_.hand_velocity + push_.damping * push_.first_velocity) /
+            resistance;
     bias_along_ = bias_.Dot(push_.direction);
     impulse_ = force.Dot(push_.direction) > 0.0f ? force * seconds : JPH::Vec3::sZero();
     impulse_along_ = impulse_.Dot(push_.direction);
     push_.elapsed += seconds;
 
+    const float inverse_mass_along = motion.GetInverseMass() + lever_.Dot(turn_);
     effective_mass_along_ = 1.0f / (inverse_mass_along + softness_);
     if (push_.sticks)
         effective_mass_ = (inverse_mass_at(*push_.body, arm_) + JPH::Mat44::sScale(softness_)).Inversed3x3();
-    const float whole = seconds * (push_.damping + push_.stiffness * seconds);
-    held_ = inverse_mass_along * whole > light ? held_iterations : 0;
+    held_ = inverse_mass_along > light * softness_ ? held_iterations : 0;
     SetNumVelocityStepsOverride(held_ > 0 ? light_iterations : 0);
 }
 

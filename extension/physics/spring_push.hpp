@@ -7,10 +7,8 @@
 //     F = F0 + k (h - u) - c (v - v0)
 //
 // with u and h the ways of the point and of the hand since the step began, v0 and v the point's velocity at
-// its begin and end. That is stable for every mass. Of a heavy body, which would lose energy by it and does
-// not need it, only a share of the step's own way counts in u and h (see implicit_share). A braced body feels
-// F0 to the full, a free one what is left of it; a body pushed at a steady pace feels what holds it back,
-// since hand and body advance together.
+// its begin and end. That is stable for every mass. A braced body feels F0 to the full, a free one what is
+// left of it; a body pushed at a steady pace feels what holds it back, since hand and body advance together.
 //
 // A sliding fingertip: the same along the direction n of F0 alone. In both cases F . n >= 0.
 //
