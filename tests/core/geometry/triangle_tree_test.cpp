@@ -342,9 +342,9 @@ TEST(TriangleTree, TakesLittleMemoryMostOfAllForMeshesInSinglePrecision) {
         EXPECT_EQ(tree.triangle_count(), mesh.triangles.size());
         return static_cast<double>(tree.bytes()) / static_cast<double>(mesh.triangles.size());
     };
-    EXPECT_LE(bytes_each(terrain), 110.0);
-    EXPECT_LE(bytes_each(in_single_precision(terrain)), 75.0);
-    EXPECT_LE(bytes_each(in_single_precision(shared::icosphere(5, 1.0))), 75.0);
+    EXPECT_LE(bytes_each(terrain), 115.0);
+    EXPECT_LE(bytes_each(in_single_precision(terrain)), 80.0);
+    EXPECT_LE(bytes_each(in_single_precision(shared::icosphere(5, 1.0))), 80.0);
 }
 
 // One corner far away that is not in single precision: the same triangles, kept in double.
@@ -369,8 +369,8 @@ TEST(TriangleTree, SinglePrecisionKeepsEveryBit) {
     moved.refit(part);
     for (int i = 0; i < 100; ++i) {
         const Vec3 p(random.between(-4.0, 5.0), random.between(-1.0, 1.0), random.between(-4.0, 5.0));
-        ASSERT_NEAR(moved.nearest(p, 1.0).distance, static_cast<double>(shared::slow_distance(p, part)),
-                    1e-14);
+        const double slow = static_cast<double>(shared::slow_distance(p, part));
+        ASSERT_NEAR(moved.nearest(p, 1.0).distance, std::min(slow, 1.0), 1e-14);
     }
 }
 

@@ -9,7 +9,7 @@ namespace {
 const shared::StressCounts& counts() {
     static const shared::StressCounts all = [] {
         shared::StressCounts c;
-        for (std::uint64_t seed = 1; seed <= 700; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 900; ++seed) {
             shared::run_stress_case(seed, {.ticks = 400, .deforming = false}, c);
         }
         return c;
