@@ -136,14 +136,16 @@ TEST(Mmt, EverySchemeWithRatesBringsTheBoxWhereItIs) {
     }
 }
 
-TEST(Mmt, ADeadbandSendsATenthOfThePacketsForNoErrorThatIsNoticed) {
+TEST(Mmt, ADeadbandSendsATenthOfTheSamplesAndFewerStatesForNoErrorThatIsNoticed) {
     TeleopCase sparse = wrong_box(100.0);
-    const double all = run_teleop(scene(true), sparse).at("force_error_mean_N");
+    const TeleopFigures all = run_teleop(scene(true), sparse);
     sparse.settings.deadband.enabled = true;
     const TeleopFigures figures = run_teleop(scene(true), sparse);
-    EXPECT_LT(figures.at("packets_forth_per_s"), 100.0);
-    EXPECT_LT(figures.at("packets_back_per_s"), 100.0);
-    EXPECT_LT(figures.at("force_error_mean_N"), all + sparse.settings.stealth.least_noticeable);
+    // Greetings and clocks, most of them in the first second, are among both.
+    EXPECT_LT(figures.at("packets_forth_per_s"), 0.125 * all.at("packets_forth_per_s"));
+    EXPECT_LT(figures.at("packets_back_per_s"), 0.8 * all.at("packets_back_per_s"));
+    EXPECT_LT(figures.at("force_error_mean_N"),
+              all.at("force_error_mean_N") + sparse.settings.stealth.least_noticeable);
 }
 
 // A hand that is said now and then is played out no later than one that is always said.

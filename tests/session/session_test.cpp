@@ -6,6 +6,7 @@
 #include <numbers>
 #include <thread>
 
+#include "core/haptics/fading_force.hpp"
 #include "session_rig.hpp"
 
 namespace tactus {
