@@ -44,9 +44,15 @@ BodyMotion derive(Derivation derivation, const DerivationInput& in) {
             return extrapolated(r, r.linear_velocity, r.angular_velocity, seconds);
         case Derivation::acceleration:
             return accelerated(in, seconds);
-        case Derivation::averaged:
-            return extrapolated(r, 0.5 * (r.linear_velocity + in.own_then.linear_velocity),
-                                0.5 * (r.angular_velocity + in.own_then.angular_velocity), seconds);
+        case Derivation::averaged: {
+            BodyMotion now = extrapolated(r, 0.5 * (r.linear_velocity + in.own_then.linear_velocity),
+                                          0.5 * (r.angular_velocity + in.own_then.angular_velocity), seconds);
+            // Only the way is averaged: half of a wrong rate of the model's own, kept at each state, would
+            // stay in it for ever.
+            now.linear_velocity = r.linear_velocity;
+            now.angular_velocity = r.angular_velocity;
+            return now;
+        }
         case Derivation::history:
         case Derivation::resimulate:
             return with_own_changes(in);

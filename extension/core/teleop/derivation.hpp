@@ -11,7 +11,7 @@ enum class Derivation : std::uint8_t {
     none,          // what was true is taken for the present: the model lags behind (thesis figure 3.4)
     velocity,      // eq. 3.1: x(t) = x_r + x'_r dt
     acceleration,  // x(t) = x_r + x'_r dt + x''_r dt^2 / 2
-    averaged,      // eq. 3.1 with the mean of the far side's rate and the model's own at that sample
+    averaged,      // eq. 3.1 with the mean of the far side's rate and the model's own then; the former stays
     history,       // what changed in the model since that sample is applied to the truth
     resimulate,    // the truth is put into the model's past, and what the hand did since is replayed
 };

@@ -56,6 +56,7 @@ TEST(Derivation, AveragedTakesTheMeanRate) {
     DerivationInput in = seen_late(0.0, 0.0);
     in.own_then.linear_velocity.x = 0.5;
     EXPECT_NEAR(derive(Derivation::averaged, in).pose.position.x, 2.0 + 0.4 * late, 1e-14);
+    EXPECT_EQ(derive(Derivation::averaged, in).linear_velocity, in.received.linear_velocity);
 }
 
 TEST(Derivation, HistoryIsExactWhereTheModelIsOffByAConstant) {
