@@ -251,4 +251,4 @@ func test_a_mesh_that_is_touched_from_outside_lets_the_hand_out() -> void:
 		world.advance(0.3)
 		var height := proxy.get_proxy_position().y
 		check(height > 0.19 if one_sided else height < 0.1, "proxy at %s m" % height)
-		remove(world)
+		world.free()

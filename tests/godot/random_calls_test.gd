@@ -136,7 +136,9 @@ func _set_something(object: Object) -> String:
 		var taken: bool = var_to_str(now) == var_to_str(value)
 		if value is float or value is Vector3:
 			taken = taken or is_same(now, value) or (now - value) == (now - now) and now == value
+			# Some are kept in another unit and come back rounded.
 			taken = taken or value is Vector3 and (now as Vector3).is_equal_approx(value)
+			taken = taken or value is float and is_equal_approx(now, value)
 		if value is String:
 			taken = taken or now == (value as String).strip_edges()
 		check(taken or _ears.heard > before, "%s was refused without a word, it is %s" % [what, now])

@@ -92,7 +92,9 @@ def _export_tests() -> Path:
             shutil.copy(path, folder / "tests")
     (folder / "tests/main.tscn").write_text(MAIN_SCENE)
     settings = folder / "project.godot"
-    settings.write_text(re.sub(r'run/main_scene=".*"', 'run/main_scene="res://tests/main.tscn"', settings.read_text()))
+    # A program for players keeps what it prints to itself for a while, and its errors not: here their order matters.
+    changed = 'run/main_scene="res://tests/main.tscn"\nrun/flush_stdout_on_print=true'
+    settings.write_text(re.sub(r'run/main_scene=".*"', changed, settings.read_text()))
     project.import_into(folder)
     program = cache.emptied(cache.clone() / "build/released_program") / "tests.x86_64"
     project.export_to(program, folder)
