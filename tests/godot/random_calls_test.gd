@@ -25,10 +25,6 @@ const STRINGS: Array[String] = [
 	"",
 	" ",
 	"x",
-	"user://random.csv",
-	"user://random.json",
-	"res://nothing/there",
-	"/proc/nothing/x",
 	"bunny",
 	"127.0.0.1",
 	"::1",
@@ -37,6 +33,8 @@ const STRINGS: Array[String] = [
 	"a long enough key",
 	"\n\t\"'\\"
 ]
+## Only these are written to: any other word would be a file in the project.
+const PATHS: Array[String] = ["", "user://random.csv", "user://random.json", "/proc/nothing/x"]
 ## What may take its time, or is the test's own business.
 const NOT_CALLED: Array[String] = ["_validate_property"]
 
@@ -96,6 +94,8 @@ func _value(type: int, name: String, kind: String) -> Variant:
 			# A step longer than this only takes long.
 			return _any(FLOATS) if name != "seconds" else _any([0.0, 0.001, 0.01, -1.0, NAN, 1e300])
 		TYPE_STRING:
+			if name.contains("path") or name.contains("file"):
+				return _any(PATHS)
 			# Others are looked up in the network, for as long as that takes.
 			return _any(STRINGS) if not name.ends_with("address") else _any(["127.0.0.1", "::1", ""])
 		TYPE_STRING_NAME:
