@@ -22,16 +22,7 @@ const INTEGERS: Array[int] = [
 	0, 1, 2, 3, 5, 7, 50, 99, 500, 1000, 4096, 70000, -1, -2, -3, 0xffffffff, 0x7fffffff, 1 << 40, -(1 << 62)
 ]
 const STRINGS: Array[String] = [
-	"",
-	" ",
-	"x",
-	"bunny",
-	"127.0.0.1",
-	"::1",
-	"fe80::zz",
-	"short",
-	"a long enough key",
-	"\n\t\"'\\"
+	"", " ", "x", "bunny", "127.0.0.1", "::1", "fe80::zz", "short", "a long enough key", "\n\t\"'\\"
 ]
 ## Only these are written to: any other word would be a file in the project.
 const PATHS: Array[String] = ["", "user://random.csv", "user://random.json", "/proc/nothing/x"]
