@@ -69,7 +69,8 @@ bool let_out(const TouchScene& scene, std::uint64_t since, bool all, const Touch
             every = passed.pass(slot, PassedBecause::overlaps) && every;
         }
     };
-    if (scene.revision() - since <= TouchScene::remembered_changes) {
+    // A sphere that has not seen the scene before knows of no change in it: revisions begin at 1.
+    if (since > 0 && scene.revision() - since <= TouchScene::remembered_changes) {
         for (std::uint64_t revision = since + 1; revision <= scene.revision(); ++revision) {
             if (!is_repeated(scene, since, revision)) {
                 look_at(scene.change(revision).body, &scene.change(revision));

@@ -20,7 +20,8 @@ struct TouchingSphere {
 // radius: the sphere is lifted off again. Beyond, the centre could end up on the other side.
 constexpr double max_overlap_share = 0.5;
 
-// Passes the bodies that the sphere overlaps since the scene's revision `since`; all of them, whenever they
+// Passes the bodies that the sphere overlaps since the scene's revision `since` (0: it has not seen the
+// scene); all of them, whenever they
 // came, with `all`: when the sphere itself has changed. False where there are too many.
 bool let_out(const TouchScene& scene, std::uint64_t since, bool all, const TouchingSphere& sphere,
              PassedBodies& passed, WorkBudget& work);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -61,7 +62,10 @@ public:
     bool deform(int body, const TouchShape& shape);
 
     std::size_t slots() const { return bodies_.size(); }
-    const TouchBody& body(int slot) const { return bodies_[static_cast<std::size_t>(slot)]; }
+    const TouchBody& body(int slot) const {
+        assert(slot >= 0 && static_cast<std::size_t>(slot) < bodies_.size());
+        return bodies_[static_cast<std::size_t>(slot)];
+    }
     std::span<const ScenePart> parts() const { return parts_; }
     std::span<const int> moved_bodies() const { return moved_; }
     std::span<const int> deformed_bodies() const { return deformed_; }

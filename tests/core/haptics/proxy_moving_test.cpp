@@ -211,5 +211,20 @@ TEST(ProxyMoving, AddedAndRemovedBodiesAreSeenAtOnce) {
     EXPECT_NEAR(rig.draw({0.0, -0.1, 0.0}, {0.0, -0.6, 0.0}, 20).position.y, -0.35, 1e-8);
 }
 
+// A proxy that was never in this scene takes the place of one that was, as a replay does.
+TEST(ProxyMoving, AnotherProxyGoesOnFromWhatOneRemembers) {
+    TouchRig rig(radius);
+    const int table = rig.add(BoxShape{Vec3(1.0, 0.1, 1.0)});
+    const Vec3 hand(0.0, 0.12, 0.0);
+    rig.draw({0.0, 0.4, 0.0}, hand, 10);
+    Proxy other(64, rig.proxy.settings());
+    other.recall(rig.proxy.memory());
+    rig.scene.begin_tick();
+    rig.scene.set_pose(table, at({0.0, 0.001, 0.0}));
+    const ProxyTick tick = other.move(rig.scene, hand);
+    EXPECT_NEAR(tick.position.y, 0.151, 1e-8);
+    EXPECT_FALSE(tick.status & proxy_letting_out);
+}
+
 }  // namespace
 }  // namespace tactus
