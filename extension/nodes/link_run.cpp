@@ -264,10 +264,38 @@ void LinkRun::synchronise(Workers& workers, const LinkMoment& moment) {
     }
 }
 
-void LinkRun::tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, const SessionSnapshot& snapshot,
-                   Nanoseconds now) {
+void LinkRun::tell(const BodyMirrors& scene, const SessionSnapshot& snapshot, Nanoseconds now) {
+    tell_bodies(scene, now);
+    tell_joints(scene);
+    teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
+}
+
+void LinkRun::tell_joints(const BodyMirrors& scene) {
     std::unordered_set<SessionHandle> there;
-    for (const auto& mirror : mirrors) {
+    for (const auto& mirror : scene.joints()) {
+        if (mirror->handle() == no_handle) {
+            continue;
+        }
+        there.insert(mirror->handle());
+        const std::pair<std::uint64_t, std::uint64_t> now{mirror->id(), mirror->revision()};
+        const auto [told, is_new] = told_joints_.try_emplace(mirror->handle());
+        if (is_new || told->second != now) {
+            told->second = now;
+            teller_->tell_joint(mirror->handle(), mirror->joined(), mirror->first(), mirror->second());
+        }
+    }
+    std::erase_if(told_joints_, [&](const auto& told) {
+        const bool gone = !there.contains(told.first);
+        if (gone) {
+            teller_->forget_joint(told.first);
+        }
+        return gone;
+    });
+}
+
+void LinkRun::tell_bodies(const BodyMirrors& scene, Nanoseconds now) {
+    std::unordered_set<SessionHandle> there;
+    for (const auto& mirror : scene.bodies()) {
         CollisionObject3D* body = mirror->body();
         if (mirror->handle() == no_handle || body == nullptr) {
             continue;
@@ -289,7 +317,6 @@ void LinkRun::tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, cons
         }
         return gone;
     });
-    teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
 }
 
 std::vector<std::string> LinkRun::problems() const {
@@ -300,6 +327,7 @@ std::vector<std::string> LinkRun::problems() const {
         }
     }
     if (builder_ != nullptr) {
+        all = builder_->joints().problems();
         for (const ModelObject& object : builder_->objects()) {
             if (!object.problem.empty()) {
                 all.push_back("\"" + object.name + "\" of the far side: " + object.problem);

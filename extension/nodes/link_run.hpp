@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "nodes/body_mirror.hpp"
+#include "nodes/body_mirrors.hpp"
 #include "nodes/link_route.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/model_view.hpp"
@@ -52,8 +52,7 @@ public:
     // Passes on what has changed on either side.
     void synchronise(Workers& workers, const LinkMoment& moment);
     // Far side: what there is to touch.
-    void tell(const std::vector<std::unique_ptr<BodyMirror>>& mirrors, const SessionSnapshot& snapshot,
-              Nanoseconds now);
+    void tell(const BodyMirrors& scene, const SessionSnapshot& snapshot, Nanoseconds now);
 
     // The far side is told in the next tick, which is this side's last.
     void leave();
@@ -87,6 +86,8 @@ private:
         std::string problem;
     };
 
+    void tell_bodies(const BodyMirrors& scene, Nanoseconds now);
+    void tell_joints(const BodyMirrors& scene);
     void attach(Session& session);
     void pass_on_settings();
     void let_go_of_way();
@@ -114,6 +115,8 @@ private:
     bool builds_elsewhere_ = false;              // in real time it does not hold frames up
     std::unique_ptr<EnvironmentTeller> teller_;  // far side
     std::unordered_map<SessionHandle, Telling> tellings_;
+    std::unordered_map<SessionHandle, std::pair<std::uint64_t, std::uint64_t>>
+        told_joints_;  // node, revision
 
     std::uint64_t revision_ = 0;      // of the node, that has been passed on
     std::uint64_t way_revision_ = 0;  // that the way was opened with

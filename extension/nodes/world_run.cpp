@@ -246,7 +246,7 @@ void WorldRun::synchronise_link() {
     const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
     link_->synchronise(Workers::shared(), {now, !loop_.running(), !settings_.real_time});
     if (!link_->is_operator()) {
-        link_->tell(bodies_.bodies(), session_.snapshot(), now);
+        link_->tell(bodies_, session_.snapshot(), now);
     }
 }
 
