@@ -13,16 +13,6 @@ namespace {
 
 constexpr double all_lost = 1e-4;  // the share of samples that may be lost with all of their repeats
 constexpr std::uint32_t least_repeats = 2;
-constexpr double much_lost = 0.1;
-// A way that takes so much longer than it did has a queue (unit: nanoseconds).
-constexpr double queue = 30e6;
-// Of the way's jitter: so much is no queue.
-constexpr double times_jitter = 4.0;
-constexpr Nanoseconds halve_every = 400'000'000;
-constexpr Nanoseconds double_after = 2 * nanoseconds_per_second;
-constexpr Nanoseconds max_double_after = 32 * nanoseconds_per_second;
-// Who congests the way so soon after more was sent has asked for too much.
-constexpr Nanoseconds shows_after = 1'500'000'000;
 
 std::uint32_t repeats_for(double lost) {
     if (lost <= 0.0) {
@@ -62,8 +52,11 @@ void SampleStream::add(const OperatorSample& sample) {
 }
 
 void SampleStream::end_tick(Endpoint& link, Nanoseconds now) {
-    adapt(link.statistics(), now);
-    if (++tick_ % stride_ == 0) {
+    const LinkStatistics& statistics = link.statistics();
+    pace_.adapt(statistics, now);
+    // Where a queue is the trouble, repeats make it longer.
+    repeats_ = pace_.queues() ? 0 : std::min(settings_.max_repeats, repeats_for(statistics.lost_there));
+    if (++tick_ % pace_.stride() == 0) {
         send(link);
     }
 }
@@ -72,31 +65,8 @@ void SampleStream::restart() {
     for (Pointer& pointer : pointers_) {
         pointer.count = pointer.waiting = 0;
     }
-    stride_ = 1;
+    pace_.restart();
     repeats_ = least_repeats;
-    patience_ = double_after;
-}
-
-void SampleStream::adapt(const LinkStatistics& link, Nanoseconds now) {
-    const ClockFigures& clock = link.clock;
-    const double queued = clock.mean_delay - static_cast<double>(clock.least_delay);
-    const bool queues = clock.known && queued > std::max(queue, times_jitter * clock.jitter);
-    const bool congested = queues || link.lost_there > much_lost;
-    congested_at_ = congested ? now : congested_at_;
-    if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
-        tried_more_ = false;
-        patience_ = congested ? std::min(2 * patience_, max_double_after) : double_after;
-    }
-    if (congested && stride_ < max_stride && now - changed_at_ >= halve_every) {
-        stride_ *= 2;
-        changed_at_ = now;
-    } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= patience_) {
-        stride_ /= 2;
-        changed_at_ = now;
-        tried_more_ = true;
-    }
-    // Where a queue is the trouble, repeats make it longer.
-    repeats_ = queues ? 0 : std::min(settings_.max_repeats, repeats_for(link.lost_there));
 }
 
 void SampleStream::send(Endpoint& link) {
@@ -106,8 +76,8 @@ void SampleStream::send(Endpoint& link) {
         if (pointer.waiting == 0) {
             continue;
         }
-        // Repeats bridge lost packets, each of `stride_` ticks.
-        const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + repeats_ * stride_);
+        // Repeats bridge lost packets, each of `stride` ticks.
+        const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + repeats_ * pace_.stride());
         if (message.count + wanted > OperatorSamples::most) {
             send_message(link, message);
         }

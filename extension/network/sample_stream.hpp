@@ -2,10 +2,8 @@
 // ticks when the network cannot take so many, each with as many older samples as losses ask for.
 //
 // Of older samples so many are repeated that all packets with a sample are lost at most once in ten thousand
-// times, were losses independent: two where nothing is lost, since a loss is known only later. Packets are
-// halved in number where more than a tenth is lost for a while, or where what is on its way queues up, and
-// doubled again when neither has been so for two seconds, or longer where that was too much the last time. No
-// tick's sample is left out by that.
+// times, were losses independent: two where nothing is lost, since a loss is known only later. No tick's
+// sample is left out by sending fewer packets (pace.hpp).
 //
 // Belongs to whoever ticks; allocates nothing after its constructor.
 #pragma once
@@ -14,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "network/endpoint.hpp"
+#include "network/pace.hpp"
 
 namespace tactus {
 
@@ -40,31 +38,24 @@ public:
     // The far side is another one: nothing before counts.
     void restart();
 
-    std::uint32_t ticks_a_packet() const { return stride_; }
+    std::uint32_t ticks_a_packet() const { return pace_.stride(); }
     std::uint32_t repeats() const { return repeats_; }
 
 private:
-    static constexpr std::uint32_t max_stride = 8;
-
     struct Pointer {
         std::array<OperatorSample, OperatorSamples::most> samples{};  // newest first
         std::uint32_t count = 0;
         std::uint32_t waiting = 0;  // of them have not been sent yet
     };
 
-    void adapt(const LinkStatistics& link, Nanoseconds now);
     void send(Endpoint& link);
     void send_message(Endpoint& link, OperatorSamples& message) const;
 
     SampleStreamSettings settings_;
     std::vector<Pointer> pointers_;
-    std::uint32_t stride_ = 1;
+    Pace pace_;
     std::uint32_t repeats_ = 2;
     std::uint64_t tick_ = 0;
-    Nanoseconds congested_at_ = 0;
-    Nanoseconds changed_at_ = 0;
-    Nanoseconds patience_ = 2 * nanoseconds_per_second;  // without trouble before more is tried
-    bool tried_more_ = false;                            // and not known yet whether it was too much
 };
 
 }  // namespace tactus

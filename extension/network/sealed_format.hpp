@@ -1,4 +1,4 @@
-// Where things stand in a greeting and in a sealed packet (docs/wire_format.md, "Sealed packets").
+// Where things stand in a greeting, a refusal and a sealed packet (docs/wire_format.md, "Sealed packets").
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 namespace tactus::sealed_format {
 
 inline constexpr std::uint8_t version = 2;
-enum Kind : std::uint8_t { greeting = 0, packet = 1 };
+enum Kind : std::uint8_t { greeting = 0, packet = 1, refusal = 2 };
 
 // Magic, version and kind of either.
 inline constexpr std::size_t front_bytes = 4;
@@ -18,6 +18,10 @@ inline constexpr std::size_t front_bytes = 4;
 inline constexpr std::size_t sender_at = 4, receiver_at = 12, salt_at = 20, public_key_at = 36;
 inline constexpr std::size_t greeting_bytes = 68;
 inline constexpr std::uint64_t nobody = 0;  // as a receiver: whoever hears it
+
+// A refusal: front, number of the start (or, without a key, the epoch) that is refused, reason.
+inline constexpr std::size_t refused_at = 4, reason_at = 12, refusal_bytes = 13;
+enum Reason : std::uint8_t { expects_another = 1 };  // the port is for another address
 
 // A sealed packet: front, session, counter, ciphertext, tag. What stands before the ciphertext is
 // authenticated, not encrypted.

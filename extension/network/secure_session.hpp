@@ -76,6 +76,11 @@ public:
     // What the session itself has to say now; 0: nothing. Call it until then, a few times a millisecond.
     std::size_t due(std::span<std::byte> into, Nanoseconds now);
 
+    // Whether a refusal of this number can be for this side: it is this start, and nobody talks with it.
+    bool may_be_refused(std::uint64_t number, Nanoseconds now) const {
+        return number == own_.start && !lives(now);
+    }
+
     bool met() const { return current_.has_value(); }
     const SecureCounts& counts() const { return counts_; }
 

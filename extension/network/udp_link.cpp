@@ -83,6 +83,9 @@ std::string UdpLink::open(const UdpSettings& settings) {
     chosen_ = sockets_.sockets.size() == 1 && sockets_.sockets[0].remotes.size() == 1 ? 0 : undecided;
     next_try_ = monotonic_now() + try_others_every;
     next_publish_ = 0;
+    for (std::size_t i = 0; i < sockets_.sockets.size(); ++i) {
+        doormen_[i].open(sockets_.sockets[i].file, sockets_.sockets[i].family);
+    }
     stop_event_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     stop_requested_.store(false);
     state_.store(UdpState::open);
@@ -105,6 +108,9 @@ void UdpLink::close() {
     }
     for (const UdpSocket& socket : sockets_.sockets) {
         ::close(socket.file);
+    }
+    for (Doorman& doorman : doormen_) {
+        doorman.close();
     }
     sockets_ = {};
     if (stop_event_ >= 0) {
@@ -130,6 +136,7 @@ UdpFigures UdpLink::figures() {
             read(oversized_),
             read(unreachable_),
             read(too_many_),
+            read(refused_),
             secure.dropped_by_system,
             settings_.secret.has_value(),
             secure.met,
@@ -203,6 +210,9 @@ void UdpLink::say_what_is_due() {
         }
         filter(now);
     }
+    for (Doorman& doorman : doormen_) {
+        doorman.answer(now);
+    }
     try_other_addresses(now);
     publish(now);
 }
@@ -260,6 +270,9 @@ std::size_t UdpLink::receive_from(std::size_t which) {
 }
 
 void UdpLink::take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived) {
+    if (is_refused(datagram, arrived)) {
+        return;
+    }
     // What names another session is dropped unopened; the rest has to keep to the rate.
     if (secure_ && !secure_->concerns(datagram, arrived)) {
         return;
@@ -289,6 +302,15 @@ void UdpLink::take(std::size_t which, std::span<const std::byte> datagram, Nanos
     } else {
         count(no_room_to_take_);
     }
+}
+
+// It is only noted: who is refused goes on asking.
+bool UdpLink::is_refused(std::span<const std::byte> datagram, Nanoseconds now) {
+    const std::optional<std::uint64_t> number = number_of_refusal(datagram);
+    if (number && (!secure_ || secure_->may_be_refused(*number, now))) {
+        count(refused_);
+    }
+    return number.has_value();
 }
 
 void UdpLink::decide_for(std::size_t which) {

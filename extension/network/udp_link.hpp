@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 
+#include "network/doorman.hpp"
 #include "network/job_thread.hpp"
 #include "network/memory_link.hpp"
 #include "network/rate_limit.hpp"
@@ -56,6 +57,7 @@ struct UdpFigures {
     std::uint64_t oversized = 0;          // longer than most_datagram_bytes, dropped
     std::uint64_t unreachable = 0;        // times that the far machine said so
     std::uint64_t too_many = 0;           // came faster than any honest side sends, dropped
+    std::uint64_t refused = 0;            // times that the far side said that it expects somebody else
     std::uint64_t dropped_by_system = 0;  // unseen: not for this session, or no room
     bool sealed = false;                  // under a secret
     bool met = false;                     // the far side has shown that it knows the same secret
@@ -101,6 +103,7 @@ private:
     std::size_t receive_waiting();
     std::size_t receive_from(std::size_t which);
     void take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived);
+    bool is_refused(std::span<const std::byte> datagram, Nanoseconds now);
     void decide_for(std::size_t which);
     void filter(Nanoseconds now);
     void try_other_addresses(Nanoseconds now);
@@ -119,6 +122,7 @@ private:
 
     // Of the network thread.
     std::unique_ptr<Batch> batch_;
+    std::array<Doorman, 2> doormen_;         // of each socket
     std::unique_ptr<SecureSession> secure_;  // null: no secret
     std::unique_ptr<JobThread> jobs_;        // makes its keys
     std::optional<Admission> admitted_;      // by the system
@@ -137,6 +141,7 @@ private:
     std::atomic<std::uint64_t> oversized_{0};
     std::atomic<std::uint64_t> unreachable_{0};
     std::atomic<std::uint64_t> too_many_{0};
+    std::atomic<std::uint64_t> refused_{0};
 };
 
 }  // namespace tactus

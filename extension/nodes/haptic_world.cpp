@@ -247,9 +247,9 @@ void HapticWorld::start() {
     settings.session.most_bodies = static_cast<std::uint32_t>(max_bodies_);
     settings.session.most_parts = 4 * settings.session.most_bodies;
     settings.session.physics.gravity = from_godot(gravity_);
-    settings.link = MMTLink::of(*this);
+    settings.links = MMTLink::of(*this);
     // Both sides of a teleoperation have to come to the same result.
-    settings.session.full_rate_bodies = settings.link != nullptr ? 0 : settings.session.full_rate_bodies;
+    settings.session.full_rate_bodies = !settings.links.empty() ? 0 : settings.session.full_rate_bodies;
     change_ = Change::none;
     owed_seconds_ = 0.0;
     run_ = std::make_shared<WorldRun>(*this, settings);

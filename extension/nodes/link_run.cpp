@@ -75,10 +75,10 @@ LinkRun::LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std:
       operator_(node.is_operator()),
       ahead_(ahead),
       world_(world),
+      session_settings_(session.settings()),
       gravity_(from_godot(world.get_gravity())),
       frame_(pose_of(world.get_global_transform())),
       port_(std::make_shared<TeleopPort>()) {
-    attach(session);
     if (operator_) {
         view_ = std::make_unique<ModelView>(world);
         builder_ = std::make_unique<ModelBuilder>(session, port_);
@@ -107,23 +107,20 @@ void LinkRun::end() {
     way_.reset();
 }
 
-void LinkRun::attach(Session& session) {
+std::unique_ptr<TeleopSide> LinkRun::make_side(const PointerShare& share) {
     EndpointSettings endpoint;
     endpoint.side = operator_ ? Side::operator_side : Side::teleoperator_side;
     endpoint.scenario = static_cast<std::uint8_t>(node_->get_scenario());
     endpoint.epoch = random_epoch();
-    endpoint.period = session.settings().period;
+    endpoint.period = session_settings_.period;
     settings_ = node_->teleop_settings();
     settings_.gravity = gravity_;
     settings_.frame = frame_;
-    std::unique_ptr<TeleopSide> side;
     if (operator_) {
-        side = std::make_unique<OperatorSide>(session.settings(), OperatorRoom{}, settings_, route_, port_,
+        return std::make_unique<OperatorSide>(session_settings_, OperatorRoom{}, settings_, route_, port_,
                                               endpoint);
-    } else {
-        side = std::make_unique<TeleoperatorSide>(session.settings(), settings_, route_, port_, endpoint);
     }
-    session.attach(std::move(side));
+    return std::make_unique<TeleoperatorSide>(session_settings_, settings_, route_, port_, endpoint, share);
 }
 
 // --- the way
@@ -344,15 +341,17 @@ std::vector<std::string> LinkRun::problems() const {
 void LinkRun::note_refusals(Nanoseconds now) {
     const LinkStatistics& link = port_->statistics.front().link;
     const bool unmet = figures_.udp.sealed && !figures_.udp.met;
-    const std::array<std::uint64_t, 4> counts = {
+    const std::array<std::uint64_t, 5> counts = {
         unmet ? figures_.udp.secure.wrong_key : 0, unmet ? figures_.udp.secure.not_sealed : 0,
-        link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version)};
+        link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version), figures_.udp.refused};
     constexpr const char* words[] = {
         "the far side has another key: give both sides the same",
         "the far side has no key: give both sides the same, or none",
         "the far side has a key and this side has none: give both sides the same",
         "the far side speaks another version of the protocol: install the same version of Tactus on both "
         "sides",
+        "the far side expects somebody else at that port: set its 'remote_address' and 'remote_port' to this "
+        "side's, or give this operator an MMTLink of its own there",
     };
     for (std::size_t i = 0; i < counts.size(); ++i) {
         if (counts[i] > refusals_[i]) {

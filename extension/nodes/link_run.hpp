@@ -20,6 +20,7 @@
 #include "session/environment_teller.hpp"
 #include "session/model_builder.hpp"
 #include "session/session.hpp"
+#include "session/teleoperator_side.hpp"
 
 namespace tactus {
 
@@ -34,12 +35,15 @@ struct LinkMoment {
 
 class LinkRun {
 public:
-    // `ahead`: see UdpWay. Attaches its side: the session must be new. It is destroyed after the session.
+    // `ahead`: see UdpWay. It is destroyed after the session, which is new.
     LinkRun(MMTLink& node, HapticWorld& world, Session& session, const std::atomic<Nanoseconds>* ahead);
 
     ~LinkRun();
     LinkRun(const LinkRun&) = delete;
     LinkRun& operator=(const LinkRun&) = delete;
+
+    // For the session to attach. The far side has that share of its pointers.
+    std::unique_ptr<TeleopSide> make_side(const PointerShare& share);
 
     bool is_operator() const { return operator_; }
     bool is_of(const MMTLink* node) const { return node_ == node; }
@@ -88,7 +92,6 @@ private:
 
     void tell_bodies(const BodyMirrors& scene, Nanoseconds now);
     void tell_joints(const BodyMirrors& scene);
-    void attach(Session& session);
     void pass_on_settings();
     void let_go_of_way();
     void look_after_way(Workers& workers, const LinkMoment& moment);
@@ -105,6 +108,7 @@ private:
     bool operator_;
     const std::atomic<Nanoseconds>* ahead_;
     HapticWorld& world_;
+    const SessionSettings& session_settings_;
     Vec3 gravity_;  // as passed on
     Pose frame_;    // of the world's node when the link began
     TeleopSettings settings_;
@@ -128,7 +132,7 @@ private:
     Nanoseconds next_try_ = 0;
 
     NetworkFigures figures_;
-    std::array<std::uint64_t, 4> refusals_{};
+    std::array<std::uint64_t, 5> refusals_{};
     Nanoseconds refused_until_ = 0;
     std::string refusal_;  // the last one, in words
     Nanoseconds now_ = 0;

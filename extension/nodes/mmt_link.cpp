@@ -1,5 +1,6 @@
 #include "nodes/mmt_link.hpp"
 
+#include <algorithm>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable.hpp>
 
@@ -9,6 +10,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "session/shared_environment.hpp"
 
 namespace tactus {
 
@@ -235,13 +237,33 @@ String MMTLink::trace_problem() const {
     return conditions_.is_valid() ? conditions_->trace_problem() : String();
 }
 
-MMTLink* MMTLink::of(const HapticWorld& world) {
+std::vector<MMTLink*> MMTLink::of(const HapticWorld& world) {
+    std::vector<MMTLink*> links;
     for (MMTLink* link : Roll<MMTLink>::all()) {
-        if (link->is_networked() && HapticWorld::above(link) == &world) {
-            return link;
+        if (!link->is_networked() || HapticWorld::above(link) != &world) {
+            continue;
+        }
+        const bool joins = links.empty() || (!links.front()->is_operator() && !link->is_operator() &&
+                                             links.size() < SharedEnvironment::max_operators);
+        if (joins) {
+            links.push_back(link);
         }
     }
-    return nullptr;
+    return links;
+}
+
+// Why it is none of those that link its world; empty where it is one, or there are none.
+String MMTLink::surplus_problem(const HapticWorld& world) const {
+    const std::vector<MMTLink*> active = of(world);
+    if (active.empty() || std::ranges::find(active, this) != active.end()) {
+        return String();
+    }
+    if (active.size() == SharedEnvironment::max_operators) {
+        return "this world has " + itos(SharedEnvironment::max_operators) +
+               " operators already, each with an MMTLink: more are not possible";
+    }
+    return "another MMTLink, " + name_of(*active.front()) +
+           ", links this world already, and only an environment may have several: remove one of the two";
 }
 
 MMTLink* MMTLink::partner_node() const {
@@ -328,10 +350,8 @@ String MMTLink::problem() const {
         return "there is no HapticWorld above it: put it below the HapticWorld that is to be one of the two "
                "sides";
     }
-    if (const MMTLink* active = of(*world); active != nullptr && active != this) {
-        return "another MMTLink, " + name_of(*active) + ", links this world already: remove one of the two";
-    }
-    return way_problem();
+    const String surplus = surplus_problem(*world);
+    return surplus.is_empty() ? way_problem() : surplus;
 }
 
 // What keeps it from having a way to the far side.
@@ -375,11 +395,11 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
         warnings.push_back("The conditions of this MMTLink emulate no trace: " + wrong + ".");
     }
     const HapticWorld* world = HapticWorld::above(this);
-    if (world != nullptr && !world->get_global_transform().is_equal_approx(Transform3D())) {
+    if (world != nullptr &&
+        !world->get_global_transform().basis.get_scale().is_equal_approx(Vector3(1, 1, 1))) {
         warnings.push_back(
-            "The HapticWorld of this MMTLink is moved, turned or scaled. Places travel as they are in the "
-            "scene: put "
-            "it at the origin, on both sides.");
+            "The HapticWorld of this MMTLink is scaled, and lengths travel as they are: take the scale away, "
+            "on both sides.");
     }
     return warnings;
 }

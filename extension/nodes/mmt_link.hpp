@@ -93,8 +93,9 @@ public:
 
     // --- for the world that runs it
 
-    // The link that makes this world a side of a teleoperation; null: it stands alone.
-    static MMTLink* of(const HapticWorld& world);
+    // The links that make this world a side of a teleoperation: an operator's one, or those of an environment
+    // to each of its operators. Empty: it stands alone.
+    static std::vector<MMTLink*> of(const HapticWorld& world);
     bool is_networked() const { return scenario_ != SCENARIO_SINGLE; }
     bool is_operator() const { return side_ == SIDE_OPERATOR; }
     // Another one after every change of a property.
@@ -127,6 +128,7 @@ private:
     void restart_world();
     LinkReport at_rest() const;
     godot::String way_problem() const;
+    godot::String surplus_problem(const HapticWorld& world) const;
     void values_changed();
     template <class Values>
     void exchange(godot::Ref<Values>& own, const godot::Ref<Values>& other);

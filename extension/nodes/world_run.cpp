@@ -68,12 +68,10 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
       bodies_(settings.session.most_bodies, settings.real_time) {
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
-    if (settings_.link != nullptr) {
-        link_ = std::make_unique<LinkRun>(*settings_.link, world_, session_,
-                                          settings_.real_time ? &clock_offset_ : nullptr);
-    }
+    links_ = std::make_unique<LinkRuns>(settings_.links, world_, session_,
+                                        settings_.real_time ? &clock_offset_ : nullptr);
     // At the far side the hand is the operator's: what is plugged in here has no part in it.
-    const bool stands_in = link_ != nullptr && !link_->is_operator();
+    const bool stands_in = !links_->empty() && links_->model() == nullptr;
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
@@ -86,18 +84,16 @@ void WorldRun::end() {
         return;
     }
     stop_loop();
-    if (link_ != nullptr) {
-        link_->leave();
+    if (!links_->empty()) {
+        links_->leave();
         tick(next_time_);
     }
     session_.rest();
     bodies_.release(session_);
-    if (link_ != nullptr && link_->is_operator()) {
-        link_->view()->release();
+    if (LinkRun* const model = links_->model()) {
+        model->view()->release();
     }
-    if (link_ != nullptr) {
-        link_->end();
-    }
+    links_->end();
     hands_->release();
 }
 
@@ -176,8 +172,8 @@ void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
     session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_link();
-    if (link_ != nullptr && link_->is_operator()) {
-        link_->view()->hold_still();
+    if (LinkRun* const model = links_->model()) {
+        model->view()->hold_still();
     } else {
         synchronise_bodies(seconds);
     }
@@ -194,8 +190,7 @@ void WorldRun::synchronise(double seconds) {
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;
     const std::uint32_t first = settings_.real_time ? frames_between : 2;
-    if (++looks_ < first || (looks_ - first) % frames_between != 0 ||
-        (link_ != nullptr && link_->is_operator())) {
+    if (++looks_ < first || (looks_ - first) % frames_between != 0 || links_->model() != nullptr) {
         return;
     }
     const SceneFacts facts = bodies_.facts();
@@ -240,13 +235,10 @@ void WorldRun::synchronise_bodies(double seconds) {
 // ----------------------------------------------------------------------------------------------------
 
 void WorldRun::synchronise_link() {
-    if (link_ == nullptr) {
-        return;
-    }
     const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
-    link_->synchronise(Workers::shared(), {now, !loop_.running(), !settings_.real_time});
-    if (!link_->is_operator()) {
-        link_->tell(bodies_, session_.snapshot(), now);
+    links_->synchronise(Workers::shared(), {now, !loop_.running(), !settings_.real_time});
+    if (links_->model() == nullptr) {
+        links_->tell(bodies_, session_.snapshot(), now);
     }
 }
 
@@ -327,9 +319,7 @@ void WorldRun::forget(HapticRecorder* recorder) {
 }
 
 void WorldRun::forget(MMTLink* link) {
-    if (link_ != nullptr && link_->is_of(link)) {
-        link_->forget_node();
-    }
+    links_->forget(link);
 }
 
 void WorldRun::finish(HapticRecorder* recorder) {
@@ -340,8 +330,8 @@ void WorldRun::finish(HapticRecorder* recorder) {
 }
 
 void WorldRun::scene_changed(const Node& node) {
-    if (link_ != nullptr && link_->is_operator()) {
-        link_->view()->scene_changed(node);
+    if (LinkRun* const model = links_->model()) {
+        model->view()->scene_changed(node);
     } else {
         bodies_.note_node(node);
     }
@@ -354,8 +344,8 @@ SessionHandle WorldRun::body_of(const Node* node) {
     if (node == nullptr) {
         return no_handle;
     }
-    if (link_ != nullptr && link_->is_operator()) {
-        return link_->view()->body_of(node->get_instance_id());
+    if (LinkRun* const model = links_->model()) {
+        return model->view()->body_of(node->get_instance_id());
     }
     const BodyMirror* mirror = bodies_.of(node->get_instance_id());
     return mirror != nullptr ? mirror->handle() : no_handle;
@@ -373,8 +363,8 @@ const BodyState* WorldRun::state_of(const Node* node) {
 }
 
 std::uint64_t WorldRun::node_of(SessionHandle body) {
-    if (link_ != nullptr && link_->is_operator()) {
-        return link_->view()->node_of(body);
+    if (LinkRun* const model = links_->model()) {
+        return model->view()->node_of(body);
     }
     const BodyMirror* mirror = bodies_.of_handle(body);
     return mirror != nullptr ? mirror->id() : 0;
@@ -383,7 +373,7 @@ std::uint64_t WorldRun::node_of(SessionHandle body) {
 void WorldRun::show() {
     const Busy busy(is_busy_);
     drain();
-    const LinkRun::News news = link_ != nullptr ? link_->take_news() : LinkRun::News{};
+    const std::vector<LinkRun::News> news = links_->take_news();
     if (session_.refresh()) {
         const SessionSnapshot& snapshot = session_.snapshot();
         hands_->show_devices(snapshot);
@@ -392,15 +382,17 @@ void WorldRun::show() {
             hands_->show_proxies(snapshot, [this](SessionHandle body) { return node_of(body); });
         }
     }
-    news.deliver();
+    for (const LinkRun::News& one : news) {
+        one.deliver();
+    }
 }
 
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
-    const bool is_model = link_ != nullptr && link_->is_operator();
+    LinkRun* const model = links_->model();
     for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
-        if (is_model) {
-            link_->view()->apply(snapshot.bodies[i]);
+        if (model != nullptr) {
+            model->view()->apply(snapshot.bodies[i]);
         } else {
             bodies_.apply(snapshot.bodies[i], snapshot.tick);
         }
@@ -408,7 +400,7 @@ void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
 }
 
 std::vector<std::string> WorldRun::problems() const {
-    std::vector<std::string> all = link_ != nullptr ? link_->problems() : std::vector<std::string>{};
+    std::vector<std::string> all = links_->problems();
     for (const auto& mirror : bodies_.bodies()) {
         const CollisionObject3D* body = mirror->body();
         for (const std::string& problem : mirror->problems()) {

@@ -13,7 +13,7 @@
 
 #include "nodes/body_mirrors.hpp"
 #include "nodes/hand_mirrors.hpp"
-#include "nodes/link_run.hpp"
+#include "nodes/link_runs.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "realtime/baseline_loop.hpp"
@@ -30,7 +30,7 @@ class MMTLink;
 struct RunSettings {
     SessionSettings session;
     bool real_time = true;
-    MMTLink* link = nullptr;  // null: nobody at a far side
+    std::vector<MMTLink*> links;  // empty: nobody at a far side
 };
 
 class WorldRun {
@@ -87,7 +87,7 @@ public:
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
     std::size_t body_count() const {
-        return link_ && link_->is_operator() ? link_->body_count() : bodies_.bodies().size();
+        return links_->model() ? links_->model()->body_count() : bodies_.bodies().size();
     }
     std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
     std::vector<std::string> problems() const;                         // each names its node
@@ -108,8 +108,8 @@ private:
     HapticWorld& world_;
     RunSettings settings_;
     std::atomic<Nanoseconds> clock_offset_{
-        0};                          // a tick's time on the monotonic clock less its time in the session
-    std::unique_ptr<LinkRun> link_;  // null: nobody at a far side. Above the session, whose side uses it
+        0};                            // a tick's time on the monotonic clock less its time in the session
+    std::unique_ptr<LinkRuns> links_;  // above the session, whose sides use them
     Session session_;
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;

@@ -25,8 +25,10 @@ constexpr double same_hand = 0.05;
 }  // namespace
 
 TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
-                                   std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
+                                   std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint,
+                                   const PointerShare& share)
     : channel_(settings, link, std::move(port), endpoint),
+      share_(share),
       seconds_(to_seconds(session.period)),
       moved_at_(session.most_bodies),
       told_(session.most_bodies) {
@@ -51,6 +53,7 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         set_buffers();
     }
     take_orders();
+    pace_.adapt(channel_.link().statistics(), now);
     ++tick_;
     receive();
     if (const std::uint64_t missing = channel_.link().statistics().missing; missing != missing_) {
@@ -63,8 +66,8 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     if (!channel_.link().hears_peer()) {
         release_hands();
     }
-    for (std::size_t i = 0; i < most_proxies; ++i) {
-        if (SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
+    for (std::size_t i = 0; i < share_.most(); ++i) {
+        if (SessionLoop::ProxySlot& slot = slot_of(loop, i); slot.proxy) {
             play(loop, pointers_[i], slot);
         }
     }
@@ -92,7 +95,7 @@ void TeleoperatorSide::receive() {
         const Message& message = packet->message;
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
             for (std::size_t i = 0; i < samples->count; ++i) {
-                if (samples->samples[i].pointer < most_proxies) {
+                if (samples->samples[i].pointer < share_.most()) {
                     pointers_[samples->samples[i].pointer].buffer.insert(samples->samples[i]);
                 }
             }
@@ -106,6 +109,7 @@ void TeleoperatorSide::start_over_if_peer_has() {
     if (channel_.peer_has_started()) {
         release_hands();
         discovery_.restart();
+        pace_.restart();
     }
 }
 
@@ -128,6 +132,9 @@ void TeleoperatorSide::describe(Nanoseconds now) {
     const DiscoveryCounts& counts = discovery_.counts();
     channel_.link().set_world(counts.waiting + counts.known + counts.refused + counts.no_room,
                               direction_to_local(settings().frame, settings().gravity));
+    if (tick_ % (pace_.stride() * pace_.stride()) != 0) {
+        return;  // it is long, and may wait
+    }
     Message message;
     for (int i = 0; i < most_a_tick && channel_.link().hears_peer() && discovery_.next(now, message); ++i) {
         channel_.link().send(message);
@@ -239,9 +246,9 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     if (settings().traditional) {
         send_forces(loop, now);
     }
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < share_.most(); ++i) {
         Pointer& pointer = pointers_[i];
-        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        const SessionLoop::ProxySlot& slot = slot_of(loop, i);
         if (!slot.proxy || slot.idle) {
             pointer.had_force = Vec3(0.0);
             continue;
@@ -273,7 +280,7 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
         return false;
     }
     const auto handle = static_cast<SessionHandle>(body);
-    if (told.again && tick_ - told.tick >= settings().states_every) {
+    if (told.again && tick_ - told.tick >= states_every()) {
         return true;  // what was said may have been lost
     }
     if (!settings().deadband.enabled || told.tick == 0 || loop.asleep(handle) != told.asleep ||
@@ -292,15 +299,32 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
     return motion_needs_sending(band, derive(Derivation::velocity, since), loop.motion(handle));
 }
 
-// States by need: what moves often, everything now and then.
-void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
+// Where a static body is, its description says; from when it is put elsewhere on it is told of like any
+// other.
+void TeleoperatorSide::note_moves(SessionLoop& loop) {
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
-        if (const auto handle = static_cast<SessionHandle>(i); loop.body(handle) && !loop.asleep(handle)) {
+        const auto handle = static_cast<SessionHandle>(i);
+        const SessionLoop::Body* const body = loop.body(handle);
+        if (!body) {
+            moved_at_[i] = 0;
+            told_[i] = {};
+        } else if (body->motion != Motion::Static) {
+            moved_at_[i] = loop.asleep(handle) ? moved_at_[i] : tick_;
+        } else if (const Pose& pose = loop.scene().body(body->slot).pose; told_[i].tick == 0) {
+            told_[i].motion.pose = pose;
+            told_[i].tick = tick_;
+        } else if (pose.position != told_[i].motion.pose.position ||
+                   pose.rotation != told_[i].motion.pose.rotation) {
             moved_at_[i] = tick_;
         }
     }
-    const bool everything = tick_ % std::max(1u, settings().refresh_every) == 0;
-    if (!everything && tick_ % std::max(1u, settings().states_every) != 0) {
+}
+
+// States by need: what moves often, what may move now and then.
+void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
+    note_moves(loop);
+    const bool everything = tick_ % std::max(states_every(), settings().refresh_every) == 0;
+    if (!everything && tick_ % states_every() != 0) {
         return;
     }
     ObjectStates message;
@@ -309,7 +333,8 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
         const SessionLoop::Body* const body = loop.body(handle);
-        if (!body || (!everything && !state_needs_sending(loop, i, now))) {
+        const bool may_be_news = body && (body->motion != Motion::Static || moved_at_[i] != 0);
+        if (!may_be_news || (!everything && !state_needs_sending(loop, i, now))) {
             continue;
         }
         const BodyMotion motion = loop.motion(handle);
@@ -330,8 +355,8 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
 
 void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
     ForceSamples message;
-    for (std::size_t i = 0; i < most_proxies && message.count < ForceSamples::most; ++i) {
-        if (pointers_[i].holds && loop.proxy(i).present() && force_is_due(loop, i, now)) {
+    for (std::size_t i = 0; i < share_.most() && message.count < ForceSamples::most; ++i) {
+        if (pointers_[i].holds && slot_of(loop, i).present() && force_is_due(loop, i, now)) {
             message.samples[message.count++] = force_of(loop, i, now);
         }
     }
@@ -341,19 +366,19 @@ void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < message.count; ++i) {
         const std::size_t index = message.samples[i].pointer;
         Pointer& pointer = pointers_[index];
-        pointer.force_sent = loop.proxy(index).state.force;
+        pointer.force_sent = slot_of(loop, index).state.force;
         pointer.force_sent_at = now;
     }
 }
 
 bool TeleoperatorSide::force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const {
     const Pointer& pointer = pointers_[index];
-    return force_needs_sending(settings().deadband, pointer.force_sent, loop.proxy(index).state.force) ||
+    return force_needs_sending(settings().deadband, pointer.force_sent, slot_of(loop, index).state.force) ||
            now - pointer.force_sent_at >= settings().deadband.longest_silence;
 }
 
 ForceSample TeleoperatorSide::force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const {
-    const ProxyState& state = loop.proxy(index).state;
+    const ProxyState& state = slot_of(loop, index).state;
     ForceSample sample;
     sample.pointer = static_cast<std::uint16_t>(index);
     sample.true_at = channel_.link().local_time(now);

@@ -2,15 +2,28 @@
 // and tells what became of the bodies, or what the hand would feel.
 #pragma once
 
+#include "network/pace.hpp"
 #include "session/channel.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
 
+// Which pointers of the environment an operator has: of several operators, each has every so manieth.
+struct PointerShare {
+    std::size_t first = 0;
+    std::size_t every = 1;  // >= 1
+
+    // That stands in for a pointer of the operator.
+    std::size_t proxy_of(std::size_t pointer) const { return first + pointer * every; }
+    // Pointers of the operator that can have one.
+    std::size_t most() const { return first < most_proxies ? (most_proxies - first + every - 1) / every : 0; }
+};
+
 class TeleoperatorSide final : public TeleopSide {
 public:
     TeleoperatorSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
-                     std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint);
+                     std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint,
+                     const PointerShare& share = {});
 
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop&, Nanoseconds) override {}
@@ -32,7 +45,7 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
-    // What was said about a body last.
+    // What was said about a body last, or of a static one, where it was described to be.
     struct Told {
         BodyMotion motion;
         std::uint64_t tick = 0;  // 0: never
@@ -42,6 +55,9 @@ private:
     };
 
     const TeleopSettings& settings() const { return channel_.settings(); }
+    SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
+        return loop.proxy(share_.proxy_of(pointer));
+    }
     void take_orders();
     void receive();
     void start_over_if_peer_has();
@@ -55,6 +71,8 @@ private:
                                 const SessionLoop::ProxySlot& slot) const;
     void set_buffers();
     bool loses() const;
+    void note_moves(SessionLoop& loop);
+    std::uint32_t states_every() const { return std::max(1u, settings().states_every) * pace_.stride(); }
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
     void send_forces(SessionLoop& loop, Nanoseconds now);
@@ -63,9 +81,12 @@ private:
 
     Channel channel_;
     DiscoverySender discovery_;
+    Pace pace_;
+    PointerShare share_;
     double seconds_;                       // of a tick
     Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
-    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
+    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last, or, of what never
+                                           // is, was put elsewhere; 0: not since it was described
     std::vector<Told> told_;               // by body
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;

@@ -243,6 +243,37 @@ func test_links_share_their_conditions() -> void:
 	check_equal(seen[0], 1, "changes that were told")
 
 
+## Two operators at one environment, which has an MMTLink and a pointer for each.
+func test_several_operators_touch_one_environment() -> void:
+	await _connect(MMTLink.SCENARIO_MMT)
+	var guest := add_world()
+	guest.name = "Guest"
+	var at_guest := _link(guest, MMTLink.SIDE_OPERATOR, MMTLink.SCENARIO_MMT)
+	var to_guest := _link(_far, MMTLink.SIDE_TELEOPERATOR, MMTLink.SCENARIO_MMT)
+	to_guest.name = "ToGuest"
+	at_guest.partner = NodePath("../../Far/ToGuest")
+	to_guest.partner = NodePath("../../Guest/Link")
+	add_floor(_far, STIFFNESS)
+	_add_hands()
+	add_hand(guest, _down_after(0.5))
+	var second := ProxyPointer.new()
+	second.name = "Second"
+	_far.add_child(second)
+	second.radius = 0.01
+	second.device = NodePath("../Device")
+	await frames(2)
+	for _tick in 900:
+		for world: HapticWorld in [_operator, guest, _far]:
+			world.advance(TICK)
+	for link: MMTLink in [_here, at_guest, _there, to_guest]:
+		check_equal(link.get_state(), MMTLink.STATE_CONNECTED, link.get_state_text())
+		check_equal(link.get_warnings().size(), 0, "warnings: %s" % link.get_warnings())
+	for world: HapticWorld in [_operator, guest]:
+		check_near(_felt(world), Vector3(0, 8, 0), 1e-3, "force at " + world.name)
+	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "the first one's hand")
+	check_near(second.get_force().y, 10.0, 1e-3, "the guest's hand")
+
+
 func test_a_link_says_what_it_lacks() -> void:
 	var lonely := MMTLink.new()
 	add_child(lonely)

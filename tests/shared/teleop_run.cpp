@@ -366,9 +366,14 @@ TeleopFigures TeleopRun::figures(TeleopBins* bins) {
     figures["packets_back_per_s"] = per_second(theirs.link.packets_sent);
     figures["packets_per_s"] = per_second(ours.link.packets_sent + theirs.link.packets_sent);
     figures["bytes_per_s"] = per_second(ours.link.bytes_sent + theirs.link.bytes_sent);
-    figures["bits_per_s"] = 8.0 * figures["bytes_per_s"];
-    figures["bits_forth_per_s"] = 8.0 * per_second(ours.link.bytes_sent);
-    figures["bits_back_per_s"] = 8.0 * per_second(theirs.link.bytes_sent);
+    // With all that UDP and IPv4 add.
+    constexpr std::uint64_t headers = 28;
+    const auto bits_per_s = [&](const LinkStatistics& link) {
+        return 8.0 * per_second(link.bytes_sent + link.packets_sent * headers);
+    };
+    figures["bits_forth_per_s"] = bits_per_s(ours.link);
+    figures["bits_back_per_s"] = bits_per_s(theirs.link);
+    figures["bits_per_s"] = figures["bits_forth_per_s"] + figures["bits_back_per_s"];
     figures["corrections"] = static_cast<double>(ours.corrections);
     figures["replays"] = static_cast<double>(ours.replays);
     figures["samples_held"] = static_cast<double>(theirs.buffer.held);
