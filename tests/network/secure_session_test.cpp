@@ -327,6 +327,16 @@ TEST(SecureSession, ALivingSessionAnswersNoStranger) {
     EXPECT_FALSE(rig.near.session->admission(rig.now).strangers);
 }
 
+TEST(SecureSession, ARefusalConcernsOnlyWhoTalksWithNobody) {
+    SecureRig rig;
+    const std::uint64_t own = rig.near.session->admission(0).own_start;
+    EXPECT_TRUE(rig.near.session->may_be_refused(own, rig.now));
+    EXPECT_FALSE(rig.near.session->may_be_refused(own ^ 1, rig.now)) << "somebody else's";
+    rig.run(20 * ms);
+    rig.expect_talk();
+    EXPECT_FALSE(rig.near.session->may_be_refused(own, rig.now));
+}
+
 // So many strangers that near hears next to none of them: what far says first is lost among them, but far
 // hears near and can then call it by its name.
 TEST(SecureSession, ManyStrangersDoNotKeepARestartAway) {

@@ -269,34 +269,6 @@ TEST(UdpLink, WhoIsNotExpectedIsToldWhy) {
     }
 }
 
-// Who is talked with cannot be told that it is refused.
-TEST(UdpLink, ARefusalEndsNoConversation) {
-    Pair pair(true);
-    std::array<std::byte, most_datagram_bytes> buffer{};
-    const auto talk = [&] {
-        return eventually([&] {
-            pair.second.send(bytes(7, 3), 0);
-            pair.first.send(bytes(7, 3), 0);
-            return pair.first.receive(buffer, 0).bytes == 7;
-        });
-    };
-    ASSERT_TRUE(talk());
-    sockaddr_in target{}, own{};
-    target.sin_family = own.sin_family = AF_INET;
-    target.sin_port = htons(pair.first.local_port());
-    target.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const int forger = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    for (std::uint64_t number = 0; number < 1000; ++number) {
-        const RefusalBytes said = refusal_of(number, sealed_format::expects_another);
-        sendto(forger, said.data(), said.size(), 0, reinterpret_cast<const sockaddr*>(&target),
-               sizeof target);
-    }
-    ::close(forger);
-    EXPECT_TRUE(talk());
-    EXPECT_EQ(pair.first.figures().refused, 0u);
-    EXPECT_TRUE(pair.first.figures().met);
-}
-
 TEST(UdpLink, AClosedLinkTakesNothingAndGivesNothing) {
     UdpLink link;
     std::array<std::byte, most_datagram_bytes> buffer{};
