@@ -30,7 +30,7 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
     : channel_(settings, link, std::move(port), endpoint),
       share_(share),
       seconds_(to_seconds(session.period)),
-      moved_at_(session.most_bodies),
+      moved_at_(session.most_bodies, unseen),
       told_(session.most_bodies) {
     set_buffers();
 }
@@ -302,20 +302,26 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
 // Where a static body is, its description says; from when it is put elsewhere on it is told of like any
 // other.
 void TeleoperatorSide::note_moves(SessionLoop& loop) {
+    constexpr std::uint64_t look_every = 8;  // ticks: of what does not move by itself
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
         const SessionLoop::Body* const body = loop.body(handle);
+        std::uint64_t& moved = moved_at_[i];
         if (!body) {
-            moved_at_[i] = 0;
+            moved = unseen;
+            continue;
+        }
+        if (moved == unseen) {
+            moved = 0;
             told_[i] = {};
-        } else if (body->motion != Motion::Static) {
-            moved_at_[i] = loop.asleep(handle) ? moved_at_[i] : tick_;
-        } else if (const Pose& pose = loop.scene().body(body->slot).pose; told_[i].tick == 0) {
-            told_[i].motion.pose = pose;
-            told_[i].tick = tick_;
-        } else if (pose.position != told_[i].motion.pose.position ||
-                   pose.rotation != told_[i].motion.pose.rotation) {
-            moved_at_[i] = tick_;
+            told_[i].motion.pose = loop.scene().body(body->slot).pose;
+        }
+        if (body->motion != Motion::Static) {
+            moved = loop.asleep(handle) ? moved : tick_;
+        } else if ((i + tick_) % look_every == 0) {
+            const Pose& pose = loop.scene().body(body->slot).pose;
+            const Pose& told = told_[i].motion.pose;
+            moved = pose.position != told.position || pose.rotation != told.rotation ? tick_ : moved;
         }
     }
 }

@@ -54,6 +54,8 @@ private:
         bool again = false;  // is to be said once more: the first may have been lost
     };
 
+    static constexpr std::uint64_t unseen = ~std::uint64_t{0};  // there is no such body
+
     const TeleopSettings& settings() const { return channel_.settings(); }
     SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
         return loop.proxy(share_.proxy_of(pointer));
@@ -83,11 +85,12 @@ private:
     DiscoverySender discovery_;
     Pace pace_;
     PointerShare share_;
-    double seconds_;                       // of a tick
-    Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
-    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last, or, of what never
-                                           // is, was put elsewhere; 0: not since it was described
-    std::vector<Told> told_;               // by body
+    double seconds_;               // of a tick
+    Nanoseconds peer_period_ = 0;  // of a tick of the operator, as the buffers have it
+    // By body: the tick in which it was awake last or, if it is static, was found to be elsewhere than was
+    // said; 0: not since it came.
+    std::vector<std::uint64_t> moved_at_;
+    std::vector<Told> told_;  // by body
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;
