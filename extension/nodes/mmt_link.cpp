@@ -259,7 +259,7 @@ String MMTLink::surplus_problem(const HapticWorld& world) const {
         return String();
     }
     if (active.size() == SharedEnvironment::max_operators) {
-        return "this world has " + itos(SharedEnvironment::max_operators) +
+        return "this world has " + String::num_int64(SharedEnvironment::max_operators) +
                " operators already, each with an MMTLink: more are not possible";
     }
     return "another MMTLink, " + name_of(*active.front()) +
