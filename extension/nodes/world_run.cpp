@@ -68,10 +68,9 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
       bodies_(settings.session.most_bodies, settings.real_time) {
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
-    links_ = std::make_unique<LinkRuns>(settings_.links, world_, session_,
-                                        settings_.real_time ? &clock_offset_ : nullptr);
+    start_links();
     // At the far side the hand is the operator's: what is plugged in here has no part in it.
-    const bool stands_in = !links_->empty() && links_->model() == nullptr;
+    const bool stands_in = !links_.empty() && view_ == nullptr;
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
@@ -84,16 +83,23 @@ void WorldRun::end() {
         return;
     }
     stop_loop();
-    if (!links_->empty()) {
-        links_->leave();
+    for (const Link& link : links_) {
+        link.link->leave();
+    }
+    if (!links_.empty()) {
         tick(next_time_);
     }
     session_.rest();
     bodies_.release(session_);
-    if (LinkRun* const model = links_->model()) {
-        model->view()->release();
+    if (view_ != nullptr) {
+        view_->release();
     }
-    links_->end();
+    for (const Link& link : links_) {
+        link.link->end();
+        if (link.node != nullptr) {
+            link.node->clear_report();
+        }
+    }
     hands_->release();
 }
 
@@ -171,9 +177,9 @@ TickStatus WorldRun::take_status() {
 void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
     session_.collect();  // trees that the loop has let go of can be refitted
-    synchronise_link();
-    if (LinkRun* const model = links_->model()) {
-        model->view()->hold_still();
+    synchronise_links();
+    if (view_ != nullptr) {
+        view_->hold_still();
     } else {
         synchronise_bodies(seconds);
     }
@@ -190,7 +196,7 @@ void WorldRun::synchronise(double seconds) {
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;
     const std::uint32_t first = settings_.real_time ? frames_between : 2;
-    if (++looks_ < first || (looks_ - first) % frames_between != 0 || links_->model() != nullptr) {
+    if (++looks_ < first || (looks_ - first) % frames_between != 0 || view_ != nullptr) {
         return;
     }
     const SceneFacts facts = bodies_.facts();
@@ -234,11 +240,67 @@ void WorldRun::synchronise_bodies(double seconds) {
 // --- the far side
 // ----------------------------------------------------------------------------------------------------
 
-void WorldRun::synchronise_link() {
+void WorldRun::start_links() {
+    std::vector<WorldLink*> attached;
+    for (MMTLink* const node : settings_.links) {
+        auto link = std::make_unique<WorldLink>(node->plan(), session_, from_godot(world_.get_gravity()),
+                                                pose_of(world_.get_global_transform()),
+                                                settings_.real_time ? &clock_offset_ : nullptr);
+        attached.push_back(link.get());
+        links_.push_back({node, std::move(link)});
+    }
+    WorldLink::attach(session_, attached);
+    if (links_.empty() || !links_.front().link->is_operator()) {
+        return;
+    }
+    view_ = std::make_unique<ModelView>(world_);
+    const Link& link = links_.front();
+    link.link->set_distortion([this, errors = link.node->model_errors()](ObjectDescription& description) {
+        if (const auto error = errors.find(description.name); error != errors.end()) {
+            distort(error->second, description);
+        }
+        view_->note(description);
+    });
+}
+
+void WorldRun::synchronise_links() {
     const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
-    links_->synchronise(Workers::shared(), {now, !loop_.running(), !settings_.real_time});
-    if (links_->model() == nullptr) {
-        links_->tell(bodies_, session_.snapshot(), now);
+    for (const Link& link : links_) {
+        const bool has_new_objects =
+            link.link->synchronise(link.node != nullptr ? std::optional(link.node->plan()) : std::nullopt,
+                                   from_godot(world_.get_gravity()), Workers::shared(),
+                                   {now, !loop_.running(), !settings_.real_time});
+        if (has_new_objects) {
+            std::ranges::move(view_->update(link.link->objects()), std::back_inserter(model_news_));
+        }
+    }
+    if (!links_.empty() && view_ == nullptr) {
+        tell_far_side(now);
+    }
+}
+
+void WorldRun::tell_far_side(Nanoseconds now) {
+    std::vector<WorldLink::Told> told;
+    std::vector<const BodyMirror*> mirrors;
+    for (const auto& mirror : bodies_.bodies()) {
+        if (mirror->handle() != no_handle && mirror->body() != nullptr) {
+            told.push_back({mirror->handle(), mirror->revision()});
+            mirrors.push_back(mirror.get());
+        }
+    }
+    std::vector<WorldLink::ToldJoint> joints;
+    for (const auto& joint : bodies_.joints()) {
+        if (joint->handle() != no_handle) {
+            joints.push_back({joint->handle(), joint->first(), joint->second(), &joint->joined(), joint->id(),
+                              joint->revision()});
+        }
+    }
+    const auto describe = [&](std::size_t i) {
+        return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
+                                      mirrors[i]->addition()};
+    };
+    for (const Link& link : links_) {
+        link.link->tell(told, describe, joints, session_.snapshot(), now);
     }
 }
 
@@ -319,7 +381,9 @@ void WorldRun::forget(HapticRecorder* recorder) {
 }
 
 void WorldRun::forget(MMTLink* link) {
-    links_->forget(link);
+    for (Link& one : links_) {
+        one.node = one.node == link ? nullptr : one.node;
+    }
 }
 
 void WorldRun::finish(HapticRecorder* recorder) {
@@ -330,8 +394,8 @@ void WorldRun::finish(HapticRecorder* recorder) {
 }
 
 void WorldRun::scene_changed(const Node& node) {
-    if (LinkRun* const model = links_->model()) {
-        model->view()->scene_changed(node);
+    if (view_ != nullptr) {
+        view_->scene_changed(node);
     } else {
         bodies_.note_node(node);
     }
@@ -344,8 +408,8 @@ SessionHandle WorldRun::body_of(const Node* node) {
     if (node == nullptr) {
         return no_handle;
     }
-    if (LinkRun* const model = links_->model()) {
-        return model->view()->body_of(node->get_instance_id());
+    if (view_ != nullptr) {
+        return view_->body_of(node->get_instance_id());
     }
     const BodyMirror* mirror = bodies_.of(node->get_instance_id());
     return mirror != nullptr ? mirror->handle() : no_handle;
@@ -363,8 +427,8 @@ const BodyState* WorldRun::state_of(const Node* node) {
 }
 
 std::uint64_t WorldRun::node_of(SessionHandle body) {
-    if (LinkRun* const model = links_->model()) {
-        return model->view()->node_of(body);
+    if (view_ != nullptr) {
+        return view_->node_of(body);
     }
     const BodyMirror* mirror = bodies_.of_handle(body);
     return mirror != nullptr ? mirror->id() : 0;
@@ -373,7 +437,13 @@ std::uint64_t WorldRun::node_of(SessionHandle body) {
 void WorldRun::show() {
     const Busy busy(is_busy_);
     drain();
-    const std::vector<LinkRun::News> news = links_->take_news();
+    std::vector<std::pair<std::uint64_t, LinkReport>> reports;
+    for (const Link& link : links_) {
+        if (link.node != nullptr) {
+            reports.emplace_back(link.node->get_instance_id(), link.link->report());
+        }
+    }
+    const std::vector<ModelNews> news = std::exchange(model_news_, {});
     if (session_.refresh()) {
         const SessionSnapshot& snapshot = session_.snapshot();
         hands_->show_devices(snapshot);
@@ -382,17 +452,19 @@ void WorldRun::show() {
             hands_->show_proxies(snapshot, [this](SessionHandle body) { return node_of(body); });
         }
     }
-    for (const LinkRun::News& one : news) {
-        one.deliver();
+    // A script may have freed some of them by now.
+    for (const auto& [id, report] : reports) {
+        if (auto* node = Object::cast_to<MMTLink>(ObjectDB::get_instance(id))) {
+            node->take_report(report, news);
+        }
     }
 }
 
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
-    LinkRun* const model = links_->model();
     for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
-        if (model != nullptr) {
-            model->view()->apply(snapshot.bodies[i]);
+        if (view_ != nullptr) {
+            view_->apply(snapshot.bodies[i]);
         } else {
             bodies_.apply(snapshot.bodies[i], snapshot.tick);
         }
@@ -400,7 +472,10 @@ void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
 }
 
 std::vector<std::string> WorldRun::problems() const {
-    std::vector<std::string> all = links_->problems();
+    std::vector<std::string> all;
+    for (const Link& link : links_) {
+        std::ranges::move(link.link->problems(), std::back_inserter(all));
+    }
     for (const auto& mirror : bodies_.bodies()) {
         const CollisionObject3D* body = mirror->body();
         for (const std::string& problem : mirror->problems()) {

@@ -13,12 +13,13 @@
 
 #include "nodes/body_mirrors.hpp"
 #include "nodes/hand_mirrors.hpp"
-#include "nodes/link_runs.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/model_view.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "realtime/baseline_loop.hpp"
 #include "realtime/tick_loop.hpp"
 #include "session/session.hpp"
+#include "world/world_link.hpp"
 
 namespace tactus {
 
@@ -87,7 +88,7 @@ public:
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
     std::size_t body_count() const {
-        return links_->model() ? links_->model()->body_count() : bodies_.bodies().size();
+        return view_ ? links_.front().link->body_count() : bodies_.bodies().size();
     }
     std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
     std::vector<std::string> problems() const;                         // each names its node
@@ -99,22 +100,31 @@ private:
     void synchronise_bodies(double seconds);
     void look_at_scene();
     void synchronise_recorder();
-    void synchronise_link();
+    void start_links();
+    void synchronise_links();
+    void tell_far_side(Nanoseconds now);
     void want_trace();
     void drain();
     std::uint64_t node_of(SessionHandle body);
     void show_bodies(const SessionSnapshot& snapshot);
 
+    struct Link {
+        MMTLink* node = nullptr;  // null: it has left
+        std::unique_ptr<WorldLink> link;
+    };
+
     HapticWorld& world_;
     RunSettings settings_;
     std::atomic<Nanoseconds> clock_offset_{
-        0};                            // a tick's time on the monotonic clock less its time in the session
-    std::unique_ptr<LinkRuns> links_;  // above the session, whose sides use them
+        0};                    // a tick's time on the monotonic clock less its time in the session
+    std::vector<Link> links_;  // to each far side. Above the session, whose sides use them
     Session session_;
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;
     TickLoopSettings loop_settings_;  // as it was started last
     std::unique_ptr<BaselineLoop> baseline_;
+    std::unique_ptr<ModelView> view_;    // at the operator; else null
+    std::vector<ModelNews> model_news_;  // for its link's node
     bool is_over_ = false;
     bool is_busy_ = false;
 
