@@ -5,7 +5,6 @@
 namespace tactus {
 namespace {
 
-constexpr double much_lost = 0.1;
 // A way that takes so much longer than it did has a queue (unit: nanoseconds).
 constexpr double queue = 30e6;
 // Of the way's jitter: so much is no queue.
@@ -21,7 +20,7 @@ void Pace::adapt(const LinkStatistics& link, Nanoseconds now) {
     const ClockFigures& clock = link.clock;
     const double queued = clock.mean_delay - static_cast<double>(clock.least_delay);
     queues_ = clock.known && queued > std::max(queue, times_jitter * clock.jitter);
-    const bool congested = queues_ || link.lost_there > much_lost;
+    const bool congested = queues_ || link.lost_there > much_lost_;
     congested_at_ = congested ? now : congested_at_;
     if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
         tried_more_ = false;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "nodes/network_conditions.hpp"
 #include "nodes/properties.hpp"

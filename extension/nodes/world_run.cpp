@@ -83,7 +83,7 @@ void WorldRun::end() {
         return;
     }
     stop_loop();
-    for (const Link& link : links_) {
+    for (const OwnLink& link : links_) {
         link.link->leave();
     }
     if (!links_.empty()) {
@@ -94,7 +94,7 @@ void WorldRun::end() {
     if (view_ != nullptr) {
         view_->release();
     }
-    for (const Link& link : links_) {
+    for (const OwnLink& link : links_) {
         link.link->end();
         if (link.node != nullptr) {
             link.node->clear_report();
@@ -254,7 +254,7 @@ void WorldRun::start_links() {
         return;
     }
     view_ = std::make_unique<ModelView>(world_);
-    const Link& link = links_.front();
+    const OwnLink& link = links_.front();
     link.link->set_distortion([this, errors = link.node->model_errors()](ObjectDescription& description) {
         if (const auto error = errors.find(description.name); error != errors.end()) {
             distort(error->second, description);
@@ -265,7 +265,7 @@ void WorldRun::start_links() {
 
 void WorldRun::synchronise_links() {
     const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
-    for (const Link& link : links_) {
+    for (const OwnLink& link : links_) {
         const bool has_new_objects =
             link.link->synchronise(link.node != nullptr ? std::optional(link.node->plan()) : std::nullopt,
                                    from_godot(world_.get_gravity()), Workers::shared(),
@@ -299,7 +299,7 @@ void WorldRun::tell_far_side(Nanoseconds now) {
         return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
                                       mirrors[i]->addition()};
     };
-    for (const Link& link : links_) {
+    for (const OwnLink& link : links_) {
         link.link->tell(told, describe, joints, session_.snapshot(), now);
     }
 }
@@ -381,7 +381,7 @@ void WorldRun::forget(HapticRecorder* recorder) {
 }
 
 void WorldRun::forget(MMTLink* link) {
-    for (Link& one : links_) {
+    for (OwnLink& one : links_) {
         one.node = one.node == link ? nullptr : one.node;
     }
 }
@@ -438,7 +438,7 @@ void WorldRun::show() {
     const Busy busy(is_busy_);
     drain();
     std::vector<std::pair<std::uint64_t, LinkReport>> reports;
-    for (const Link& link : links_) {
+    for (const OwnLink& link : links_) {
         if (link.node != nullptr) {
             reports.emplace_back(link.node->get_instance_id(), link.link->report());
         }
@@ -473,7 +473,7 @@ void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
 
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
-    for (const Link& link : links_) {
+    for (const OwnLink& link : links_) {
         std::ranges::move(link.link->problems(), std::back_inserter(all));
     }
     for (const auto& mirror : bodies_.bodies()) {

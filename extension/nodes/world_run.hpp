@@ -108,7 +108,7 @@ private:
     std::uint64_t node_of(SessionHandle body);
     void show_bodies(const SessionSnapshot& snapshot);
 
-    struct Link {
+    struct OwnLink {
         MMTLink* node = nullptr;  // null: it has left
         std::unique_ptr<WorldLink> link;
     };
@@ -116,8 +116,8 @@ private:
     HapticWorld& world_;
     RunSettings settings_;
     std::atomic<Nanoseconds> clock_offset_{
-        0};                    // a tick's time on the monotonic clock less its time in the session
-    std::vector<Link> links_;  // to each far side. Above the session, whose sides use them
+        0};                       // a tick's time on the monotonic clock less its time in the session
+    std::vector<OwnLink> links_;  // to each far side. Above the session, whose sides use them
     Session session_;
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;

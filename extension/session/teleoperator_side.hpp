@@ -83,7 +83,7 @@ private:
 
     Channel channel_;
     DiscoverySender discovery_;
-    Pace pace_;
+    Pace pace_{1.0};
     PointerShare share_;
     double seconds_;               // of a tick
     Nanoseconds peer_period_ = 0;  // of a tick of the operator, as the buffers have it

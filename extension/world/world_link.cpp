@@ -7,6 +7,7 @@
 #include "network/key_source.hpp"
 #include "session/operator_side.hpp"
 #include "session/shared_environment.hpp"
+#include "session/teleoperator_side.hpp"
 
 namespace tactus {
 
@@ -65,7 +66,7 @@ void WorldLink::end() {
 void WorldLink::attach(Session& session, const std::vector<WorldLink*>& links) {
     std::vector<std::unique_ptr<TeleopSide>> sides;
     for (WorldLink* const link : links) {
-        sides.push_back(link->make_side(session.settings(), {sides.size(), links.size()}));
+        sides.push_back(link->make_side(session.settings(), PointerShare{sides.size(), links.size()}));
     }
     if (sides.size() == 1) {
         session.attach(std::move(sides.front()));

@@ -19,10 +19,11 @@
 #include "session/environment_teller.hpp"
 #include "session/model_builder.hpp"
 #include "session/session.hpp"
-#include "session/teleoperator_side.hpp"
 #include "world/link_way.hpp"
 
 namespace tactus {
+
+struct PointerShare;
 
 enum class LinkState : std::uint8_t {
     off,        // one machine, or nothing runs

@@ -62,17 +62,17 @@ TEST(Frugal, WhatStandsAndIsPutElsewhereIsTold) {
     EXPECT_TRUE(touches());
 }
 
-// Half a megabyte of triangles and a box that moves, on a way of a megabit: the description takes its time,
-// and what the hand needs is not held up by it.
+// A hundred kilobytes of triangles on a way of a megabit: the description takes its time, and what the hand
+// needs is not held up by it.
 TEST(Frugal, ANarrowWayIsNotFilledUp) {
     LinkConditions narrow;
     narrow.delay = 10'000'000;
     narrow.rate = 1e6;
     ModelRig rig(narrow);
     auto mesh = std::make_shared<TriangleMesh>();
-    constexpr std::uint32_t side = 96;
+    constexpr std::uint32_t side = 48;
     for (std::uint32_t i = 0; i < side * side; ++i) {
-        mesh->vertices.push_back({0.01 * (i % side), 0.001 * ((i * 7919) % 13), 0.01 * (i / side)});
+        mesh->vertices.push_back({0.02 * (i % side), 0.001 * ((i * 7919) % 13), 0.02 * (i / side)});
     }
     for (std::uint32_t i = 0; i + side + 1 < side * side; ++i) {
         if (i % side + 1 < side) {
@@ -81,13 +81,14 @@ TEST(Frugal, ANarrowWayIsNotFilledUp) {
         }
     }
     rig.far->add("Land", body(MeshShape{mesh, 0.0}, {0.0, -1.0, 0.0}, Motion::Static));
-    rig.run(5 * second);
-    double longest = 0.0;
-    for (int i = 0; i < 55; ++i) {
+    rig.run(3 * second);
+    double delay = 0.0;
+    constexpr int looks = 150;
+    for (int i = 0; i < looks; ++i) {
         rig.run(second / 5);
-        longest = std::max(longest, rig.near->port->statistics.front().link.one_way_delay);
+        delay += rig.near->port->statistics.front().link.one_way_delay / looks;
     }
-    EXPECT_LT(longest, 150e6) << "ns; the way alone takes 10 ms, a full queue 200";
+    EXPECT_LT(delay, 80e6) << "ns; the way alone takes 10 ms, a full queue 200";
     EXPECT_NE(rig.near->find("Land"), nullptr);
 }
 

@@ -138,8 +138,9 @@ TEST(SeveralOperators, WhatOneMovesTheOtherSees) {
     rig.add("Slab", slab());
     const SessionHandle moved = rig.add("Box", box());
     rig.run(500 * 1'000'000);
-    rig.move(0, {-0.2, 0.05, 0.0});
-    rig.move(0, {0.1, 0.05, 0.0});
+    for (double x = -0.2; x < 0.1; x += 0.02) {
+        rig.move(0, {x, 0.05, 0.0});
+    }
     rig.run(1000 * 1'000'000);
     EXPECT_GT(rig.place_of(moved).x, 0.05);
     for (std::size_t i = 0; i < operators; ++i) {
@@ -202,7 +203,7 @@ TEST(SeveralOperators, OneHasNoPointerOfAnother) {
         liar.end_tick();
         rig.tick();
     }
-    EXPECT_LT(glm::distance(rig.far.snapshot().proxies[0].hand, Vec3(0.5)), 1e-6) << "its own follows";
+    EXPECT_LT(glm::distance(rig.far.snapshot().proxies[0].hand, Vec3(0.5)), 1e-3) << "its own follows";
     EXPECT_EQ(rig.far.snapshot().proxies[1].hand, others);
 }
 
