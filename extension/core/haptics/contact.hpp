@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/geometry/hit.hpp"
@@ -52,6 +53,14 @@ struct ContactList {
         if (contact.gap < farthest.gap) {
             farthest = contact;
         }
+    }
+    // Infinite where there is no contact (unit: meters).
+    double min_gap() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Contact& contact : all()) {
+            least = std::min(least, contact.gap);
+        }
+        return least;
     }
     // No contact with a larger gap finds room (unit: meters).
     double max_gap() const { return std::ranges::max_element(all(), {}, &Contact::gap)->gap; }
