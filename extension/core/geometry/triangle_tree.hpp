@@ -104,6 +104,9 @@ public:
     TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
     void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
+    TriangleCorners corners(std::uint32_t slot) const {
+        return packs_.corners(slot / lane_count, slot % lane_count);
+    }
     std::uint32_t triangle_at(std::uint32_t slot) const {
         return labels_[slot / lane_count].triangle[slot % lane_count];
     }

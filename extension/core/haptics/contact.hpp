@@ -23,8 +23,10 @@ struct FeatureId {
 
 enum class ContactState : std::uint8_t {
     seen,     // as the search found it: good enough to tell which contacts hold the sphere back
-    exact,    // looked at closely: an edge, a corner, or a shape in closed form
     face,     // looked at closely: flat
+    edge,     // likewise: of a triangle
+    corner,   // likewise
+    solid,    // a shape in closed form
     covered,  // an edge or corner for which a nearer or earlier contact stands
 };
 
@@ -33,6 +35,7 @@ struct Contact {
     double gap = 0.0;            // distance still to the resting distance (unit: meters)
     FeatureId feature;
     ContactState state = ContactState::seen;
+    std::uint8_t edge = 0;  // of the triangle where state is edge: from this corner to the next
 };
 
 struct ContactList {

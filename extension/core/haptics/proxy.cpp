@@ -143,14 +143,14 @@ bool Proxy::fly(const Vec3& hand) {
 ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     WorkBudget& work = surroundings_.work();
     const ContactLook look = surroundings_.look_from(position_);
+    const double length = glm::length(pull);
     ConstrainedStep step;
     for (bool again = true; again;) {
         step = flat_step(pull, contacts_, tolerances().same, work);
         again = false;
         for (int i = 0; i < step.pressing_count && !work.is_gone(); ++i) {
             if (contacts_[step.pressing[i]].state == ContactState::seen) {
-                look.look_closely(contacts_, step.pressing[i]);
-                again = true;
+                again = look.look_closely(contacts_, step.pressing[i], length) || again;
             }
         }
     }
@@ -167,11 +167,11 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     if (is_flat || step.pressing_count == TouchList::capacity) {
         return step;
     }
-    std::array<Curvature, TouchList::capacity - 1> curvatures;
-    for (int i = 0; i < step.pressing_count; ++i) {
-        curvatures[static_cast<std::size_t>(i)] = look.curvature_of(contacts_, step.pressing[i]);
-    }
-    bend_step(step, pull, contacts_, {curvatures.data(), static_cast<std::size_t>(step.pressing_count)},
+    const auto curvature = [&](int i) {
+        return i < step.pressing_count ? look.curvature_of(contacts_, step.pressing[i]) : Curvature{};
+    };
+    const Curvature curvatures[] = {curvature(0), curvature(1)};
+    bend_step(step, pull, contacts_, {curvatures, static_cast<std::size_t>(step.pressing_count)},
               tolerances().same, descent.trust);
     return step;
 }

@@ -27,7 +27,7 @@ TEST(ProxyJump, ATickWithoutChangesIsNone) {
     for (const double center : {0.0, 3.0}) {
         rig.draw({0.0, center + 1.2, 0.0}, {0.0, center + 1.2, 0.0}, 1);
         for (int i = 0; i <= 1'000; ++i) {  // in, around half of it, and out
-            const double depth = 0.04 * std::sin(std::numbers::pi * 1e-3 * i);
+            const double depth = 0.03 * std::sin(std::numbers::pi * 1e-3 * i);
             const double angle = std::numbers::pi * 1e-3 * i;
             const Vec3 hand((1.0 + radius - depth) * std::sin(angle),
                             center + (1.0 + radius - depth) * std::cos(angle), 0.0);
@@ -60,7 +60,7 @@ TEST(ProxyJump, AnEdgeThatTheHandIsBehind) {
         const double angle = 1e-3 * i;
         const Vec3 before = rig.proxy.position();
         const ProxyTick tick = rig.tick({0.8 * std::sin(angle), 0.8 * std::cos(angle), 0.03});
-        const bool far = glm::distance(before, tick.position) > 0.1;
+        const bool far = glm::distance(before, tick.position) > 0.02;
         EXPECT_TRUE(tick.jumped || !far) << i;
         jumps += far;
     }
