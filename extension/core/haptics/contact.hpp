@@ -77,6 +77,8 @@ struct ContactList {
 struct Curvature {
     static constexpr int max_ends = 32;  // those beyond are left out: the piece then seems to go on
 
+    Curvature() {}  // leaves the ends as they are
+
     Vec3 u{1.0, 0.0, 0.0};                  // unit, perpendicular to the normal, in the world
     double bend_u = 0.0;                    // (unit: 1/meter)
     double bend_v = 0.0;                    // (unit: 1/meter)
