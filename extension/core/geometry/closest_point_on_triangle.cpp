@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/geometry/triangle_pack.hpp"
+
 namespace tactus {
 
 namespace {
@@ -27,7 +29,6 @@ OnSegment closest_on_segment(const Vec3& point, const Vec3& start, const Vec3& e
 // does not depend on where in its plane it is measured from.
 TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                                const Vec3& c) {
-    constexpr double flat_area = 1e-12;
     constexpr double plain_area = 0.1;
     const Vec3 ab = b - a;
     const Vec3 ac = c - a;
