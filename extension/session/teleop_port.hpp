@@ -14,7 +14,7 @@
 #include "core/teleop/derivation.hpp"
 #include "core/teleop/errors.hpp"
 #include "core/teleop/felt_pointer.hpp"
-#include "core/teleop/force_exit.hpp"
+#include "core/safety/force_exit.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/parameter_estimate.hpp"
 #include "core/teleop/passivity.hpp"
