@@ -1,5 +1,10 @@
 // The one place through which a force leaves for a device: limited in size, in how fast it changes, and in
 // how much energy it gives the hand.
+//
+// All three hold in every tick, whatever comes in, since a force may always be let go of: it lies within the
+// slew's step of some part of the one before, t F_before with 0 <= t <= 1. Of that set, of the ball of the
+// largest force and of the half-space of the power, none is without the shorter ones of a force that is in
+// it.
 #pragma once
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-#include "core/teleop/force_exit.hpp"
+#include "core/safety/force_exit.hpp"
 
 #include <gtest/gtest.h>
 
