@@ -2,19 +2,13 @@
 // long anything took.
 #include "network/udp_link.hpp"
 
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <time.h>
-#include <unistd.h>
 
-#include <set>
 #include <thread>
 
 #include "network/endpoint.hpp"
 #include "network/link_emulator.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {
@@ -24,8 +18,7 @@ constexpr Nanoseconds ms = 1'000'000;
 constexpr Nanoseconds patience = 20 * nanoseconds_per_second;
 
 void nap() {
-    const timespec span{0, 200'000};
-    nanosleep(&span, nullptr);
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
 }
 
 // Until `done` says so, or patience ends.
@@ -72,18 +65,16 @@ struct Pair {
     UdpLink first, second;
 };
 
-// What a socket of this process that is bound to `port` is bound to.
-std::string bound_address(std::uint16_t port) {
-    for (int file = 3; file < 256; ++file) {
-        sockaddr_in address{};
-        socklen_t size = sizeof address;
-        if (getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
-            address.sin_family == AF_INET && ntohs(address.sin_port) == port) {
-            std::array<char, INET_ADDRSTRLEN> text{};
-            return inet_ntop(AF_INET, &address.sin_addr, text.data(), text.size());
-        }
+// Sends from that port of this machine, as a program that is no link may.
+void send_from(std::uint16_t from, std::uint16_t to, const std::vector<std::vector<std::byte>>& datagrams) {
+    SocketError error;
+    const SocketHandle socket = open_udp(IpFamily::four, error);
+    ASSERT_FALSE(bind_udp(socket, loopback(IpFamily::four, from)));
+    ASSERT_FALSE(connect_udp(socket, loopback(IpFamily::four, to)));
+    for (const std::vector<std::byte>& datagram : datagrams) {
+        EXPECT_FALSE(send_udp(socket, datagram));
     }
-    return {};
+    close_udp(socket);
 }
 
 std::vector<std::byte> bytes(std::size_t size, int fill) {
@@ -151,7 +142,10 @@ TEST(UdpLink, WithoutAKeyItStaysOnThisMachineAndSaysSo) {
     UdpSettings settings = to(9);
     settings.local_address.clear();
     ASSERT_EQ(link.open(settings), "");
-    EXPECT_EQ(bound_address(link.local_port()), "127.0.0.1");
+    UdpSockets alone = open_udp_sockets({}, {"127.0.0.1", 9}, true);
+    ASSERT_EQ(alone.sockets.size(), 1u) << alone.error;
+    EXPECT_EQ(own_address(alone.sockets[0].handle), loopback(IpFamily::four, alone.local_port));
+    close_udp(alone.sockets[0].handle);
     settings.remote_address = "192.0.2.1";
     EXPECT_EQ(link.open(settings).find("without a key this side talks within this machine only"), 0u);
 }
@@ -243,29 +237,12 @@ TEST(UdpLink, AFarSideThatIsNotThereIsNoticedAndMayComeLater) {
 
 TEST(UdpLink, StrangersAndGiantsAreDropped) {
     Pair pair;
-    const int stranger = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    sockaddr_in target{};
-    target.sin_family = AF_INET;
-    target.sin_port = htons(pair.first.local_port());
-    target.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const auto* address = reinterpret_cast<const sockaddr*>(&target);
-    const std::vector<std::byte> datagram = bytes(50, 9);
-    ASSERT_GT(sendto(stranger, datagram.data(), datagram.size(), 0, address, sizeof target), 0);
-    ::close(stranger);
+    send_from(0, pair.first.local_port(), {bytes(50, 9)});
 
     // From the right address, but longer than any of ours: by way of the second link's port.
     const std::uint16_t second_port = pair.second.local_port();
     pair.second.close();
-    const int giant = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-    sockaddr_in own = target;
-    own.sin_port = htons(second_port);
-    ASSERT_EQ(bind(giant, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
-    const std::vector<std::byte> long_one = bytes(most_datagram_bytes + 1, 9);
-    const std::vector<std::byte> good = bytes(3, 5);
-    ASSERT_GT(sendto(giant, long_one.data(), long_one.size(), 0, address, sizeof target), 0);
-    ASSERT_EQ(sendto(giant, good.data(), 0, 0, address, sizeof target), 0);
-    ASSERT_GT(sendto(giant, good.data(), good.size(), 0, address, sizeof target), 0);
-    ::close(giant);
+    send_from(second_port, pair.first.local_port(), {bytes(most_datagram_bytes + 1, 9), {}, bytes(3, 5)});
 
     std::array<std::byte, most_datagram_bytes> buffer{};
     ReceivedDatagram received;
