@@ -12,7 +12,7 @@ MAY_INCLUDE = {
     "core": [],
     "platform": ["core"],
     "realtime": ["core", "platform"],
-    "physics": ["core", "realtime"],
+    "physics": ["core", "platform", "realtime"],
     "devices": ["core", "realtime", "physics"],
     "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],

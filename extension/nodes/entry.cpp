@@ -26,7 +26,7 @@ void refuse_to_load(GDExtensionInterfaceGetProcAddress get_proc_address, const c
 extern "C" GDE_EXPORT GDExtensionBool tactus_library_init(GDExtensionInterfaceGetProcAddress get_proc_address,
                                                           GDExtensionClassLibraryPtr library,
                                                           GDExtensionInitialization* initialization) {
-    if (const char* const missing = missing_in_processor()) {
+    if (const char* const missing = tactus::missing_in_processor()) {
         refuse_to_load(get_proc_address, missing);
         return false;
     }
