@@ -5,7 +5,6 @@
 #include <aclapi.h>
 
 #include <array>
-#include <vector>
 
 #include "platform/system_message.hpp"
 
@@ -42,19 +41,21 @@ bool is_ordinary(HANDLE file) {
            (about.dwFileAttributes & FILE_ATTRIBUTE_DIRECTORY) == 0;
 }
 
-// The user that this process runs as; empty: not to be had.
-std::vector<std::byte> own_identity() {
-    HANDLE token = nullptr;
-    if (OpenProcessToken(GetCurrentProcess(), TOKEN_QUERY, &token) == 0) {
-        return {};
+// The user that this process runs as.
+struct OwnIdentity {
+    OwnIdentity() {
+        HANDLE token = nullptr;
+        if (OpenProcessToken(GetCurrentProcess(), TOKEN_QUERY, &token) != 0) {
+            DWORD size = 0;
+            known = GetTokenInformation(token, TokenUser, bytes.data(), bytes.size(), &size) != 0;
+            CloseHandle(token);
+        }
     }
-    DWORD size = 0;
-    GetTokenInformation(token, TokenUser, nullptr, 0, &size);
-    std::vector<std::byte> user(size);
-    const bool known = GetTokenInformation(token, TokenUser, user.data(), size, &size) != 0;
-    CloseHandle(token);
-    return known ? user : std::vector<std::byte>{};
-}
+    PSID get() { return reinterpret_cast<TOKEN_USER*>(bytes.data())->User.Sid; }
+
+    alignas(TOKEN_USER) std::array<std::byte, sizeof(TOKEN_USER) + SECURITY_MAX_SID_SIZE> bytes;
+    bool known = false;
+};
 
 // Who may read everything anyway.
 bool is_the_system(PSID who) {
@@ -87,16 +88,16 @@ bool is_private(const ACL* rights, PSID owner, PSID user) {
 }
 
 bool is_private(HANDLE file) {
-    std::vector<std::byte> identity = own_identity();
+    OwnIdentity user;
     PSID owner = nullptr;
     PACL rights = nullptr;
     PSECURITY_DESCRIPTOR all = nullptr;
-    if (identity.empty() ||
+    if (!user.known ||
         GetSecurityInfo(file, SE_FILE_OBJECT, OWNER_SECURITY_INFORMATION | DACL_SECURITY_INFORMATION, &owner,
                         nullptr, &rights, nullptr, &all) != ERROR_SUCCESS) {
         return false;
     }
-    const bool found = is_private(rights, owner, reinterpret_cast<TOKEN_USER*>(identity.data())->User.Sid);
+    const bool found = is_private(rights, owner, user.get());
     LocalFree(all);
     return found;
 }
