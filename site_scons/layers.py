@@ -6,7 +6,7 @@ and to the layers named here and to nothing else. An include of any other layer 
 
 from pathlib import Path
 
-_ENGINE_FREE = ["core", "platform", "realtime", "physics", "devices", "network", "session"]
+_ENGINE_FREE = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world"]
 
 MAY_INCLUDE = {
     "core": [],
@@ -16,6 +16,7 @@ MAY_INCLUDE = {
     "devices": ["core", "realtime", "physics"],
     "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
+    "world": ["core", "platform", "realtime", "physics", "devices", "network", "session"],
     "binding": [],
     "nodes": _ENGINE_FREE,
 }

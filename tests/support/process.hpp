@@ -24,6 +24,9 @@ double resident_bytes();
 // Keeps this thread on the processor it runs on. False where the system does not permit it.
 bool stay_on_one_processor();
 
+// Gives the calling thread all processors that the program began with: a new thread begins with its maker's.
+void leave_one_processor();
+
 // Null takes it away.
 void set_environment(const char* name, const char* value);
 

@@ -17,6 +17,17 @@ Nanoseconds read_clock(clockid_t clock) {
     return static_cast<Nanoseconds>(now.tv_sec) * nanoseconds_per_second + now.tv_nsec;
 }
 
+// Those that the program began with.
+const cpu_set_t& processors() {
+    static const cpu_set_t all = [] {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        sched_getaffinity(0, sizeof set, &set);
+        return set;
+    }();
+    return all;
+}
+
 }  // namespace
 
 std::filesystem::path program_path() {
@@ -42,10 +53,15 @@ double resident_bytes() {
 }
 
 bool stay_on_one_processor() {
+    processors();
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(static_cast<std::size_t>(sched_getcpu()), &one);
     return sched_setaffinity(0, sizeof one, &one) == 0;
+}
+
+void leave_one_processor() {
+    sched_setaffinity(0, sizeof(cpu_set_t), &processors());
 }
 
 void set_environment(const char* name, const char* value) {

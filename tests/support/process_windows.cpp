@@ -56,6 +56,12 @@ bool stay_on_one_processor() {
     return SetThreadAffinityMask(GetCurrentThread(), DWORD_PTR{1} << GetCurrentProcessorNumber()) != 0;
 }
 
+void leave_one_processor() {
+    DWORD_PTR own = 0, of_the_system = 0;
+    GetProcessAffinityMask(GetCurrentProcess(), &own, &of_the_system);
+    SetThreadAffinityMask(GetCurrentThread(), own);
+}
+
 void set_environment(const char* name, const char* value) {
     _putenv_s(name, value != nullptr ? value : "");
 }
