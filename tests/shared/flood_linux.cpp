@@ -8,7 +8,6 @@
 #include <signal.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,12 +19,14 @@
 #include <vector>
 
 #include "network/udp_link.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
+#include "platform/sleep.hpp"
 #include "realtime/sleeper.hpp"
 #include "session/operator_side.hpp"
 #include "session/teleoperator_side.hpp"
 #include "shared/attack_rig.hpp"
 #include "shared/bench_kit.hpp"
+#include "support/process.hpp"
 
 namespace tactus::shared {
 namespace {
@@ -33,12 +34,6 @@ namespace {
 constexpr Nanoseconds period = 1'000'000;
 constexpr std::size_t flood_bytes = 200;
 constexpr std::size_t at_once = 100;
-
-Nanoseconds thread_time() {
-    timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<Nanoseconds>(time.tv_sec) * nanoseconds_per_second + time.tv_nsec;
-}
 
 // Processor time of a thread of this process (unit: seconds).
 double time_of_thread(int id) {
@@ -136,10 +131,10 @@ std::uint64_t scrambled(std::uint64_t number) {
         messages[i].msg_hdr.msg_namelen = sizeof target;
     }
     std::uint64_t thrown = 0;
+    SleepTimer timer;
     const auto every = static_cast<Nanoseconds>(1e9 * static_cast<double>(at_once) / packets_per_s);
     for (Nanoseconds due = monotonic_now();; due += every) {
-        const timespec until = to_timespec(due);
-        clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr);
+        timer.sleep_until(due);
         for (Forged& packet : packets) {
             // Greetings, sealed packets of any session, and noise.
             std::byte* const body = packet.bytes.data() + headers;
@@ -230,9 +225,9 @@ struct FloodRig {
         const Nanoseconds end = due + from_seconds(seconds);
         for (; due < end; due += period) {
             sleeper.wait_until(due);
-            const Nanoseconds begin = thread_time();
+            const Nanoseconds begin = tactus::testing::thread_time();
             near.tick(due);
-            spans.push_back(static_cast<double>(thread_time() - begin));
+            spans.push_back(static_cast<double>(tactus::testing::thread_time() - begin));
         }
         return spans;
     }

@@ -1,4 +1,4 @@
-#include "realtime/realtime_thread.hpp"
+#include "platform/realtime_thread.hpp"
 
 #include <linux/capability.h>
 #include <pthread.h>
@@ -12,7 +12,10 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <mutex>
+
+#include "platform/control_group_linux.hpp"
 
 namespace tactus {
 
@@ -179,6 +182,31 @@ void release_realtime(const RealtimeReport& report) {
     if (memory_lock_holders == 0) {
         munlockall();
     }
+}
+
+// Idle priority on one processor, or nothing: at any other priority this thread would be in the way.
+bool become_idle_on(int cpu) {
+    if (cpu < 0 || cpu >= CPU_SETSIZE) {
+        return false;
+    }
+    cpu_set_t only;
+    CPU_ZERO(&only);
+    CPU_SET(static_cast<std::size_t>(cpu), &only);
+    const sched_param parameters{0};
+    return pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameters) == 0 &&
+           pthread_setaffinity_np(pthread_self(), sizeof(only), &only) == 0;
+}
+
+std::string why_not_to_idle() {
+    std::ifstream file("/sys/fs/cgroup/cpu.max");
+    std::string allowance;
+    std::getline(file, allowance);
+    return limits_processor_time(allowance) ? "this process's processor time is limited" : "";
+}
+
+// "max 100000" or "200000 100000": allowance and period in microseconds.
+bool limits_processor_time(const std::string& cpu_max) {
+    return !cpu_max.empty() && cpu_max.rfind("max", 0) != 0;
 }
 
 }  // namespace tactus

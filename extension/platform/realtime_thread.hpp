@@ -10,19 +10,22 @@ namespace tactus {
 
 inline constexpr int any_processor = -1;
 inline constexpr int last_processor = -2;  // of those the process may use: devices mostly interrupt the first
+inline constexpr int max_processors = 1024;  // no system here has a number above
 
 struct RealtimeRequest {
-    int fifo_priority = 70;       // SCHED_FIFO, 1 … 99; 0: stay with the ordinary scheduler
+    // In real time, 1 … 99: SCHED_FIFO's priority on Linux; Windows and macOS know two or three steps of it.
+    // 0: stay with the ordinary scheduler.
+    int fifo_priority = 70;
     bool lock_memory = true;      // pages that have been touched are never swapped out or dropped
-    int cpu = last_processor;     // to stay on, if SCHED_FIFO is granted: a number, or one of the above
-    bool keep_awake = true;       // never let that processor sleep, see awake_processor.hpp
+    int cpu = last_processor;     // to stay on, if real time is granted: a number, or one of the above
+    bool keep_awake = true;       // never let that processor sleep, see realtime/awake_processor.hpp
     Nanoseconds timer_slack = 1;  // how late the ordinary scheduler may let a sleep end, to save power; ≥ 1
 };
 
 struct RealtimeReport {
-    bool fifo = false;
+    bool fifo = false;  // real time was granted
     int fifo_priority = 0;
-    bool short_turns = false;  // the next best of the ordinary scheduler, where SCHED_FIFO was refused
+    bool short_turns = false;  // the next best of the ordinary scheduler, where real time was refused
     bool memory_locked = false;
     int cpu = any_processor;
     bool kept_awake = false;
@@ -36,5 +39,12 @@ RealtimeReport make_thread_realtime(const RealtimeRequest& request);
 
 // Gives back what is the process's and not the thread's.
 void release_realtime(const RealtimeReport& report);
+
+// The calling thread gives way to every other one and stays on that processor; false, and nothing is changed,
+// where the system refuses.
+bool become_idle_on(int cpu);
+
+// Empty, or why a thread that idles would cost this process time that it needs.
+std::string why_not_to_idle();
 
 }  // namespace tactus
