@@ -1,12 +1,11 @@
 #include "network/doorman.hpp"
 
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <cstring>
+#include <utility>
 
 #include "network/messages.hpp"
 #include "network/wire_stream.hpp"
+#include "platform/side_socket.hpp"
 
 namespace tactus {
 namespace {
@@ -15,15 +14,10 @@ using namespace sealed_format;
 
 constexpr Nanoseconds look_every = 50'000'000;
 constexpr int answers_a_look = 4;
-constexpr int system_buffer_bytes = 4096;  // a few knocks: those that come meanwhile knock again
 
 constexpr std::uint8_t hello_kind = 1;
 constexpr std::size_t epoch_at = 4;
 constexpr std::size_t least_hello_bytes = 14 + 50;
-
-void reuse_address(int file, int may) {
-    setsockopt(file, SOL_SOCKET, SO_REUSEADDR, &may, sizeof may);
-}
 
 }  // namespace
 
@@ -61,53 +55,31 @@ std::optional<std::uint64_t> number_of_refusal(std::span<const std::byte> datagr
     return read_at<std::uint64_t>(datagram, refused_at);
 }
 
-// The place is shared with the one socket for as long as this one takes to be bound, and with nobody after.
-void Doorman::open(int beside, int family) {
+void Doorman::open(SocketHandle beside, IpFamily family) {
     close();
-    sockaddr_storage here{};
-    socklen_t size = sizeof here;
-    const int made = socket(family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-    if (made < 0 || getsockname(beside, reinterpret_cast<sockaddr*>(&here), &size) != 0) {
-        ::close(made);
-        return;
-    }
-    setsockopt(made, SOL_SOCKET, SO_RCVBUF, &system_buffer_bytes, sizeof system_buffer_bytes);
-    reuse_address(beside, 1);
-    reuse_address(made, 1);
-    const bool bound = bind(made, reinterpret_cast<const sockaddr*>(&here), size) == 0;
-    reuse_address(beside, 0);
-    reuse_address(made, 0);
-    if (bound) {
-        file_ = made;
-    } else {
-        ::close(made);
-    }
+    socket_ = open_beside(beside, family);
 }
 
 void Doorman::close() {
-    if (file_ >= 0) {
-        ::close(file_);
-        file_ = -1;
+    if (socket_ != no_socket) {
+        close_udp(std::exchange(socket_, no_socket));
     }
 }
 
 void Doorman::answer(Nanoseconds now) {
-    if (file_ < 0 || now < next_look_) {
+    if (socket_ == no_socket || now < next_look_) {
         return;
     }
     next_look_ = now + look_every;
+    std::array<std::byte, most_datagram_bytes> bytes;
+    IpAddress from;
     for (int i = 0; i < answers_a_look; ++i) {
-        std::array<std::byte, most_datagram_bytes> bytes;
-        sockaddr_storage from{};
-        socklen_t size = sizeof from;
-        auto* const address = reinterpret_cast<sockaddr*>(&from);
-        const ssize_t came = recvfrom(file_, bytes.data(), bytes.size(), MSG_DONTWAIT, address, &size);
-        if (came < 0) {
+        const std::size_t came = receive_udp_from(socket_, bytes, from);
+        if (came == 0) {
             return;
         }
-        if (const auto number = number_of_knock(std::span(bytes).first(static_cast<std::size_t>(came)))) {
-            const RefusalBytes said = refusal_of(*number, expects_another);
-            sendto(file_, said.data(), said.size(), MSG_DONTWAIT | MSG_NOSIGNAL, address, size);
+        if (const auto number = number_of_knock(std::span(bytes).first(came))) {
+            send_udp_to(socket_, refusal_of(*number, expects_another), from);
         }
     }
 }

@@ -16,6 +16,7 @@
 
 #include "core/math/types.hpp"
 #include "network/sealed_format.hpp"
+#include "platform/udp_socket.hpp"
 
 namespace tactus {
 
@@ -36,15 +37,16 @@ public:
     Doorman(const Doorman&) = delete;
     Doorman& operator=(const Doorman&) = delete;
 
-    // Beside a socket that is bound and connected. Where it cannot be, nobody is told anything.
-    void open(int beside, int family);
+    // Beside a socket that is bound and connected. Where the system has no such thing nobody is told
+    // anything.
+    void open(SocketHandle beside, IpFamily family);
     void close();
 
     // Answers a few of those that wait, when due; the system drops the rest.
     void answer(Nanoseconds now);
 
 private:
-    int file_ = -1;
+    SocketHandle socket_ = no_socket;
     Nanoseconds next_look_ = 0;
 };
 

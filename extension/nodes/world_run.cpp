@@ -11,7 +11,7 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -23,12 +23,6 @@ namespace {
 constexpr std::int64_t ticks_at_once = 1000;
 
 constexpr std::size_t trace_capacity = 4096;  // ticks between two drains: four seconds at 1 kHz
-
-Nanoseconds wall_clock_now() {
-    timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return static_cast<Nanoseconds>(now.tv_sec) * nanoseconds_per_second + now.tv_nsec;
-}
 
 double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
