@@ -50,7 +50,9 @@ public:
                 std::vector<Target>& targets);
 
     // The sample of the truth that the model's past of a body goes on from.
-    SampleSequence goes_on_from(SessionHandle body) const { return put_in_[body]; }
+    SampleSequence goes_on_from(SessionHandle body) const {
+        return body < put_in_.size() ? put_in_[body] : no_sample;
+    }
 
     void stop() { running_ = false; }
     // Of what was before, nothing is left to start from.
