@@ -215,7 +215,7 @@ BodyMotion OperatorSide::believed(SessionLoop& loop, SessionHandle body, SampleS
     const BodyMotion* const expected = past_.motion(truths_.place_of(body), sample);
     const bool is_right = expected && is_as_sent(received, *expected);
     BodyMotion result = is_right ? *expected : received;
-    if (settings().derivation == Derivation::resimulate) {
+    if (settings().derivation == Derivation::resimulate && resimulator_.exists()) {
         const Pose model = expected ? expected->pose : loop.motion(body).pose;
         const Pose steady = filters_[body].filter(settings().filter, result.pose, model,
                                                   step_to(body, sample, received), eyes_);
