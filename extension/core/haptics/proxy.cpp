@@ -72,8 +72,8 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
 
 // Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
 // Friction has no say in that. False where there is nothing to lift: what a sweep has stopped at is half a
-// skin below rest, and the next step rises by that much on its way. Unless it was stopped at once: a long step
-// strays from a far surface by more, and needs all of the skin.
+// skin below rest, and the next step rises by that much on its way. Unless it was stopped at once: a long
+// step strays from a far surface by more, and needs all of the skin.
 bool Proxy::lift(bool stopped_at_once) {
     if (contacts_.min_gap() >= (stopped_at_once ? -0.125 : -0.625) * tolerances().skin) {
         return false;
