@@ -137,7 +137,7 @@ void MMTLink::set_control_scheme(int64_t scheme) {
 }
 
 void MMTLink::set_correction_scheme(int64_t scheme) {
-    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::stealthy_turn),
+    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::passive),
                    "CORRECTION")) {
         return;
     }

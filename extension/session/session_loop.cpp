@@ -348,9 +348,11 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
 }
 
 void SessionLoop::write_devices(Nanoseconds now) {
+    std::array<double, most_devices> own_change{};
     for (const ProxySlot& slot : proxies_) {
         if (slot.proxy && slot.description.device < most_devices) {
             devices_[slot.description.device].force += slot.state.force;
+            own_change[slot.description.device] += slot.own_change;
         }
     }
     for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -359,9 +361,11 @@ void SessionLoop::write_devices(Nanoseconds now) {
             continue;
         }
         bool limited = false;
+        const Vec3 wanted = slot.force;
         slot.force =
-            slot.exit.leave(side_ ? side_->limits() : local_touch, slot.force, slot.workspace.force_limit,
-                            slot.hand_velocity / slot.workspace.scale, seconds_, limited);
+            slot.exit.leave(side_ ? side_->limits() : local_touch, wanted, slot.workspace.force_limit,
+                            slot.hand_velocity / slot.workspace.scale, seconds_, own_change[i], limited);
+        slot.refused = wanted - slot.force;
         status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
         for (ProxySlot& proxy : proxies_) {
             if (limited && side_ && proxy.proxy && proxy.description.device == i) {

@@ -16,12 +16,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import options, teleop_runs
+from measuring import options, rivals, teleop_runs
 from measuring.teleop_scene import Scene
 
-FIGURES = ("force_error_mean_N", "force_error_p95_N", "force_error_max_N", "force_error_shifted_mean_N")
-FELT = ("seconds_until_right", "felt_excess_1ms_N_max", "felt_excess_100ms_N_max", "felt_excess_100ms_jnd_max")
-ENERGY = ("energy_at_hand_J", "energy_at_far_side_J", "energy_created_J", "bits_per_s")
+FIGURES = (
+    *teleop_runs.FIGURES, "force_error_shifted_mean_N", "seconds_until_right", "correction_force_step_max_N",
+    "felt_excess_once_told_100ms_N_max", "felt_excess_once_told_100ms_jnd_max",
+)  # fmt: skip
+TRADE = ("seconds_until_right", "felt_excess_once_told_100ms_N_max", "felt_excess_once_told_100ms_jnd_max", "force_error_mean_N")
 CORRECTED = "mmt_wrong_corrected_100ms"
 # From the start: the model is right before it is touched.
 TOLD = "mmt_wrong_told_100ms"
@@ -51,7 +53,9 @@ def cases(description: dict, path: str, settings: Settings, output: Path) -> lis
         found.append({"name": f"mmt_wrong_{delay}ms", "delay_ms": delay, "correction": "none", **wrong})
     found.append({"name": CORRECTED, **corrected})
     found.append({"name": TOLD, "delay_ms": 100, **wrong})
-    found.append({"name": f"{CORRECTED}_pose", "correction": "pose", "derivation": "none", **corrected})
+    for suffix, scheme in (("pose", "pose_only"), ("velocities", "velocities"), ("passive_updates", "passive_updates")):
+        found.append({"name": f"{CORRECTED}_{suffix}", **rivals.SCHEMES[scheme], **corrected})
+        found.append({"name": f"mmt_right_{suffix}_100ms", "delay_ms": 100, **rivals.SCHEMES[scheme]})
     for case in found:
         case["rows"] = output / f"{path}.{case['name']}.csv"
     found += [{"name": f"trade.{share}", "share": share, **corrected} for share in SHARES]
@@ -84,7 +88,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
 def figures(found: dict[str, dict[str, float]]) -> dict[str, object]:
     summary: dict[str, object] = {}
     for name, one in found.items():
-        wanted = FELT if name.startswith("trade.") else (*FIGURES, *FELT, *ENERGY, "correction_force_step_max_N")
+        wanted = TRADE if name.startswith("trade.") else FIGURES
         summary |= {f"{name}.{key}": one[key] for key in wanted}
     traditional = found["traditional_100ms"]["force_error_mean_N"]
     for case in ("mmt_wrong_0ms", "mmt_wrong_100ms", "mmt_wrong_500ms"):

@@ -40,19 +40,14 @@ def _draw_correction(folder: Path, path: str) -> None:
 
 def draw_trade(summary: dict[str, object], paths: tuple[str, ...], shares: tuple[str, ...], ours: str, path: Path) -> None:
     """Felt excess against time to truth: the same correction from careful to careless."""
+    keys = ("seconds_until_right", "felt_excess_once_told_100ms_jnd_max")
     drawn, ((one,),) = style.figure(1, 1, 7.0, 4.6)
     for name, colour in zip(paths, (style.MEASURED, style.REFERENCE)):
-        points = [
-            (
-                float(summary[f"{name}.trade.{share}.seconds_until_right"]),
-                float(summary[f"{name}.trade.{share}.felt_excess_100ms_jnd_max"]),
-            )
-            for share in shares
-        ]
+        points = [tuple(float(summary[f"{name}.trade.{share}.{key}"]) for key in keys) for share in shares]
         one.plot(*zip(*points), color=colour, marker="o", markersize=4, label=name.replace("_", " "))
         for share, point in zip(shares, points):
             one.annotate(share, point, textcoords="offset points", xytext=(5, 3), fontsize=7, color=colour)
-        default = [float(summary[f"{name}.{ours}.{key}"]) for key in ("seconds_until_right", "felt_excess_100ms_jnd_max")]
+        default = [float(summary[f"{name}.{ours}.{key}"]) for key in keys]
         one.plot(*default, color=colour, marker="s", markersize=8, fillstyle="none")
     one.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
     one.set(xlabel="seconds from the first touch until right", yscale="log", xlim=(0, None))

@@ -7,10 +7,10 @@
 namespace tactus {
 
 Vec3 ForceExit::leave(const ForceLimits& limits, const Vec3& wanted, double most, const Vec3& velocity,
-                      double seconds, bool& limited) {
+                      double seconds, double own_change, bool& limited) {
     Vec3 force = limited_force(wanted, most);
     const Vec3 change = force - last_;
-    const double step = limits.slew * seconds;
+    const double step = limits.slew * seconds + own_change;
     if (glm::dot(change, change) > step * step) {
         force = last_ + change * (step / glm::length(change));
     }

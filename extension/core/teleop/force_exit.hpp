@@ -17,9 +17,11 @@ struct ForceLimits {
 class ForceExit {
 public:
     // The force for the coming tick (unit: newtons). `velocity` is that of the hand in the device's own
-    // measure (unit: meters per second). `limited`: the force asked for was another one.
+    // measure (unit: meters per second). `own_change`: how much of the force's change in this tick is the
+    // hand's own doing, at a model that has stayed what it was (unit: newtons); the slew limit is for the
+    // rest. `limited`: the force asked for was another one.
     Vec3 leave(const ForceLimits& limits, const Vec3& wanted, double most, const Vec3& velocity,
-               double seconds, bool& limited);
+               double seconds, double own_change, bool& limited);
 
     // The device rests: what comes next begins at nothing.
     void rest() { last_ = Vec3(0.0); }
