@@ -6,7 +6,7 @@ and to the layers named here and to nothing else. An include of any other layer 
 
 from pathlib import Path
 
-_ENGINE_FREE = ["core", "realtime", "physics", "devices", "network", "session"]
+_ENGINE_FREE = ["core", "realtime", "physics", "devices", "network", "session", "world"]
 
 MAY_INCLUDE = {
     "core": [],
@@ -15,6 +15,7 @@ MAY_INCLUDE = {
     "devices": ["core", "realtime", "physics"],
     "network": ["core", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
+    "world": ["core", "realtime", "physics", "devices", "network", "session"],
     "binding": [],
     "nodes": _ENGINE_FREE,
 }

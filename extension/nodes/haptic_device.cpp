@@ -30,13 +30,6 @@ constexpr double nearest_depth = 0.02;
 // No hand goes farther from the origin (unit: meters).
 constexpr double farthest_hand = 1e6;
 
-// Of a simulated arm: heavier, tougher or firmer ones are no hand's (units: kilograms, newton seconds per
-// meter, newtons per meter).
-constexpr double max_arm_mass = 1e3;
-constexpr double min_arm_mass = 1e-3;
-constexpr double max_arm_damping = 1e4;
-constexpr double max_arm_stiffness = 1e6;
-
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
@@ -81,74 +74,15 @@ HapticDevice::Driver HapticDevice::driver() const {
     return path_.is_valid() ? DRIVER_PATH : DRIVER_MOUSE;
 }
 
-void HapticDevice::set_driver(Driver driver) {
-    if (!is_one_of(*this, "driver", driver, DRIVER_AUTOMATIC, "DRIVER")) {
-        return;
-    }
-    driver_ = driver;
+void HapticDevice::driver_changed() {
     notify_property_list_changed();
     changed();
-}
-
-void HapticDevice::set_path(const Ref<HapticPath>& path) {
-    const Callable on_change(this, "_path_changed");
-    if (path_.is_valid() && path_->is_connected("changed", on_change)) {
-        path_->disconnect("changed", on_change);
-    }
-    path_ = path;
-    if (path_.is_valid()) {
-        path_->connect("changed", on_change);
-    }
-    changed();
-}
-
-void HapticDevice::set_wheel_step(double meters) {
-    if (!is_above_zero(meters)) {
-        refuse(*this, "wheel_step", meters, "a finite number above 0");
-        return;
-    }
-    wheel_step_ = meters;
 }
 
 void HapticDevice::arm_changed() {
     if (arm_ != nullptr) {
         arm_->change(arm_settings_);
     }
-}
-
-void HapticDevice::set_arm_mass(double kilograms) {
-    if (!(kilograms >= min_arm_mass && kilograms <= max_arm_mass)) {
-        refuse(*this, "arm_mass", kilograms, "between 0.001 and 1,000 kg");
-        return;
-    }
-    arm_settings_.mass = kilograms;
-    arm_changed();
-}
-
-void HapticDevice::set_arm_damping(double newton_seconds_per_meter) {
-    if (!(newton_seconds_per_meter >= 0.0 && newton_seconds_per_meter <= max_arm_damping)) {
-        refuse(*this, "arm_damping", newton_seconds_per_meter, "between 0 and 10,000 N·s/m");
-        return;
-    }
-    arm_settings_.damping = newton_seconds_per_meter;
-    arm_changed();
-}
-
-void HapticDevice::set_arm_stiffness(double newtons_per_meter) {
-    if (!(newtons_per_meter >= 0.0 && newtons_per_meter <= max_arm_stiffness)) {
-        refuse(*this, "arm_stiffness", newtons_per_meter, "between 0 and 1,000,000 N/m");
-        return;
-    }
-    arm_settings_.stiffness = newtons_per_meter;
-    arm_changed();
-}
-
-void HapticDevice::set_force_limit(double newtons) {
-    if (!is_at_least_zero(newtons)) {
-        refuse(*this, "force_limit", newtons, "a finite number, 0 or more");
-        return;
-    }
-    force_limit_ = newtons;
 }
 
 Vector3 HapticDevice::get_hand_position() const {

@@ -10,6 +10,7 @@
 #include "devices/mouse_device.hpp"
 #include "devices/simulated_arm.hpp"
 #include "nodes/haptic_path.hpp"
+#include "nodes/properties.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {
@@ -22,22 +23,7 @@ class HapticDevice : public godot::Node3D {
 public:
     enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC };
 
-    void set_driver(Driver driver);
-    Driver get_driver() const { return driver_; }
-    void set_path(const godot::Ref<HapticPath>& path);
-    godot::Ref<HapticPath> get_path_resource() const { return path_; }
-    void set_wheel_step(double meters);
-    double get_wheel_step() const { return wheel_step_; }
-    void set_arm_mass(double kilograms);
-    double get_arm_mass() const { return arm_settings_.mass; }
-    void set_arm_damping(double newton_seconds_per_meter);
-    double get_arm_damping() const { return arm_settings_.damping; }
-    void set_arm_stiffness(double newtons_per_meter);
-    double get_arm_stiffness() const { return arm_settings_.stiffness; }
-    void set_force_limit(double newtons);
-    double get_force_limit() const { return force_limit_; }
-    void set_clutch(bool held) { clutch_ = held; }
-    bool is_clutch_held() const { return clutch_; }
+    TACTUS_PROPERTIES(HapticDevice)
 
     bool is_device_connected() const { return state_.connected; }
     godot::Vector3 get_hand_position() const;
@@ -70,6 +56,7 @@ protected:
 private:
     godot::String problem() const;
     void changed();
+    void driver_changed();
     void arm_changed();
     // The one that is meant where that is left open.
     Driver driver() const;

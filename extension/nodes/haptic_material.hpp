@@ -3,11 +3,11 @@
 #include <godot_cpp/classes/physics_material.hpp>
 #include <godot_cpp/classes/texture2d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
-#include <map>
 #include <memory>
 
 #include "core/haptics/touch_material.hpp"
-#include "nodes/value_rows.hpp"
+#include "nodes/properties.hpp"
+#include "world/material_presets.hpp"
 
 namespace tactus {
 
@@ -18,28 +18,21 @@ class HapticMaterial : public godot::PhysicsMaterial {
 
 public:
     enum Preset : int64_t {
-        PRESET_CUSTOM,
-        PRESET_RUBBER,
-        PRESET_ICE,
-        PRESET_SANDPAPER,
-        PRESET_STEEL,
-        PRESET_SPONGE,
+        PRESET_CUSTOM = static_cast<int64_t>(MaterialPreset::custom),
+        PRESET_RUBBER = static_cast<int64_t>(MaterialPreset::rubber),
+        PRESET_ICE = static_cast<int64_t>(MaterialPreset::ice),
+        PRESET_SANDPAPER = static_cast<int64_t>(MaterialPreset::sandpaper),
+        PRESET_STEEL = static_cast<int64_t>(MaterialPreset::steel),
+        PRESET_SPONGE = static_cast<int64_t>(MaterialPreset::sponge),
     };
 
-    static std::span<const ValueRow<TouchMaterial>> rows();
-    void set_value(int64_t index, const godot::Variant& value) {
-        tactus::set_value(*this, rows(), index, touch_, value);
-    }
-    godot::Variant get_value(int64_t index) const { return tactus::get_value(rows(), index, touch_); }
+    TACTUS_PROPERTIES(HapticMaterial)
 
     // All values become the preset's, or those that they were when it was left. Nothing is forgotten: what
     // the material had before comes back with the preset that it had before.
     void set_preset(Preset preset);
     // The one that was chosen; where none was, the one whose values these are.
     Preset get_preset() const;
-
-    void set_texture_image(const godot::Ref<godot::Texture2D>& texture);
-    godot::Ref<godot::Texture2D> get_texture_image() const { return texture_; }
 
     // Ready for use, without the texture: static friction is never below dynamic friction.
     TouchMaterial touch() const;
@@ -52,17 +45,10 @@ protected:
 private:
     void texture_changed();
 
-    struct PresetValues {
-        TouchMaterial touch;
-        double friction = 1.0;  // between bodies, as PhysicsMaterial has it
-        double bounce = 0.0;
-    };
-    static PresetValues values_of(Preset preset);
-    PresetValues values() const { return {touch_, get_friction(), get_bounce()}; }
+    MaterialValues values() const { return {touch_, get_friction(), get_bounce()}; }
 
     TouchMaterial touch_;
-    Preset preset_ = PRESET_CUSTOM;
-    std::map<Preset, PresetValues> left_;  // as they were when another preset was chosen
+    PresetChoice choice_;
     godot::Ref<godot::Texture2D> texture_;
     mutable std::shared_ptr<const HeightImage> heights_;  // read once, when somebody asks
 };

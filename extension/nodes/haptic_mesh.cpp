@@ -2,7 +2,6 @@
 
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
-#include <numbers>
 #include <unordered_map>
 
 #include "nodes/conversions.hpp"
@@ -39,52 +38,18 @@ void HapticMesh::forget_triangles() {
     update_configuration_warnings();
 }
 
-void HapticMesh::resource_changed() {
-    forget_triangles();
-}
-
-void HapticMesh::set_mesh(const Ref<Mesh>& mesh) {
-    const Callable on_change(this, "_resource_changed");
-    if (mesh_.is_valid() && mesh_->is_connected("changed", on_change)) {
-        mesh_->disconnect("changed", on_change);
-    }
-    mesh_ = mesh;
-    if (mesh_.is_valid()) {
-        mesh_->connect("changed", on_change);
-    }
+void HapticMesh::mesh_changed() {
     notify_property_list_changed();
     forget_triangles();
 }
 
-void HapticMesh::set_library_mesh(const String& name) {
-    if (library_mesh_ != name) {
-        library_mesh_ = name;
-        known_mass_.reset();
-        forget_triangles();
-    }
+void HapticMesh::library_changed() {
+    known_mass_.reset();
+    forget_triangles();
 }
 
-void HapticMesh::set_smoothing_angle(double angle) {
-    if (!is_at_least_zero(angle) || angle > std::numbers::pi) {
-        refuse(*this, "smoothing_angle", angle, "between 0 and pi");
-        return;
-    }
-    if (smoothing_angle_ != angle) {
-        smoothing_angle_ = angle;
-        ++change_count;
-    }
-}
-
-void HapticMesh::set_one_sided(bool one_sided) {
-    if (one_sided_ != one_sided) {
-        one_sided_ = one_sided;
-        ++change_count;
-    }
-}
-
-void HapticMesh::set_use_library_mass(bool use) {
-    use_library_mass_ = use;
-    update_configuration_warnings();
+void HapticMesh::form_changed() {
+    ++change_count;
 }
 
 double HapticMesh::known_mass() const {

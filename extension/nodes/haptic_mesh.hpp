@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
 
 namespace tactus {
@@ -18,20 +19,7 @@ class HapticMesh : public godot::Node3D {
 public:
     ~HapticMesh() override;
 
-    void set_mesh(const godot::Ref<godot::Mesh>& mesh);
-    godot::Ref<godot::Mesh> get_mesh() const { return mesh_; }
-    void set_library_mesh(const godot::String& name);
-    godot::String get_library_mesh() const { return library_mesh_; }
-
-    // (unit: radians, 0 to pi)
-    void set_smoothing_angle(double angle);
-    double get_smoothing_angle() const { return smoothing_angle_; }
-
-    void set_one_sided(bool one_sided);
-    bool is_one_sided() const { return one_sided_; }
-
-    void set_use_library_mass(bool use);
-    bool is_using_library_mass() const { return use_library_mass_; }
+    TACTUS_PROPERTIES(HapticMesh)
 
     double get_library_mass() const;
     godot::String get_library_source() const;
@@ -61,12 +49,14 @@ private:
     // Null where nothing is named; a source with an error where it cannot be read.
     std::shared_ptr<MeshSource> source() const;
     double known_mass() const;
-    void resource_changed();
+    void mesh_changed();
+    void library_changed();
+    void form_changed();
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
     godot::String library_mesh_;
-    double smoothing_angle_ = 0.0;
+    double smoothing_angle_ = 0.0;  // (unit: radians)
     bool one_sided_ = false;
     bool use_library_mass_ = false;
     mutable std::optional<double> known_mass_;    // of the library's mesh, looked up once

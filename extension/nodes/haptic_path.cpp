@@ -2,7 +2,6 @@
 
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_drawing.hpp"
-#include "nodes/messages.hpp"
 
 namespace tactus {
 
@@ -10,8 +9,7 @@ using namespace godot;
 
 namespace {
 
-constexpr double max_length = 1e6;  // of all there is to say about a path (unit: meters)
-constexpr int64_t max_waves = 1'000'000;
+constexpr double max_length = 1e6;  // of a point from the origin (unit: meters)
 
 constexpr int line_steps = 600;  // points of a drawn path: 3 mm apart on the path of the thesis
 
@@ -21,71 +19,9 @@ bool starts_with(const StringName& name, const char* prefix) {
 
 }  // namespace
 
-void HapticPath::set_form(Form form) {
-    if (!is_one_of(*this, "form", form, FORM_POINTS, "FORM")) {
-        return;
-    }
-    change(form_, form);
+void HapticPath::form_changed() {
     notify_property_list_changed();
-}
-
-void HapticPath::set_center(const Vector3& center) {
-    if (!(static_cast<double>(center.length()) <= max_length)) {
-        refuse(*this, "circle_center", center, "no farther than 1,000,000 m");
-        return;
-    }
-    change(circle_.centre, from_godot(center));
-}
-
-Vector3 HapticPath::get_center() const {
-    return to_godot(circle_.centre);
-}
-
-void HapticPath::set_radius(double radius) {
-    if (!(radius >= 0.0 && radius <= max_length)) {
-        refuse(*this, "circle_radius", radius, "between 0 and 1,000,000 m");
-        return;
-    }
-    change(circle_.radius, radius);
-}
-
-void HapticPath::set_amplitude(double amplitude) {
-    if (!(amplitude >= 0.0 && amplitude <= max_length)) {
-        refuse(*this, "circle_amplitude", amplitude, "between 0 and 1,000,000 m");
-        return;
-    }
-    change(circle_.amplitude, amplitude);
-}
-
-void HapticPath::set_turn_time(double seconds) {
-    if (!(seconds >= 1e-3 && seconds <= 1e6)) {
-        refuse(*this, "circle_turn_time", seconds, "between 0.001 and 1,000,000 seconds");
-        return;
-    }
-    change(circle_.turn_time, from_seconds(seconds));
-}
-
-void HapticPath::set_waves(int64_t waves) {
-    if (waves < 0 || waves > max_waves) {
-        refuse(*this, "circle_waves", waves, "between 0 and 1,000,000");
-        return;
-    }
-    change(circle_.waves, static_cast<int>(waves));
-}
-
-void HapticPath::set_points(const PackedVector3Array& points) {
-    change(points_, points);
-}
-void HapticPath::set_times(const PackedFloat64Array& times) {
-    change(times_, times);
-}
-void HapticPath::set_interpolation(Interpolation interpolation) {
-    if (is_one_of(*this, "points_interpolation", interpolation, INTERPOLATION_SMOOTH, "INTERPOLATION")) {
-        change(interpolation_, interpolation);
-    }
-}
-void HapticPath::set_loop(bool loop) {
-    change(loop_, loop);
+    emit_changed();
 }
 
 HandPath HapticPath::hand_path() const {

@@ -7,6 +7,7 @@
 #include <godot_cpp/variant/packed_vector3_array.hpp>
 
 #include "devices/hand_path.hpp"
+#include "nodes/properties.hpp"
 
 namespace tactus {
 
@@ -18,28 +19,7 @@ public:
     enum Form : int64_t { FORM_CIRCLE_WAVE, FORM_POINTS };
     enum Interpolation : int64_t { INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH };
 
-    void set_form(Form form);
-    Form get_form() const { return form_; }
-
-    void set_center(const godot::Vector3& center);
-    godot::Vector3 get_center() const;
-    void set_radius(double radius);
-    double get_radius() const { return circle_.radius; }
-    void set_amplitude(double amplitude);
-    double get_amplitude() const { return circle_.amplitude; }
-    void set_turn_time(double seconds);
-    double get_turn_time() const { return to_seconds(circle_.turn_time); }
-    void set_waves(int64_t waves);
-    int get_waves() const { return circle_.waves; }
-
-    void set_points(const godot::PackedVector3Array& points);
-    godot::PackedVector3Array get_points() const { return points_; }
-    void set_times(const godot::PackedFloat64Array& times);
-    godot::PackedFloat64Array get_times() const { return times_; }
-    void set_interpolation(Interpolation interpolation);
-    Interpolation get_interpolation() const { return interpolation_; }
-    void set_loop(bool loop);
-    bool is_looping() const { return loop_; }
+    TACTUS_PROPERTIES(HapticPath)
 
     godot::String get_problem() const;
     double get_duration() const;
@@ -54,11 +34,7 @@ protected:
     void _validate_property(godot::PropertyInfo& property) const;
 
 private:
-    template <typename Value>
-    void change(Value& property, const Value& value) {
-        property = value;
-        emit_changed();
-    }
+    void form_changed();
 
     Form form_ = FORM_CIRCLE_WAVE;
     CircleWave circle_;

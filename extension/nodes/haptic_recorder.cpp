@@ -29,39 +29,6 @@ HapticRecorder::~HapticRecorder() {
     stop();
 }
 
-void HapticRecorder::set_proxy(const NodePath& path) {
-    proxy_ = path;
-    update_configuration_warnings();
-}
-
-void HapticRecorder::set_object(const NodePath& path) {
-    object_ = path;
-    update_configuration_warnings();
-}
-
-void HapticRecorder::set_csv_path(const String& path) {
-    csv_path_ = path;
-    update_configuration_warnings();
-}
-
-void HapticRecorder::set_trace_path(const String& path) {
-    trace_path_ = path;
-    update_configuration_warnings();
-}
-
-void HapticRecorder::set_autostart(bool autostart) {
-    autostart_ = autostart;
-    update_configuration_warnings();
-}
-
-void HapticRecorder::set_trace_seconds(double seconds) {
-    if (!is_above_zero(seconds)) {
-        refuse(*this, "trace_seconds", seconds, "a finite number above 0");
-        return;
-    }
-    trace_seconds_ = seconds;
-}
-
 const ProxyPointer* HapticRecorder::proxy_node() const {
     return is_inside_tree() && !proxy_.is_empty() ? Object::cast_to<ProxyPointer>(get_node_or_null(proxy_))
                                                   : nullptr;

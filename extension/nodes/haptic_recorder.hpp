@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "nodes/properties.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "realtime/tick_trace.hpp"
 #include "session/session_types.hpp"
@@ -24,18 +25,7 @@ public:
     HapticRecorder() = default;
     ~HapticRecorder() override;
 
-    void set_proxy(const godot::NodePath& path);
-    godot::NodePath get_proxy() const { return proxy_; }
-    void set_object(const godot::NodePath& path);
-    godot::NodePath get_object() const { return object_; }
-    void set_csv_path(const godot::String& path);
-    godot::String get_csv_path() const { return csv_path_; }
-    void set_trace_path(const godot::String& path);
-    godot::String get_trace_path() const { return trace_path_; }
-    void set_trace_seconds(double seconds);
-    double get_trace_seconds() const { return trace_seconds_; }
-    void set_autostart(bool autostart);
-    bool is_autostart() const { return autostart_; }
+    TACTUS_PROPERTIES(HapticRecorder)
 
     bool start();
     void stop();

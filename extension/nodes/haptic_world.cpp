@@ -18,6 +18,7 @@
 #include "nodes/signals.hpp"
 #include "nodes/world_run.hpp"
 #include "realtime/workers.hpp"
+#include "world/status_words.hpp"
 
 namespace tactus {
 
@@ -27,42 +28,11 @@ namespace {
 
 constexpr double report_interval = 1.0;  // (unit: seconds)
 
-constexpr double max_gravity = 1000.0;  // (unit: meters per square second)
-
 constexpr double max_advance = 3600.0;  // (unit: seconds)
 
 // Frames take turns of very different length; a body that moves on Godot's side is given at least this long
 // for its way (unit: seconds).
 constexpr double shortest_way = 1e-3;
-
-struct StatusWord {
-    TickStatus bit;
-    const char* text;
-};
-
-constexpr StatusWord status_words[] = {
-    {session_step_pairs_full, "too many bodies near each other at once: some contacts were lost"},
-    {session_step_contacts_full, "too many contacts at once: some were lost"},
-    {session_step_memory_full, "the physics step needed more memory than it had set aside"},
-    {session_full, "a body, device or proxy found no place: raise max_bodies or remove some"},
-    {session_force_limited, "a force was longer than its device's limit and was shortened"},
-    {session_proxy_unfinished, "a proxy needed more than one tick to find its place"},
-    {session_record_lost, "a recorder could not keep up"},
-    {session_body_lost, "a body left the range of numbers: it was put back where it was, asleep"},
-    {session_commands_waiting, "many changes at once: they take effect over several ticks"},
-    {tick_late, "a tick ended after the next one was due"},
-    {tick_rebased, "the program stood still for so long that the schedule was moved"},
-};
-
-String status_text(TickStatus status) {
-    PackedStringArray words;
-    for (const StatusWord& word : status_words) {
-        if ((status & word.bit) != 0) {
-            words.push_back(word.text);
-        }
-    }
-    return String("; ").join(words);
-}
 
 Vector3 project_gravity() {
     const ProjectSettings* project = ProjectSettings::get_singleton();
@@ -125,81 +95,18 @@ HapticWorld::~HapticWorld() = default;
 // --- properties
 // ------------------------------------------------------------------------------------------------------
 
-void HapticWorld::change(Change what) {
-    change_ = std::max(change_, what);
-}
-
-template <class Value>
-void HapticWorld::exchange(Value& property, const Value& value, Change what) {
-    if (property != value) {
-        property = value;
-        change(what);
-    }
-}
-
-void HapticWorld::set_tick_rate(int64_t hertz) {
-    if (hertz < 10 || hertz > 20000) {
-        refuse(*this, "tick_rate", hertz, "between 10 and 20,000 Hz");
-        return;
-    }
-    exchange(tick_rate_, static_cast<int>(hertz), Change::world);
-}
-
-void HapticWorld::set_clock(Clock clock) {
-    if (is_one_of(*this, "clock", clock, CLOCK_STEPPED, "CLOCK")) {
-        exchange(clock_, clock, Change::world);
-    }
-}
-
-void HapticWorld::set_gravity(const Vector3& gravity) {
-    if (!gravity.is_finite() || static_cast<double>(gravity.length()) > max_gravity) {
-        refuse(*this, "gravity", gravity, "made of finite numbers, and no longer than 1,000 m/s²");
-        return;
-    }
-    gravity_ = gravity;
+void HapticWorld::gravity_changed() {
     if (run_ != nullptr) {
         run_->session().set_gravity(from_godot(gravity_));
     }
 }
 
-void HapticWorld::set_max_bodies(int64_t count) {
-    if (count < 1 || count > 65536) {
-        refuse(*this, "max_bodies", count, "between 1 and 65,536");
-        return;
-    }
-    exchange(max_bodies_, static_cast<int>(count), Change::world);
-}
-
-void HapticWorld::set_realtime_priority(int64_t priority) {
-    if (priority < 0 || priority > 99) {
-        refuse(*this, "realtime_priority", priority, "between 0 (ordinary scheduling) and 99");
-        return;
-    }
-    exchange(realtime_priority_, static_cast<int>(priority), Change::loop);
-}
-
-void HapticWorld::set_processor(int64_t processor) {
-    if (processor < last_processor || processor > 4095) {
-        refuse(*this, "processor", processor, "-2 (the last one), -1 (any), or a processor's number");
-        return;
-    }
-    exchange(processor_, static_cast<int>(processor), Change::loop);
-}
-
-void HapticWorld::set_lock_memory(bool lock) {
-    exchange(lock_memory_, lock, Change::loop);
-}
-
-void HapticWorld::set_measure_baseline(bool measure) {
-    exchange(measure_baseline_, measure, Change::loop);
-}
-
 bool HapticWorld::_set(const StringName& name, const Variant& value) {
-    if (name != StringName("most_bodies")) {
-        return false;
+    const char* now = new_name_of<HapticWorld>("HapticWorld." + String(name));
+    if (now != nullptr) {
+        set(now, value);
     }
-    set_max_bodies(static_cast<int64_t>(value));
-    return true;
+    return now != nullptr;
 }
 
 TouchMaterial HapticWorld::default_touch() const {
@@ -426,7 +333,7 @@ void HapticWorld::report_status(double seconds) {
     }
     since_report_ = 0.0;
     if (const TickStatus status = run_->take_status(); status != 0) {
-        post_signal(*this, "status_reported", {static_cast<int64_t>(status), status_text(status)});
+        post_signal(*this, "status_reported", {static_cast<int64_t>(status), to_godot(status_words(status))});
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
@@ -9,6 +10,7 @@
 
 #include "core/haptics/touch_material.hpp"
 #include "nodes/haptic_material.hpp"
+#include "nodes/properties.hpp"
 #include "realtime/tick_loop.hpp"
 
 namespace tactus {
@@ -27,24 +29,7 @@ public:
     HapticWorld();
     ~HapticWorld() override;
 
-    void set_tick_rate(int64_t hertz);
-    int get_tick_rate() const { return tick_rate_; }
-    void set_clock(Clock clock);
-    Clock get_clock() const { return clock_; }
-    void set_gravity(const godot::Vector3& gravity);
-    godot::Vector3 get_gravity() const { return gravity_; }
-    void set_default_material(const godot::Ref<HapticMaterial>& material) { default_material_ = material; }
-    godot::Ref<HapticMaterial> get_default_material() const { return default_material_; }
-    void set_max_bodies(int64_t count);
-    int get_max_bodies() const { return max_bodies_; }
-    void set_realtime_priority(int64_t priority);
-    int get_realtime_priority() const { return realtime_priority_; }
-    void set_processor(int64_t processor);
-    int get_processor() const { return processor_; }
-    void set_lock_memory(bool lock);
-    bool is_locking_memory() const { return lock_memory_; }
-    void set_measure_baseline(bool measure);
-    bool is_measuring_baseline() const { return measure_baseline_; }
+    TACTUS_PROPERTIES(HapticWorld)
 
     int64_t advance(double seconds);
     bool is_running() const { return run_ != nullptr; }
@@ -82,7 +67,8 @@ public:
     // The nearest one above, whether it runs or not.
     static HapticWorld* above(const godot::Node* node);
     // It becomes a side of a teleoperation, or none, or another one: it starts anew.
-    void link_changed() { change(Change::world); }
+    void link_changed() { world_changed(); }
+    godot::Vector3 get_gravity() const { return gravity_; }
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder* recorder);
     TouchMaterial default_touch() const;
@@ -104,9 +90,9 @@ private:
     bool can_ask(const char* method, const godot::Vector3& where, double size) const;
     void start();
     void stop();
-    void change(Change what);
-    template <class Value>
-    void exchange(Value& property, const Value& value, Change what);
+    void world_changed() { change_ = Change::world; }
+    void loop_changed() { change_ = std::max(change_, Change::loop); }
+    void gravity_changed();
     void catch_up();
     void start_loop();
     TickLoopSettings loop_settings() const;

@@ -5,7 +5,6 @@
 #include <godot_cpp/variant/basis.hpp>
 #include <godot_cpp/variant/packed_int32_array.hpp>
 #include <godot_cpp/variant/packed_vector3_array.hpp>
-#include <unordered_map>
 
 #include "core/geometry/triangle_mesh.hpp"
 
@@ -17,16 +16,10 @@ class MeshCollector {
 public:
     // Three corners a triangle; without indices, each corner in turn.
     void add(const godot::PackedVector3Array& corners, const godot::PackedInt32Array& indices);
-    TriangleMesh take() { return std::move(mesh_); }
+    TriangleMesh take();
 
 private:
-    struct PlaceHash {
-        std::size_t operator()(const Vec3& v) const;
-    };
-    std::uint32_t vertex_at(const Vec3& place);
-
     TriangleMesh mesh_;
-    std::unordered_map<Vec3, std::uint32_t, PlaceHash> vertices_;
 };
 
 // Scaled, mirrored or sheared; the triangles of a mirrored mesh are turned over so that outside stays

@@ -11,9 +11,6 @@
 
 namespace tactus {
 
-inline bool is_above_zero(double value) {
-    return std::isfinite(value) && value > 0.0;
-}
 inline bool is_at_least_zero(double value) {
     return std::isfinite(value) && value >= 0.0;
 }

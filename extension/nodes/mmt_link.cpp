@@ -6,6 +6,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/model_view.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
@@ -24,6 +25,33 @@ constexpr int usual_port_of_teleoperator = 47002;
 const NetworkConditions::Values& usual_conditions() {
     static const NetworkConditions::Values values;
     return values;
+}
+
+// { "turn": [1, 0, 0, 10], "mass": 1.2 }: the axis and its angle in degrees; factors.
+Vec3 read_vector(const Array& numbers) {
+    Vec3 v(0.0);
+    for (int i = 0; i < 3 && i < numbers.size(); ++i) {
+        v[i] = static_cast<double>(numbers[i]);
+    }
+    return v;
+}
+
+ModelError read_error(const Dictionary& from) {
+    ModelError error;
+    const auto read_factor = [&from](const char* what) {
+        const double value = from.get(what, 1.0);
+        return is_at_least_zero(value) ? value : 1.0;
+    };
+    error.move = read_vector(from.get("move", Array()));
+    const Array turn = from.get("turn", Array());
+    if (const Vec3 axis = read_vector(turn); turn.size() == 4 && glm::length(axis) > 0.0) {
+        error.turn = glm::angleAxis(glm::radians(static_cast<double>(turn[3])), glm::normalize(axis));
+    }
+    error.mass = read_factor("mass");
+    error.friction = read_factor("friction");
+    error.touch_friction = read_factor("touch_friction");
+    error.stiffness = read_factor("stiffness");
+    return error;
 }
 
 }  // namespace
@@ -53,65 +81,23 @@ void MMTLink::restart_world() {
     }
 }
 
-void MMTLink::set_scenario(Scenario scenario) {
-    if (scenario != SCENARIO_SINGLE && scenario != SCENARIO_TRADITIONAL && scenario != SCENARIO_MMT) {
-        refuse(*this, "scenario", static_cast<int64_t>(scenario), "1, 2 or 4");
-        return;
-    }
-    const bool was_networked = is_networked();
-    scenario_ = scenario;
-    if (was_networked != is_networked()) {
-        restart_world();
-        take_report(at_rest(), {});
-    } else {
+void MMTLink::scenario_changed() {
+    if (std::exchange(was_networked_, is_networked()) == is_networked()) {
         changed();
-    }
-}
-
-void MMTLink::set_side(Side side) {
-    if (side != SIDE_OPERATOR && side != SIDE_TELEOPERATOR) {
-        refuse(*this, "side", static_cast<int64_t>(side), "0 (operator) or 1 (teleoperator)");
         return;
     }
-    if (side_ != side) {
-        side_ = side;
-        wire_.reset();
-        ++way_revision_;
-        restart_world();
-    }
+    restart_world();
+    take_report(at_rest(), {});
 }
 
-void MMTLink::set_partner(const NodePath& path) {
-    partner_ = path;
+void MMTLink::side_changed() {
     wire_.reset();
-    way_changed();
+    ++way_revision_;
+    restart_world();
 }
 
-void MMTLink::set_local_address(const String& address) {
-    local_address_ = address.strip_edges();
-    way_changed();
-}
-
-void MMTLink::set_local_port(int64_t port) {
-    if (port < 0 || port > 65535) {
-        refuse(*this, "local_port", port, "0 (the side's usual one) or a port, 1 to 65535");
-        return;
-    }
-    local_port_ = static_cast<int>(port);
-    way_changed();
-}
-
-void MMTLink::set_remote_address(const String& address) {
-    remote_address_ = address.strip_edges();
-    way_changed();
-}
-
-void MMTLink::set_remote_port(int64_t port) {
-    if (port < 0 || port > 65535) {
-        refuse(*this, "remote_port", port, "0 (the far side's usual one) or a port, 1 to 65535");
-        return;
-    }
-    remote_port_ = static_cast<int>(port);
+void MMTLink::partner_changed() {
+    wire_.reset();
     way_changed();
 }
 
@@ -127,58 +113,19 @@ void MMTLink::set_key_file(const String& path) {
     way_changed();
 }
 
-void MMTLink::set_control_scheme(int64_t scheme) {
-    if (!is_one_of(*this, "control_scheme", scheme,
-                   static_cast<int64_t>(ControlScheme::position_force_relative), "CONTROL")) {
-        return;
-    }
-    control_ = static_cast<ControlScheme>(scheme);
-    changed();
-}
-
-void MMTLink::set_correction_scheme(int64_t scheme) {
-    if (!is_one_of(*this, "correction_scheme", scheme, static_cast<int64_t>(Correction::passive),
-                   "CORRECTION")) {
-        return;
-    }
-    correction_ = static_cast<Correction>(scheme);
-    changed();
-}
-
-template <class Values>
-void MMTLink::exchange(Ref<Values>& own, const Ref<Values>& other) {
-    const Callable on_change(this, "_values_changed");
-    if (own.is_valid()) {
-        own->disconnect("changed", on_change);
-    }
-    own = other;
-    if (own.is_valid()) {
-        own->connect("changed", on_change);
-    }
-    values_changed();
-}
-
-void MMTLink::set_conditions(const Ref<NetworkConditions>& conditions) {
-    exchange(conditions_, conditions);
-}
-
-void MMTLink::set_tuning(const Ref<TeleopTuning>& tuning) {
-    exchange(tuning_, tuning);
-}
-
 void MMTLink::values_changed() {
     const std::uint64_t seed = conditions_.is_valid() ? conditions_->seed() : usual_conditions().seed;
     std::exchange(seed_, seed) != seed ? way_changed() : changed();
 }
 
 template <class Values>
-bool MMTLink::take_old(Ref<Values>& own, const char* place, const String& name, const Variant& value) {
-    const char* now = new_name_of(Values::rows(), "MMTLink." + name);
+bool MMTLink::take_old(const char* place, const Ref<Values>& own, const String& name, const Variant& value) {
+    const char* now = new_name_of<Values>("MMTLink." + name);
     if (now == nullptr) {
         return false;
     }
     if (own.is_null()) {
-        exchange(own, Ref<Values>(memnew(Values)));
+        set(place, memnew(Values));
     }
     own->set(now, value);
     if (!std::exchange(is_old_, true)) {
@@ -190,49 +137,59 @@ bool MMTLink::take_old(Ref<Values>& own, const char* place, const String& name, 
 }
 
 bool MMTLink::_set(const StringName& name, const Variant& value) {
-    return take_old(conditions_, "conditions", name, value) || take_old(tuning_, "tuning", name, value);
-}
-
-void MMTLink::set_model_errors(const Dictionary& errors) {
-    model_errors_ = errors;
-    restart_world();
+    return take_old("conditions", conditions_, name, value) || take_old("tuning", tuning_, name, value);
 }
 
 // --- what the world's run takes from here
 // ---------------------------------------------------------------------------
 
-TeleopSettings MMTLink::teleop_settings() const {
-    TeleopSettings settings = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
-    settings.traditional = scenario_ == SCENARIO_TRADITIONAL;
-    settings.correction = correction_;
-    settings.control = control_;
-    settings.skew = conditions_.is_valid() ? conditions_->skew() : ClockSkew{};
-    return settings;
+LinkPlan MMTLink::plan() {
+    LinkPlan plan;
+    plan.is_operator = is_operator();
+    plan.scenario = static_cast<std::uint8_t>(scenario_);
+    plan.problem = from_godot(problem());
+    plan.revision = revision_;
+    plan.way_revision = way_revision_;
+    plan.teleop = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
+    plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL;
+    plan.teleop.correction = correction_;
+    plan.teleop.control = control_;
+    plan.network = network_settings();
+    plan.key_file = from_godot(key_file_);
+    if (conditions_.is_valid()) {
+        plan.teleop.skew = conditions_->skew();
+        plan.trace = conditions_->trace();
+        plan.trace_problem = from_godot(conditions_->trace_problem());
+    }
+    if (MMTLink* const partner = plan.problem.empty() ? partner_node() : nullptr) {
+        plan.wire = wire(*partner);
+        plan.partner = from_godot(name_of(*partner));
+    }
+    return plan;
 }
 
-LinkConditions MMTLink::conditions() const {
-    return conditions_.is_valid() ? conditions_->conditions() : LinkConditions{};
-}
-
-std::shared_ptr<const DelayTrace> MMTLink::trace() const {
-    return conditions_.is_valid() ? conditions_->trace() : nullptr;
+std::unordered_map<std::string, ModelError> MMTLink::model_errors() const {
+    std::unordered_map<std::string, ModelError> errors;
+    const Array names = model_errors_.keys();
+    for (int64_t i = 0; i < names.size(); ++i) {
+        if (const Variant wrong = model_errors_[names[i]]; wrong.get_type() == Variant::DICTIONARY) {
+            errors[from_godot(String(names[i]))] = read_error(wrong);
+        }
+    }
+    return errors;
 }
 
 NetworkSettings MMTLink::network_settings() const {
     const int own = is_operator() ? usual_port_of_operator : usual_port_of_teleoperator;
     const int other = is_operator() ? usual_port_of_teleoperator : usual_port_of_operator;
     NetworkSettings settings;
-    settings.udp.local_address = from_godot(local_address_);
+    settings.udp.local_address = from_godot(local_address_.strip_edges());
     settings.udp.local_port = static_cast<std::uint16_t>(local_port_ > 0 ? local_port_ : own);
-    settings.udp.remote_address = from_godot(remote_address_);
+    settings.udp.remote_address = from_godot(remote_address_.strip_edges());
     settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_ > 0 ? remote_port_ : other);
-    settings.conditions = conditions();
+    settings.conditions = conditions_.is_valid() ? conditions_->conditions() : LinkConditions{};
     settings.seed = seed_;
     return settings;
-}
-
-String MMTLink::trace_problem() const {
-    return conditions_.is_valid() ? conditions_->trace_problem() : String();
 }
 
 MMTLink* MMTLink::of(const HapticWorld& world) {
@@ -248,14 +205,10 @@ MMTLink* MMTLink::partner_node() const {
     return is_inside_tree() && !partner_.is_empty() ? cast_to<MMTLink>(get_node_or_null(partner_)) : nullptr;
 }
 
-std::shared_ptr<MemoryLinkPair> MMTLink::wire() {
-    MMTLink* const partner = partner_node();
-    if (partner == nullptr) {
-        return nullptr;
-    }
-    if (wire_ == nullptr || wire_ != partner->wire_) {
-        wire_ = partner->wire_ != nullptr ? partner->wire_ : std::make_shared<MemoryLinkPair>();
-        partner->wire_ = wire_;
+std::shared_ptr<MemoryLinkPair> MMTLink::wire(MMTLink& partner) {
+    if (wire_ == nullptr || wire_ != partner.wire_) {
+        wire_ = partner.wire_ != nullptr ? partner.wire_ : std::make_shared<MemoryLinkPair>();
+        partner.wire_ = wire_;
     }
     return wire_;
 }
@@ -265,7 +218,6 @@ std::shared_ptr<MemoryLinkPair> MMTLink::wire() {
 
 LinkReport MMTLink::at_rest() const {
     LinkReport report;
-    report.state = STATE_OFF;
     report.text = is_networked() ? "no HapticWorld is running above this node" : "one machine, no network";
     return report;
 }
@@ -277,33 +229,33 @@ void MMTLink::clear_report() {
 
 // Where no world runs it, this node alone can say why.
 MMTLink::State MMTLink::get_state() const {
-    const bool idle = report_.state == STATE_OFF && is_networked() && is_inside_tree();
+    const bool idle = report_.state == LinkState::off && is_networked() && is_inside_tree();
     return idle && !problem().is_empty() ? STATE_FAILED : static_cast<State>(report_.state);
 }
 
 String MMTLink::get_state_text() const {
-    const bool fails_by_itself = report_.state == STATE_OFF && get_state() == STATE_FAILED;
-    return fails_by_itself ? problem() : report_.text;
+    const bool fails_by_itself = report_.state == LinkState::off && get_state() == STATE_FAILED;
+    return fails_by_itself ? problem() : to_godot(report_.text);
 }
 
 void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>& news) {
     const LinkReport before = std::exchange(report_, report);
-    const bool was_connected = before.state == STATE_CONNECTED;
-    const bool is_connected = report.state == STATE_CONNECTED;
+    const bool was_connected = before.state == LinkState::connected;
+    const bool is_connected = report.state == LinkState::connected;
     const bool restarted = report.teleop.link.peer_restarts > restarts_seen_;
     restarts_seen_ = report.teleop.link.peer_restarts;
     const auto say = [this](const char* signal, const auto&... values) {
         post_signal(*this, signal, {values...});
     };
     if (before.state != report.state || before.text != report.text) {
-        say("state_changed", static_cast<int64_t>(report.state), report.text);
+        say("state_changed", static_cast<int64_t>(report.state), to_godot(report.text));
     }
     if (restarted) {
         say("peer_restarted");
     }
     if (is_connected && !was_connected) {
         say("peer_connected");
-    } else if (was_connected && (report.state == STATE_LOST || report.state == STATE_LEFT)) {
+    } else if (was_connected && (report.state == LinkState::lost || report.state == LinkState::left)) {
         say("peer_lost");
     }
     for (const ModelNews& one : news) {
@@ -337,16 +289,7 @@ String MMTLink::problem() const {
 // What keeps it from having a way to the far side.
 String MMTLink::way_problem() const {
     if (partner_.is_empty()) {
-        if (remote_address_.is_empty()) {
-            return "the far side has no address: set 'remote_address'";
-        }
-        const NetworkSettings settings = network_settings();
-        const bool loops = remote_address_ == String("127.0.0.1") || remote_address_ == String("localhost") ||
-                           remote_address_ == String("::1");
-        if (loops && settings.udp.local_port == settings.udp.remote_port) {
-            return "it would talk to itself: on one machine the two sides need different ports";
-        }
-        return String();
+        return to_godot(problem_of_addresses(network_settings().udp));
     }
     const MMTLink* partner = partner_node();
     if (partner == nullptr) {
@@ -371,7 +314,8 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         warnings.push_back("This MMTLink does nothing: " + wrong + ".");
     }
-    if (const String wrong = trace_problem(); !wrong.is_empty()) {
+    if (const String wrong = conditions_.is_valid() ? conditions_->trace_problem() : String();
+        !wrong.is_empty()) {
         warnings.push_back("The conditions of this MMTLink emulate no trace: " + wrong + ".");
     }
     const HapticWorld* world = HapticWorld::above(this);

@@ -10,12 +10,19 @@
 
 #include "core/geometry/shape.hpp"
 #include "network/messages.hpp"
-#include "nodes/mmt_link.hpp"
 #include "session/model_builder.hpp"
 
 namespace tactus {
 
 class HapticWorld;
+
+// What has happened to an object of the far side.
+struct ModelNews {
+    enum class Kind { discovered, removed, refused } kind = Kind::discovered;
+    godot::String name;
+    std::uint64_t node = 0;  // that shows it
+    godot::String why;       // it was refused
+};
 
 class ModelView {
 public:

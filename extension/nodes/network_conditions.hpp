@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "network/link_conditions.hpp"
-#include "nodes/value_rows.hpp"
+#include "nodes/properties.hpp"
 
 namespace tactus {
 
@@ -21,12 +21,7 @@ public:
         ClockSkew skew;             // of this side's clock
         std::uint64_t seed = 1;
     };
-    static std::span<const ValueRow<Values>> rows();
-
-    void set_value(int64_t index, const godot::Variant& value) {
-        tactus::set_value(*this, rows(), index, values_, value);
-    }
-    godot::Variant get_value(int64_t index) const { return tactus::get_value(rows(), index, values_); }
+    TACTUS_PROPERTIES(NetworkConditions)
     void set_trace_file(const godot::String& path);
     godot::String get_trace_file() const { return trace_file_; }
 

@@ -68,11 +68,6 @@ Transform3D between(const Vector3& from, const Vector3& to, double thickness) {
 
 }  // namespace
 
-void ProxyPointer::set_device(const NodePath& path) {
-    device_ = path;
-    update_configuration_warnings();
-}
-
 void ProxyPointer::set_radius(double meters) {
     radius_was_refused_ = !(meters >= min_radius && meters <= max_radius);
     update_configuration_warnings();
@@ -82,31 +77,6 @@ void ProxyPointer::set_radius(double meters) {
     }
     radius_ = meters;
     place_pictures();
-}
-
-void ProxyPointer::set_collision_mask(int64_t mask) {
-    if (mask < 0 || mask > INT64_C(0xffff'ffff)) {
-        refuse(*this, "collision_mask", mask, "made of the 32 layers");
-        return;
-    }
-    mask_ = static_cast<std::uint32_t>(mask);
-    update_configuration_warnings();
-}
-
-void ProxyPointer::set_force_law(ForceLaw law) {
-    if (is_one_of(*this, "force_law", law, FORCE_LAW_SMOOTHED, "FORCE_LAW")) {
-        force_law_ = law;
-    }
-}
-
-void ProxyPointer::set_show_proxy(bool show) {
-    show_proxy_ = show;
-    make_pictures();
-}
-
-void ProxyPointer::set_show_hand(bool show) {
-    show_hand_ = show;
-    make_pictures();
 }
 
 Vector3 ProxyPointer::get_force() const {

@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/typed_array.hpp>
 #include <vector>
 
+#include "nodes/properties.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {
@@ -29,20 +30,9 @@ public:
     };
     enum ForceLaw : int64_t { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
 
-    void set_device(const godot::NodePath& path);
-    godot::NodePath get_device() const { return device_; }
+    TACTUS_PROPERTIES(ProxyPointer)
     void set_radius(double meters);
     double get_radius() const { return radius_; }
-    void set_collision_mask(int64_t mask);
-    int64_t get_collision_mask() const { return mask_; }
-    void set_force_law(ForceLaw law);
-    ForceLaw get_force_law() const { return force_law_; }
-    void set_enabled(bool enabled) { enabled_ = enabled; }
-    bool is_enabled() const { return enabled_; }
-    void set_show_proxy(bool show);
-    bool get_show_proxy() const { return show_proxy_; }
-    void set_show_hand(bool show);
-    bool get_show_hand() const { return show_hand_; }
 
     godot::Vector3 get_force() const;
     godot::Vector3 get_hand_position() const;

@@ -3,7 +3,7 @@
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 
-#include "nodes/value_rows.hpp"
+#include "nodes/properties.hpp"
 #include "session/teleop_port.hpp"
 
 namespace tactus {
@@ -14,12 +14,7 @@ class TeleopTuning : public godot::Resource {
     GDCLASS(TeleopTuning, godot::Resource)
 
 public:
-    static std::span<const ValueRow<TeleopSettings>> rows();
-
-    void set_value(int64_t index, const godot::Variant& value) {
-        tactus::set_value(*this, rows(), index, values_, value);
-    }
-    godot::Variant get_value(int64_t index) const { return tactus::get_value(rows(), index, values_); }
+    TACTUS_PROPERTIES(TeleopTuning)
 
     const TeleopSettings& settings() const { return values_; }
 

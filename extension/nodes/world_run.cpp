@@ -69,11 +69,10 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     if (settings_.link != nullptr) {
-        link_ = std::make_unique<LinkRun>(*settings_.link, world_, session_,
-                                          settings_.real_time ? &clock_offset_ : nullptr);
+        start_link();
     }
     // At the far side the hand is the operator's: what is plugged in here has no part in it.
-    const bool stands_in = link_ != nullptr && !link_->is_operator();
+    const bool stands_in = link_ != nullptr && view_ == nullptr;
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
@@ -92,11 +91,14 @@ void WorldRun::end() {
     }
     session_.rest();
     bodies_.release(session_);
-    if (link_ != nullptr && link_->is_operator()) {
-        link_->view()->release();
+    if (view_ != nullptr) {
+        view_->release();
     }
     if (link_ != nullptr) {
         link_->end();
+    }
+    if (link_node_ != nullptr) {
+        link_node_->clear_report();
     }
     hands_->release();
 }
@@ -176,8 +178,8 @@ void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
     session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_link();
-    if (link_ != nullptr && link_->is_operator()) {
-        link_->view()->hold_still();
+    if (view_ != nullptr) {
+        view_->hold_still();
     } else {
         synchronise_bodies(seconds);
     }
@@ -194,8 +196,7 @@ void WorldRun::synchronise(double seconds) {
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;
     const std::uint32_t first = settings_.real_time ? frames_between : 2;
-    if (++looks_ < first || (looks_ - first) % frames_between != 0 ||
-        (link_ != nullptr && link_->is_operator())) {
+    if (++looks_ < first || (looks_ - first) % frames_between != 0 || view_ != nullptr) {
         return;
     }
     const SceneFacts facts = bodies_.facts();
@@ -239,15 +240,53 @@ void WorldRun::synchronise_bodies(double seconds) {
 // --- the far side
 // ----------------------------------------------------------------------------------------------------
 
+void WorldRun::start_link() {
+    link_node_ = settings_.link;
+    link_ = std::make_unique<WorldLink>(link_node_->plan(), session_, from_godot(world_.get_gravity()),
+                                        pose_of(world_.get_global_transform()),
+                                        settings_.real_time ? &clock_offset_ : nullptr);
+    if (!link_->is_operator()) {
+        return;
+    }
+    view_ = std::make_unique<ModelView>(world_);
+    link_->set_distortion([this, errors = link_node_->model_errors()](ObjectDescription& description) {
+        if (const auto error = errors.find(description.name); error != errors.end()) {
+            distort(error->second, description);
+        }
+        view_->note(description);
+    });
+}
+
 void WorldRun::synchronise_link() {
     if (link_ == nullptr) {
         return;
     }
     const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
-    link_->synchronise(Workers::shared(), {now, !loop_.running(), !settings_.real_time});
-    if (!link_->is_operator()) {
-        link_->tell(bodies_.bodies(), session_.snapshot(), now);
+    const bool has_new_objects = link_->synchronise(
+        link_node_ != nullptr ? std::optional(link_node_->plan()) : std::nullopt,
+        from_godot(world_.get_gravity()), Workers::shared(), {now, !loop_.running(), !settings_.real_time});
+    if (has_new_objects) {
+        std::ranges::move(view_->update(link_->objects()), std::back_inserter(model_news_));
     }
+    if (view_ == nullptr) {
+        tell_far_side(now);
+    }
+}
+
+void WorldRun::tell_far_side(Nanoseconds now) {
+    std::vector<WorldLink::Told> told;
+    std::vector<const BodyMirror*> mirrors;
+    for (const auto& mirror : bodies_.bodies()) {
+        if (mirror->handle() != no_handle && mirror->body() != nullptr) {
+            told.push_back({mirror->handle(), mirror->revision()});
+            mirrors.push_back(mirror.get());
+        }
+    }
+    const auto describe = [&](std::size_t i) {
+        return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
+                                      mirrors[i]->addition()};
+    };
+    link_->tell(told, describe, session_.snapshot(), now);
 }
 
 // --- recording
@@ -327,8 +366,8 @@ void WorldRun::forget(HapticRecorder* recorder) {
 }
 
 void WorldRun::forget(MMTLink* link) {
-    if (link_ != nullptr && link_->is_of(link)) {
-        link_->forget_node();
+    if (link == link_node_) {
+        link_node_ = nullptr;
     }
 }
 
@@ -340,8 +379,8 @@ void WorldRun::finish(HapticRecorder* recorder) {
 }
 
 void WorldRun::scene_changed(const Node& node) {
-    if (link_ != nullptr && link_->is_operator()) {
-        link_->view()->scene_changed(node);
+    if (view_ != nullptr) {
+        view_->scene_changed(node);
     } else {
         bodies_.note_node(node);
     }
@@ -354,8 +393,8 @@ SessionHandle WorldRun::body_of(const Node* node) {
     if (node == nullptr) {
         return no_handle;
     }
-    if (link_ != nullptr && link_->is_operator()) {
-        return link_->view()->body_of(node->get_instance_id());
+    if (view_ != nullptr) {
+        return view_->body_of(node->get_instance_id());
     }
     const BodyMirror* mirror = bodies_.of(node->get_instance_id());
     return mirror != nullptr ? mirror->handle() : no_handle;
@@ -373,8 +412,8 @@ const BodyState* WorldRun::state_of(const Node* node) {
 }
 
 std::uint64_t WorldRun::node_of(SessionHandle body) {
-    if (link_ != nullptr && link_->is_operator()) {
-        return link_->view()->node_of(body);
+    if (view_ != nullptr) {
+        return view_->node_of(body);
     }
     const BodyMirror* mirror = bodies_.of_handle(body);
     return mirror != nullptr ? mirror->id() : 0;
@@ -383,7 +422,9 @@ std::uint64_t WorldRun::node_of(SessionHandle body) {
 void WorldRun::show() {
     const Busy busy(is_busy_);
     drain();
-    const LinkRun::News news = link_ != nullptr ? link_->take_news() : LinkRun::News{};
+    const std::uint64_t link_node = link_node_ != nullptr ? link_node_->get_instance_id() : 0;
+    const LinkReport report = link_node != 0 ? link_->report() : LinkReport{};
+    const std::vector<ModelNews> news = std::exchange(model_news_, {});
     if (session_.refresh()) {
         const SessionSnapshot& snapshot = session_.snapshot();
         hands_->show_devices(snapshot);
@@ -392,15 +433,17 @@ void WorldRun::show() {
             hands_->show_proxies(snapshot, [this](SessionHandle body) { return node_of(body); });
         }
     }
-    news.deliver();
+    // A script may have freed it by now.
+    if (auto* node = Object::cast_to<MMTLink>(ObjectDB::get_instance(link_node))) {
+        node->take_report(report, news);
+    }
 }
 
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
-    const bool is_model = link_ != nullptr && link_->is_operator();
     for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
-        if (is_model) {
-            link_->view()->apply(snapshot.bodies[i]);
+        if (view_ != nullptr) {
+            view_->apply(snapshot.bodies[i]);
         } else {
             bodies_.apply(snapshot.bodies[i], snapshot.tick);
         }

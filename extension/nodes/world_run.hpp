@@ -13,12 +13,13 @@
 
 #include "nodes/body_mirrors.hpp"
 #include "nodes/hand_mirrors.hpp"
-#include "nodes/link_run.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/model_view.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "realtime/baseline_loop.hpp"
 #include "realtime/tick_loop.hpp"
 #include "session/session.hpp"
+#include "world/world_link.hpp"
 
 namespace tactus {
 
@@ -86,9 +87,7 @@ public:
     Nanoseconds now() const { return static_cast<Nanoseconds>(ticks()) * settings_.session.period; }
     std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
     TickStatus take_status();
-    std::size_t body_count() const {
-        return link_ && link_->is_operator() ? link_->body_count() : bodies_.bodies().size();
-    }
+    std::size_t body_count() const { return view_ ? link_->body_count() : bodies_.bodies().size(); }
     std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
     std::vector<std::string> problems() const;                         // each names its node
 
@@ -99,7 +98,9 @@ private:
     void synchronise_bodies(double seconds);
     void look_at_scene();
     void synchronise_recorder();
+    void start_link();
     void synchronise_link();
+    void tell_far_side(Nanoseconds now);
     void want_trace();
     void drain();
     std::uint64_t node_of(SessionHandle body);
@@ -108,13 +109,16 @@ private:
     HapticWorld& world_;
     RunSettings settings_;
     std::atomic<Nanoseconds> clock_offset_{
-        0};                          // a tick's time on the monotonic clock less its time in the session
-    std::unique_ptr<LinkRun> link_;  // null: nobody at a far side. Above the session, whose side uses it
+        0};                            // a tick's time on the monotonic clock less its time in the session
+    std::unique_ptr<WorldLink> link_;  // null: nobody at a far side. Above the session, whose side uses it
     Session session_;
     std::unique_ptr<TickTrace> trace_;
     TickLoop loop_;
     TickLoopSettings loop_settings_;  // as it was started last
     std::unique_ptr<BaselineLoop> baseline_;
+    MMTLink* link_node_ = nullptr;       // null: there is none, or it has left
+    std::unique_ptr<ModelView> view_;    // at the operator; else null
+    std::vector<ModelNews> model_news_;  // for the link's node
     bool is_over_ = false;
     bool is_busy_ = false;
 

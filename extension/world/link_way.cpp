@@ -1,4 +1,4 @@
-#include "nodes/link_route.hpp"
+#include "world/link_way.hpp"
 
 #include <limits>
 

@@ -1,0 +1,74 @@
+#include "nodes/properties.hpp"
+
+#include <cmath>
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/variant/callable.hpp>
+
+#include "nodes/messages.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+bool is_within(const PropertyLimits& limits, const Variant& value) {
+    if (value.get_type() != Variant::INT && value.get_type() != Variant::FLOAT &&
+        value.get_type() != Variant::BOOL) {
+        return false;
+    }
+    const auto number = static_cast<double>(value);
+    const bool is_whole = limits.type == Variant::FLOAT || number == std::floor(number);
+    if (!(number >= limits.min && number <= limits.max) || !is_whole) {
+        return false;
+    }
+    return limits.one_of == 0 || (limits.one_of >> static_cast<std::uint64_t>(number) & 1u) != 0;
+}
+
+bool is_allowed(const PropertyLimits& limits, const Variant& value) {
+    switch (limits.type) {
+        case Variant::BOOL:
+        case Variant::INT:
+        case Variant::FLOAT:
+            return is_within(limits, value);
+        case Variant::VECTOR3:
+            return value.get_type() == Variant::VECTOR3 &&
+                   static_cast<double>(static_cast<Vector3>(value).length()) <= limits.max;
+        case Variant::OBJECT: {
+            const Object* object =
+                value.get_type() == Variant::OBJECT ? static_cast<Object*>(value) : nullptr;
+            return value.get_type() == Variant::NIL ||
+                   (value.get_type() == Variant::OBJECT &&
+                    (object == nullptr || object->is_class(limits.class_name)));
+        }
+        case Variant::STRING:
+        case Variant::NODE_PATH:
+            return value.get_type() == Variant::STRING || value.get_type() == Variant::STRING_NAME ||
+                   value.get_type() == Variant::NODE_PATH;
+        default:
+            return value.get_type() == limits.type;
+    }
+}
+
+}  // namespace
+
+bool accepts(const Object& who, const char* property, const PropertyLimits& limits, const Variant& value) {
+    const bool allowed = is_allowed(limits, value);
+    if (!allowed) {
+        refuse(who, property, value, limits.wanted);
+    }
+    return allowed;
+}
+
+void follow_changes(Object& who, const char* method, const Variant& before, const Variant& now) {
+    const Callable on_change(&who, method);
+    if (auto* left = Object::cast_to<Resource>(static_cast<Object*>(before));
+        left != nullptr && left->is_connected("changed", on_change)) {
+        left->disconnect("changed", on_change);
+    }
+    if (auto* taken = Object::cast_to<Resource>(static_cast<Object*>(now))) {
+        taken->connect("changed", on_change);
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,139 @@
+// Properties that are stored as they are set: one row each, written from the class reference
+// (binding/bind_classes.py), and one way to read, check and set them all. A class says
+// TACTUS_PROPERTIES(Class) among its public members and nothing more.
+#pragma once
+
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/core/object.hpp>
+#include <godot_cpp/variant/variant.hpp>
+#include <span>
+#include <type_traits>
+
+#include "nodes/conversions.hpp"
+
+namespace tactus {
+
+// What is accepted.
+struct PropertyLimits {
+    godot::Variant::Type type = godot::Variant::NIL;  // NIL: the class keeps this one itself
+    double min = 0.0, max = 0.0;                      // of a number; the second of a vector's length, too
+    std::uint64_t one_of = 0;                         // of an enum: bit i for the value i
+    const char* class_name = "";                      // of a resource
+    const char* wanted = "";                          // all of it in words
+};
+
+template <class Owner>
+struct Property {
+    const char* name;
+    const char* was = "";  // "Class.name" under which older scenes have stored it
+    PropertyLimits limits = {};
+    godot::Variant (*read)(const Owner&) = nullptr;
+    void (*write)(Owner&, const godot::Variant&) = nullptr;
+    void (*changed)(Owner&) = nullptr;  // null: nobody has to know
+    const char* follows = "";           // the method that hears of changes inside of the resource
+};
+
+// Whether the value may be set; says why not.
+bool accepts(const godot::Object& who, const char* property, const PropertyLimits& limits,
+             const godot::Variant& value);
+
+// `method` of `who` is called when the resource says that it has changed; no longer for the one before.
+void follow_changes(godot::Object& who, const char* method, const godot::Variant& before,
+                    const godot::Variant& now);
+
+// How a field of the class is seen from Godot.
+template <class T>
+godot::Variant stored(const T& field) {
+    if constexpr (std::is_same_v<T, Vec3>) {
+        return to_godot(field);
+    } else if constexpr (std::is_same_v<T, bool>) {
+        return field;
+    } else if constexpr (std::is_floating_point_v<T>) {
+        return static_cast<double>(field);
+    } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
+        return static_cast<int64_t>(field);
+    } else if constexpr (requires { field.is_valid(), field.ptr(); }) {
+        return field.ptr();  // a resource
+    } else {
+        return godot::Variant(field);
+    }
+}
+
+template <class T>
+void store(T& field, const godot::Variant& value) {
+    if constexpr (std::is_same_v<T, Vec3>) {
+        field = from_godot(static_cast<godot::Vector3>(value));
+    } else if constexpr (std::is_same_v<T, bool>) {
+        field = static_cast<bool>(value);
+    } else if constexpr (std::is_floating_point_v<T>) {
+        field = static_cast<double>(value);
+    } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
+        field = static_cast<T>(static_cast<int64_t>(value));
+    } else {
+        field = godot::VariantCaster<T>::cast(value);
+    }
+}
+
+// A time: nanoseconds in the class, seconds in Godot.
+inline godot::Variant stored_seconds(Nanoseconds field) {
+    return to_seconds(field);
+}
+inline void store_seconds(Nanoseconds& field, const godot::Variant& value) {
+    field = from_seconds(static_cast<double>(value));
+}
+
+template <class Owner>
+const Property<Owner>* property_at(int64_t index) {
+    const std::span<const Property<Owner>> all = Owner::properties();
+    const bool is_one = index >= 0 && index < static_cast<int64_t>(all.size()) &&
+                        all[static_cast<std::size_t>(index)].read != nullptr;
+    return is_one ? &all[static_cast<std::size_t>(index)] : nullptr;
+}
+
+template <class Owner>
+void set_property(Owner& owner, int64_t index, const godot::Variant& value) {
+    const Property<Owner>* const property = property_at<Owner>(index);
+    if (property == nullptr || !accepts(owner, property->name, property->limits, value)) {
+        return;
+    }
+    const godot::Variant before = property->read(owner);
+    property->write(owner, value);
+    const godot::Variant now = property->read(owner);
+    if (now == before) {
+        return;
+    }
+    if (*property->follows != '\0') {
+        follow_changes(owner, property->follows, before, now);
+    }
+    if (property->changed != nullptr) {
+        property->changed(owner);
+    }
+}
+
+template <class Owner>
+godot::Variant get_property(const Owner& owner, int64_t index) {
+    const Property<Owner>* const property = property_at<Owner>(index);
+    return property != nullptr ? property->read(owner) : godot::Variant();
+}
+
+// What "Class.name" of an older scene is called here; null: nothing of this class.
+template <class Owner>
+const char* new_name_of(const godot::String& old) {
+    for (const Property<Owner>& property : Owner::properties()) {
+        if (old == godot::String(property.was)) {
+            return property.name;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace tactus
+
+#define TACTUS_PROPERTIES(Class)                                  \
+    static std::span<const tactus::Property<Class>> properties(); \
+    void set_value(int64_t index, const godot::Variant& value) {  \
+        tactus::set_property(*this, index, value);                \
+    }                                                             \
+    godot::Variant get_value(int64_t index) const {               \
+        return tactus::get_property(*this, index);                \
+    }

@@ -1,0 +1,101 @@
+#include "world/material_presets.hpp"
+
+#include "core/haptics/touch_values.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr std::uint32_t grain_side = 64;  // grains along a side of the texture
+
+constexpr MaterialPreset presets[] = {MaterialPreset::rubber, MaterialPreset::ice, MaterialPreset::sandpaper,
+                                      MaterialPreset::steel, MaterialPreset::sponge};
+
+// Godot keeps friction and bounce in single precision.
+bool same_values(const MaterialValues& a, const MaterialValues& b) {
+    return same_values(a.touch, b.touch) &&
+           static_cast<float>(a.friction) == static_cast<float>(b.friction) &&
+           static_cast<float>(a.bounce) == static_cast<float>(b.bounce);
+}
+
+}  // namespace
+
+// Chosen by what a device of 3000 N/m and a hand can render at 1 kHz; none is a measured sample of its name.
+MaterialValues values_of(MaterialPreset preset) {
+    MaterialValues values;
+    TouchMaterial& touch = values.touch;
+    switch (preset) {
+        case MaterialPreset::rubber:
+            touch = {.stiffness = 800.0, .damping = 1.5, .static_friction = 1.1, .dynamic_friction = 0.8};
+            touch.stick_slip_stiffness = 300.0;
+            touch.stick_slip_force = 0.6;
+            values.friction = 0.9;
+            values.bounce = 0.5;
+            break;
+        case MaterialPreset::ice:
+            touch = {.stiffness = 2000.0, .damping = 1.0, .static_friction = 0.05, .dynamic_friction = 0.02};
+            values.friction = 0.03;
+            values.bounce = 0.1;
+            break;
+        case MaterialPreset::sandpaper:
+            touch = {.stiffness = 1500.0, .damping = 1.0, .static_friction = 0.9, .dynamic_friction = 0.7};
+            touch.texture_size = 0.05;
+            touch.texture_depth = 0.0002;
+            values.friction = 0.9;
+            break;
+        case MaterialPreset::steel:
+            touch = {.stiffness = 3000.0, .damping = 1.5, .static_friction = 0.25, .dynamic_friction = 0.2};
+            values.friction = 0.3;
+            values.bounce = 0.3;
+            break;
+        case MaterialPreset::sponge:
+            touch = {.stiffness = 150.0, .damping = 2.0, .static_friction = 0.7, .dynamic_friction = 0.5};
+            touch.viscosity = 1.0;
+            values.friction = 0.7;
+            break;
+        case MaterialPreset::custom:
+            break;
+    }
+    return values;
+}
+
+std::shared_ptr<const HeightImage> grain() {
+    static const auto image = [] {
+        auto made = std::make_shared<HeightImage>(HeightImage{grain_side, grain_side, {}});
+        std::uint32_t random = 1;
+        for (std::uint32_t i = 0; i < grain_side * grain_side; ++i) {
+            random = random * 1664525u + 1013904223u;  // Numerical Recipes, 7.1
+            made->heights.push_back(static_cast<float>(random >> 8) * 0x1p-24f);
+        }
+        return made;
+    }();
+    return image;
+}
+
+MaterialPreset PresetChoice::preset(const MaterialValues& now) const {
+    if (chosen_ != MaterialPreset::custom || !left_.empty()) {
+        return chosen_;
+    }
+    for (const MaterialPreset preset : presets) {
+        if (same_values(now, values_of(preset))) {
+            return preset;
+        }
+    }
+    return MaterialPreset::custom;
+}
+
+std::optional<MaterialValues> PresetChoice::choose(MaterialPreset preset, const MaterialValues& now) {
+    const MaterialPreset before = this->preset(now);
+    if (preset == before) {
+        return std::nullopt;
+    }
+    left_[before] = now;
+    chosen_ = preset;
+    const auto known = left_.find(preset);
+    if (known != left_.end()) {
+        return known->second;
+    }
+    return preset != MaterialPreset::custom ? std::optional(values_of(preset)) : std::nullopt;
+}
+
+}  // namespace tactus

@@ -1,0 +1,40 @@
+// What common materials feel like, and how choosing one loses nothing of what was there before.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "core/haptics/touch_material.hpp"
+
+namespace tactus {
+
+enum class MaterialPreset : std::uint8_t { custom, rubber, ice, sandpaper, steel, sponge };
+
+struct MaterialValues {
+    TouchMaterial touch;
+    double friction = 1.0;  // between bodies, as Godot's PhysicsMaterial has it
+    double bounce = 0.0;
+};
+
+// Those of custom are a new material's.
+MaterialValues values_of(MaterialPreset preset);
+
+// Grains of random height, the same everywhere: for roughness without an image.
+std::shared_ptr<const HeightImage> grain();
+
+// Nothing is forgotten: what the material had before comes back with the preset that it had before.
+class PresetChoice {
+public:
+    // The one that was chosen; where none was, the one whose values these are.
+    MaterialPreset preset(const MaterialValues& now) const;
+    // What the values are to become; none: they stay.
+    std::optional<MaterialValues> choose(MaterialPreset preset, const MaterialValues& now);
+
+private:
+    MaterialPreset chosen_ = MaterialPreset::custom;
+    std::map<MaterialPreset, MaterialValues> left_;  // as they were when another preset was chosen
+};
+
+}  // namespace tactus

@@ -1,0 +1,350 @@
+#include "world/world_link.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "network/key_source.hpp"
+#include "session/operator_side.hpp"
+#include "session/teleoperator_side.hpp"
+
+namespace tactus {
+
+namespace {
+
+// A way that could not be opened is tried again so much later: the port may have become free.
+constexpr Nanoseconds try_again_after = 2'000'000'000;
+
+// So long what is not believed counts as the state of the link.
+constexpr Nanoseconds refusal_lasts = 1'000'000'000;
+
+// A body whose values change in every frame is not described in every frame.
+constexpr Nanoseconds tell_again_after = 250'000'000;
+
+std::string ports(const NetworkSettings& settings) {
+    return settings.udp.remote_address + ":" + std::to_string(settings.udp.remote_port) +
+           " (this side listens on port " + std::to_string(settings.udp.local_port) + ")";
+}
+
+}  // namespace
+
+std::string problem_of_addresses(const UdpSettings& udp) {
+    if (udp.remote_address.empty()) {
+        return "the far side has no address: set 'remote_address'";
+    }
+    const bool loops =
+        udp.remote_address == "127.0.0.1" || udp.remote_address == "localhost" || udp.remote_address == "::1";
+    return loops && udp.local_port == udp.remote_port
+               ? "it would talk to itself: on one machine the two sides need different ports"
+               : std::string();
+}
+
+WorldLink::WorldLink(const LinkPlan& plan, Session& session, const Vec3& gravity, const Pose& frame,
+                     const std::atomic<Nanoseconds>* ahead)
+    : plan_(plan), ahead_(ahead), gravity_(gravity), frame_(frame) {
+    attach(session);
+    if (is_operator()) {
+        builder_ = std::make_unique<ModelBuilder>(session, port_);
+        builder_->set_frame(frame_);
+    } else {
+        teller_ = std::make_unique<EnvironmentTeller>(port_);
+        teller_->set_frame(frame_);
+    }
+}
+
+WorldLink::~WorldLink() = default;
+
+void WorldLink::end() {
+    is_planned_ = false;
+    route_.put(nullptr);
+    route_.take();
+    opening_.reset();
+    past_way_.reset();
+    way_.reset();
+}
+
+void WorldLink::attach(Session& session) {
+    EndpointSettings endpoint;
+    endpoint.side = is_operator() ? Side::operator_side : Side::teleoperator_side;
+    endpoint.scenario = plan_.scenario;
+    endpoint.epoch = random_epoch();
+    endpoint.period = session.settings().period;
+    settings_ = plan_.teleop;
+    settings_.gravity = gravity_;
+    settings_.frame = frame_;
+    std::unique_ptr<TeleopSide> side;
+    if (is_operator()) {
+        side = std::make_unique<OperatorSide>(session.settings(), OperatorRoom{}, settings_, route_, port_,
+                                              endpoint);
+    } else {
+        side = std::make_unique<TeleoperatorSide>(session.settings(), settings_, route_, port_, endpoint);
+    }
+    session.attach(std::move(side));
+}
+
+// --- the way
+// ---------------------------------------------------------------------------------------------------------
+
+void WorldLink::let_go_of_way() {
+    route_.put(nullptr);
+    opening_.reset();
+    if (way_ != nullptr) {
+        past_way_ = std::move(way_);
+    }
+    way_error_.clear();
+    figures_ = {};
+}
+
+void WorldLink::put(std::unique_ptr<LinkWay> way) {
+    way_ = std::move(way);
+    route_.put(way_.get());
+}
+
+// The loop may look at it as long as the run lasts.
+void WorldLink::keep_trace() {
+    if (traces_.empty() || traces_.back() != plan_.trace) {
+        traces_.push_back(plan_.trace);
+    }
+}
+
+// A way is opened anew only when the loop has let go of the one before: both may want the same port.
+void WorldLink::look_after_way(Workers& workers, const LinkMoment& moment) {
+    if (is_planned_ && plan_.way_revision != way_revision_) {
+        way_revision_ = plan_.way_revision;
+        let_go_of_way();
+        next_try_ = moment.now;
+    }
+    if (!is_planned_ || !plan_.problem.empty()) {
+        if (way_ != nullptr || opening_ != nullptr) {
+            let_go_of_way();
+        }
+        return;
+    }
+    if (moment.ticks_here) {
+        route_.take();
+    }
+    if (past_way_ != nullptr && route_.is_taken()) {
+        past_way_.reset();
+    }
+    if (opening_ != nullptr) {
+        take_opened(moment);
+    } else if (way_ == nullptr && past_way_ == nullptr && moment.now >= next_try_) {
+        open(workers, moment);
+    }
+}
+
+void WorldLink::open(Workers& workers, const LinkMoment& moment) {
+    NetworkSettings settings = plan_.network;
+    keep_trace();
+    if (plan_.wire != nullptr) {
+        put(std::make_unique<InProcessWay>(plan_.wire, is_operator(), settings.conditions, settings.seed));
+        return;
+    }
+    KeySource key = read_key(plan_.key_file);
+    if (!key.error.empty()) {
+        way_error_ = std::move(key.error);
+        next_try_ = moment.now + try_again_after;
+        return;
+    }
+    settings.key = std::move(key.text);
+    opening_ = std::make_shared<Opening>();
+    opening_->settings = std::move(settings);
+    opening_->way = std::make_unique<UdpWay>(ahead_);
+    workers.add([opening = opening_] {
+        opening->error = opening->way->open(opening->settings);
+        opening->done.store(true, std::memory_order_release);
+    });
+    if (moment.waits) {
+        workers.wait();
+        take_opened(moment);
+    }
+}
+
+void WorldLink::take_opened(const LinkMoment& moment) {
+    if (!opening_->done.load(std::memory_order_acquire)) {
+        return;
+    }
+    const std::shared_ptr<Opening> opened = std::move(opening_);
+    opening_.reset();
+    way_error_ = opened->error;
+    if (way_error_.empty()) {
+        put(std::move(opened->way));
+        way_->change(plan_.network.conditions);
+    } else {
+        next_try_ = moment.now + try_again_after;
+    }
+}
+
+// --- what has changed
+// ------------------------------------------------------------------------------------------------
+
+void WorldLink::pass_on_settings(const Vec3& gravity) {
+    if (!is_planned_ || (plan_.revision == revision_ && gravity == gravity_)) {
+        return;
+    }
+    revision_ = plan_.revision;
+    gravity_ = gravity;
+    settings_ = plan_.teleop;
+    settings_.gravity = gravity_;
+    settings_.frame = frame_;
+    port_->settings.publish(settings_);
+    if (way_ != nullptr) {
+        keep_trace();
+        way_->change(plan_.network.conditions);
+    }
+}
+
+void WorldLink::leave() {
+    settings_.leaving = true;
+    port_->settings.publish(settings_);
+}
+
+bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, Workers& workers,
+                            const LinkMoment& moment) {
+    now_ = moment.now;
+    is_planned_ = plan.has_value();
+    if (plan) {
+        plan_ = *plan;
+    }
+    look_after_way(workers, moment);
+    pass_on_settings(gravity);
+    port_->statistics.refresh();
+    if (way_ != nullptr) {
+        figures_ = way_->figures();
+    }
+    note_refusals(moment.now);
+    if (builder_ == nullptr) {
+        return false;
+    }
+    if (!builds_elsewhere_ && !moment.waits) {
+        builds_elsewhere_ = true;
+        builder_->set_run([&workers](std::function<void()> job) { workers.add(std::move(job)); });
+    }
+    return builder_->update(moment.now, port_->statistics.front().link);
+}
+
+void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe,
+                     const SessionSnapshot& snapshot, Nanoseconds now) {
+    std::unordered_set<SessionHandle> there;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Told& told = bodies[i];
+        there.insert(told.body);
+        const auto before = tellings_.find(told.body);
+        if (before == tellings_.end() ||
+            (before->second.revision != told.revision && now - before->second.at >= tell_again_after)) {
+            const Description description = describe(i);
+            tellings_[told.body] = {told.revision, now,
+                                    teller_->tell(told.body, description.name, description.addition)};
+        }
+    }
+    std::erase_if(tellings_, [&](const auto& telling) {
+        const bool gone = !there.contains(telling.first);
+        if (gone) {
+            teller_->forget(telling.first);
+        }
+        return gone;
+    });
+    teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
+}
+
+std::vector<std::string> WorldLink::problems() const {
+    std::vector<std::string> all;
+    for (const auto& [handle, telling] : tellings_) {
+        if (!telling.problem.empty()) {
+            all.push_back(telling.problem);
+        }
+    }
+    if (builder_ != nullptr) {
+        for (const ModelObject& object : builder_->objects()) {
+            if (!object.problem.empty()) {
+                all.push_back("\"" + object.name + "\" of the far side: " + object.problem);
+            }
+        }
+    }
+    return all;
+}
+
+// --- in words
+// --------------------------------------------------------------------------------------------------------
+
+// Which of the counters for what is not believed have grown.
+void WorldLink::note_refusals(Nanoseconds now) {
+    const LinkStatistics& link = port_->statistics.front().link;
+    const bool unmet = figures_.udp.sealed && !figures_.udp.met;
+    const std::array<std::uint64_t, 4> counts = {
+        unmet ? figures_.udp.secure.wrong_key : 0, unmet ? figures_.udp.secure.not_sealed : 0,
+        link.refused.of(Refusal::sealed), link.refused.of(Refusal::wrong_version)};
+    constexpr const char* words[] = {
+        "the far side has another key: give both sides the same",
+        "the far side has no key: give both sides the same, or none",
+        "the far side has a key and this side has none: give both sides the same",
+        "the far side speaks another version of the protocol: install the same version of Tactus on both "
+        "sides",
+    };
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        if (counts[i] > refusals_[i]) {
+            refused_until_ = now + refusal_lasts;
+            refusal_ = words[i];
+        }
+    }
+    refusals_ = counts;
+}
+
+WorldLink::Standing WorldLink::standing() const {
+    if (!plan_.problem.empty()) {
+        return {LinkState::failed, plan_.problem};
+    }
+    if (!way_error_.empty()) {
+        return {LinkState::failed, way_error_};
+    }
+    if (way_ == nullptr) {
+        return {LinkState::opening, "opening the way to " + ports(plan_.network)};
+    }
+    if (figures_.udp.state == UdpState::failed) {
+        return {LinkState::failed, "the system refuses to send to " + ports(plan_.network)};
+    }
+    const PeerState peer = port_->statistics.front().link.peer;
+    if (peer != PeerState::connected && now_ < refused_until_) {
+        return {LinkState::refused, refusal_};
+    }
+    return standing_of_peer();
+}
+
+WorldLink::Standing WorldLink::standing_of_peer() const {
+    const LinkStatistics& link = port_->statistics.front().link;
+    const std::string there = plan_.wire != nullptr ? plan_.partner : ports(plan_.network);
+    switch (link.peer) {
+        case PeerState::silent:
+            return {
+                LinkState::waiting,
+                (figures_.udp.state == UdpState::unreachable ? "nobody listens yet at " : "waiting for ") +
+                    there};
+        case PeerState::one_way:
+            return {LinkState::one_way,
+                    "the far side is heard and does not hear this one yet; if that lasts, its "
+                    "'remote_address' or "
+                    "'remote_port' is not this side's"};
+        case PeerState::wrong_side:
+            return {LinkState::refused, "the far side plays the same side: set 'side' of one of the two"};
+        case PeerState::vanished:
+            return {LinkState::lost, "nothing has been heard for a second from " + there};
+        case PeerState::left:
+            return {LinkState::left, "the far side has ended"};
+        case PeerState::connected:
+            break;
+    }
+    if (link.peer_hello.scenario != plan_.scenario) {
+        return {LinkState::refused, "the far side is set to scenario " +
+                                        std::to_string(link.peer_hello.scenario) + " and this side to " +
+                                        std::to_string(plan_.scenario) + ": set both alike"};
+    }
+    return {LinkState::connected,
+            plan_.trace_problem.empty() ? std::string("connected") : "connected; " + plan_.trace_problem};
+}
+
+LinkReport WorldLink::report() const {
+    Standing now = standing();
+    return {now.state, std::move(now.text), port_->statistics.front(), figures_,
+            static_cast<std::int64_t>(body_count())};
+}
+
+}  // namespace tactus

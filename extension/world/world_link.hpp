@@ -1,0 +1,179 @@
+// A running world as one side of a teleoperation: opens the way to the far side and keeps it, passes on what
+// changes on either side, and says in words how it stands.
+//
+// Threads: all of it belongs to the session's owner; a way is opened by a worker. The loop meets it in the
+// port (session/teleop_port.hpp) and in the route (link_way.hpp) only.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "realtime/workers.hpp"
+#include "session/environment_teller.hpp"
+#include "session/model_builder.hpp"
+#include "session/session.hpp"
+#include "world/link_way.hpp"
+
+namespace tactus {
+
+enum class LinkState : std::uint8_t {
+    off,        // one machine, or nothing runs
+    opening,    // addresses are looked up
+    failed,     // there is no way to the far side
+    waiting,    // nothing has been heard yet
+    one_way,    // the far side is heard, and does not hear this one
+    connected,  // both hear each other
+    refused,    // what comes is not believed, or does not go together with this side
+    lost,       // nothing has been heard for a second
+    left        // the far side has said good-bye
+};
+
+// As the user has set the link. Every field but the scenario may change while it runs.
+struct LinkPlan {
+    bool is_operator = true;
+    std::uint8_t scenario = 0;
+    std::string problem;             // why there can be no way to the far side, and what to do; or empty
+    std::uint64_t revision = 0;      // another one after every change of what is below
+    std::uint64_t way_revision = 0;  // another one after every change of what a way is opened with
+    TeleopSettings teleop;
+    NetworkSettings network;
+    std::string key_file;
+    std::shared_ptr<MemoryLinkPair> wire;  // to a far side in this program; null: over the network
+    std::string partner;                   // the name of that far side
+    std::shared_ptr<const DelayTrace> trace;
+    std::string trace_problem;  // why the emulated network has none; or empty
+};
+
+// What keeps the two addresses from being those of two sides, and what to do; empty where nothing does.
+std::string problem_of_addresses(const UdpSettings& udp);
+
+// How the loop is doing, once a frame.
+struct LinkMoment {
+    Nanoseconds now = 0;      // of the session
+    bool ticks_here = false;  // the caller's thread makes the ticks, or nobody does
+    bool waits = false;       // for what takes a while: stepped time
+};
+
+struct LinkReport {
+    LinkState state = LinkState::off;
+    std::string text;
+    TeleopStatistics teleop;
+    NetworkFigures network;
+    std::int64_t objects = 0;  // operator: in the model; far side: described
+};
+
+class WorldLink {
+public:
+    // `ahead`: see UdpWay. Attaches its side: the session must be new. It is destroyed after the session.
+    WorldLink(const LinkPlan& plan, Session& session, const Vec3& gravity, const Pose& frame,
+              const std::atomic<Nanoseconds>* ahead);
+    ~WorldLink();
+    WorldLink(const WorldLink&) = delete;
+    WorldLink& operator=(const WorldLink&) = delete;
+
+    bool is_operator() const { return plan_.is_operator; }
+
+    // Operator: called with each object before it is built.
+    void set_distortion(ModelBuilder::Distortion distortion) {
+        builder_->set_distortion(std::move(distortion));
+    }
+    const std::vector<ModelObject>& objects() const { return builder_->objects(); }
+
+    // Passes on what has changed on either side. No plan: whoever has set it is gone, and with it the way.
+    // True where objects() are other ones.
+    bool synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, Workers& workers,
+                     const LinkMoment& moment);
+
+    // Far side: a body that is there to be touched; its revision is another one when it is to be described
+    // anew.
+    struct Told {
+        SessionHandle body = no_handle;
+        std::uint64_t revision = 0;
+    };
+    struct Description {
+        std::string name;
+        BodyAddition addition;
+    };
+    using Describe = std::function<Description(std::size_t index)>;
+    // Far side: all that there is to touch; `describe` is asked for those that are to be told.
+    void tell(const std::vector<Told>& bodies, const Describe& describe, const SessionSnapshot& snapshot,
+              Nanoseconds now);
+
+    // The far side is told in the next tick, which is this side's last.
+    void leave();
+
+    // Nothing ticks any more: ports are free again.
+    void end();
+
+    LinkReport report() const;
+    std::size_t body_count() const { return builder_ ? builder_->objects().size() : tellings_.size(); }
+    // What cannot be described or built, each with what to do.
+    std::vector<std::string> problems() const;
+
+private:
+    // A way that is being opened. Shared with the thread that does it.
+    struct Opening {
+        NetworkSettings settings;
+        std::unique_ptr<UdpWay> way;
+        std::string error;
+        std::atomic<bool> done{false};
+    };
+    struct Telling {
+        std::uint64_t revision = 0;  // that was told
+        Nanoseconds at = 0;
+        std::string problem;
+    };
+    struct Standing {
+        LinkState state = LinkState::off;
+        std::string text;
+    };
+
+    void attach(Session& session);
+    void pass_on_settings(const Vec3& gravity);
+    void let_go_of_way();
+    void look_after_way(Workers& workers, const LinkMoment& moment);
+    void open(Workers& workers, const LinkMoment& moment);
+    void take_opened(const LinkMoment& moment);
+    void put(std::unique_ptr<LinkWay> way);
+    void keep_trace();
+    void note_refusals(Nanoseconds now);
+    Standing standing() const;
+    Standing standing_of_peer() const;
+
+    LinkPlan plan_;
+    bool is_planned_ = true;  // false: nobody wants it any more
+    const std::atomic<Nanoseconds>* ahead_;
+    Vec3 gravity_;  // as passed on
+    Pose frame_;    // of the world when the link began
+    TeleopSettings settings_;
+    std::shared_ptr<TeleopPort> port_ = std::make_shared<TeleopPort>();
+    LinkRoute route_;
+    std::unique_ptr<ModelBuilder> builder_;      // operator
+    bool builds_elsewhere_ = false;              // in real time it does not hold frames up
+    std::unique_ptr<EnvironmentTeller> teller_;  // far side
+    std::unordered_map<SessionHandle, Telling> tellings_;
+
+    std::uint64_t revision_ = 0;      // of the plan, that has been passed on
+    std::uint64_t way_revision_ = 0;  // that the way was opened with
+    std::unique_ptr<LinkWay> way_;
+    std::unique_ptr<LinkWay> past_way_;                      // until the loop has let go of it
+    std::vector<std::shared_ptr<const DelayTrace>> traces_;  // that conditions have pointed to
+    std::shared_ptr<Opening> opening_;
+    std::string way_error_;
+    Nanoseconds next_try_ = 0;
+
+    NetworkFigures figures_;
+    std::array<std::uint64_t, 4> refusals_{};
+    Nanoseconds refused_until_ = 0;
+    std::string refusal_;  // the last one, in words
+    Nanoseconds now_ = 0;
+};
+
+}  // namespace tactus
