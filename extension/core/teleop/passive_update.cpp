@@ -67,7 +67,7 @@ Vec3 PassiveUpdate::feel(const PassiveUpdateSettings& settings, const FeltInput&
     tank_ = std::clamp(tank_ + taken - (held - potential_), -settings.tank, settings.tank);
     if (!touches) {
         over_ = 1.0;
-        owed_ = potential_ = 0.0;
+        owed_ = potential_ = tank_ = 0.0;  // each contact has an account of its own
         return felt_ = in.modelled;
     }
     pay(settings, in);

@@ -8,7 +8,8 @@
 // potential U, the work to press it from nothing, is less than |f|^2 / 2k, which is what the hand had put in:
 //     U = |F| |f| / 2k - D ln((|F| + |f|) / sqrt(2 k D)) <= S - D
 // so that no way of the hand takes out more. D goes as a tank pays for what U grows by. The tank holds what
-// friction and the surface have taken from the hand for good, and what corrections have taken out of U.
+// friction and the surface have taken from the hand for good in this contact, and what corrections have taken
+// out of U: in no contact the hand gets more than it has put in.
 //
 // A correction that makes F smaller takes something out: f = s F with an s > 1 that fades, which has U = s S.
 // Both take the times of Willaert, 500 and 300 ms.
