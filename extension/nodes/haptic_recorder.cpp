@@ -12,6 +12,7 @@
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "platform/file.hpp"
 #include "session/record_csv.hpp"
 
 namespace tactus {
@@ -74,9 +75,9 @@ HapticRecorder::File HapticRecorder::open(const String& path) {
         return nullptr;
     }
     const std::filesystem::path whole = from_godot(ProjectSettings::get_singleton()->globalize_path(path));
-    std::error_code ignored;  // fopen says whether there is a folder
+    std::error_code ignored;  // opening says whether there is a folder
     std::filesystem::create_directories(whole.parent_path(), ignored);
-    File file(std::fopen(whole.c_str(), "wb"));
+    File file(open_file(whole, "wb"));
     if (file == nullptr) {
         fail("'" + path + "' cannot be written: choose a folder that exists and may be written to");
     }

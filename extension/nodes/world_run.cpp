@@ -11,7 +11,7 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -23,12 +23,6 @@ namespace {
 constexpr std::int64_t ticks_at_once = 1000;
 
 constexpr std::size_t trace_capacity = 4096;  // ticks between two drains: four seconds at 1 kHz
-
-Nanoseconds wall_clock_now() {
-    timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return static_cast<Nanoseconds>(now.tv_sec) * nanoseconds_per_second + now.tv_nsec;
-}
 
 double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
@@ -282,11 +276,18 @@ void WorldRun::tell_far_side(Nanoseconds now) {
             mirrors.push_back(mirror.get());
         }
     }
+    std::vector<WorldLink::ToldJoint> joints;
+    for (const auto& joint : bodies_.joints()) {
+        if (joint->handle() != no_handle) {
+            joints.push_back({joint->handle(), joint->first(), joint->second(), &joint->joined(), joint->id(),
+                              joint->revision()});
+        }
+    }
     const auto describe = [&](std::size_t i) {
         return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
                                       mirrors[i]->addition()};
     };
-    link_->tell(told, describe, session_.snapshot(), now);
+    link_->tell(told, describe, joints, session_.snapshot(), now);
 }
 
 // --- recording
