@@ -14,7 +14,8 @@ def test_every_way_has_a_name_and_a_colour():
 
 def test_a_wrong_model_is_told_to_whoever_has_one():
     wrong = teleop_runs.wrong({"Box": {"mass": 2}})
-    assert rivals.with_model("passive_updates", wrong) == {"correction": "passive", "wrong.Box.mass": 2}
+    passive = rivals.with_model("passive_updates", wrong)
+    assert passive == {"correction": "passive", **rivals.TUNED["passive_updates"], "wrong.Box.mass": 2}
     assert rivals.with_model("traditional", wrong) == {"traditional": 1}
 
 

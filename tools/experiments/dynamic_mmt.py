@@ -62,9 +62,8 @@ def cases(description: dict, settings: Settings, output: Path) -> list[teleop_ru
         for loss in settings.losses.split(","):
             common = {"delay_ms": delay, "loss": float(loss) / 100, "seconds": settings.seconds}
             common["object"] = description["object"]
-            for scheme in ("none", *teleop_runs.PASSIVITY):
-                way = "traditional" if scheme == "none" else f"traditional_{scheme}"
-                found.append({"name": f"{way}.{delay}ms.{loss}pct", "traditional": 1, "passivity": scheme, **common})
+            for way, keys in rivals.TRADITIONAL.items():
+                found.append({"name": f"{way}.{delay}ms.{loss}pct", **keys, **common})
             for correction in CORRECTIONS:
                 for derivation in DERIVATIONS if correction != "none" else ("none",):
                     name = f"{correction}.{derivation}.{delay}ms.{loss}pct"

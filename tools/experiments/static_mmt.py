@@ -55,8 +55,7 @@ def cases(description: dict, path: str, settings: Settings, output: Path) -> lis
         {"name": f"traditional_{delay}ms", "traditional": 1, "delay_ms": delay} for delay in (0, 100)
     ]
     found += [
-        {"name": f"traditional_{scheme}_100ms", "traditional": 1, "passivity": scheme, "delay_ms": 100}
-        for scheme in teleop_runs.PASSIVITY
+        {"name": f"{way}_100ms", **keys, "delay_ms": 100} for way, keys in rivals.TRADITIONAL.items() if way != "traditional"
     ]
     for delay in (0, 100, 500):
         found.append({"name": f"mmt_right_{delay}ms", "delay_ms": delay})
@@ -92,7 +91,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
 
         for path in description["paths"]:
             static_mmt.draw(output, path)
-        static_mmt.draw_trade(summary, tuple(description["trade"]), SHARES, TRADING, output / "trade.png")
+        static_mmt.draw_trade(summary, "held", SHARES, TRADING, output / "trade.png")
     return summary
 
 

@@ -39,29 +39,25 @@ def _draw_correction(folder: Path, path: str) -> None:
     style.save(drawn, folder / f"{path}_correction.png")
 
 
-def draw_trade(summary: dict[str, object], paths: tuple[str, ...], shares: tuple[str, ...], ways: tuple[str, ...], path: Path) -> None:
+def draw_trade(summary: dict[str, object], name: str, shares: tuple[str, ...], ways: tuple[str, ...], path: Path) -> None:
     """Felt excess against time to truth: the same correction from careful to careless, and other ways."""
-    drawn, axes = style.figure(1, len(paths), 6.0 * len(paths), 4.8)
-    titles = {"waves": "in the midst of a wave", "held": "under a hand that holds and slides"}
-    for name, one in zip(paths, axes[0]):
+    drawn, ((one,),) = style.figure(1, 1, 8.0, 5.0)
 
-        def point(case: str) -> tuple[float, float]:
-            keys = ("seconds_from_told_until_right", "felt_excess_once_told_100ms_jnd_max")
-            return tuple(float(summary[f"{name}.trade.{case}.{key}"]) for key in keys)
+    def point(case: str) -> tuple[float, float]:
+        keys = ("seconds_from_told_until_right", "felt_excess_once_told_100ms_jnd_max")
+        return tuple(float(summary[f"{name}.trade.{case}.{key}"]) for key in keys)
 
-        points = [point(share) for share in shares]
-        one.plot(*zip(*points), color=style.MEASURED, marker="o", markersize=4, linewidth=1.2, label="share of a JND in 100 ms")
-        said = ""
-        for share, (x, y) in zip(shares, points):
-            if f"{x:.2f} {y:.2g}" != said:
-                one.annotate(share, (x, y), textcoords="offset points", xytext=(5, 4), fontsize=8, color=style.MEASURED)
-            said = f"{x:.2f} {y:.2g}"
-        for way, marker in zip(ways, "sX^D"):
-            colour = WAYS[way][0]
-            one.plot(*point(way), color=colour, marker=marker, markersize=8, fillstyle="none", linestyle="", label=LABELS[way])
-        one.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
-        one.set(xlabel="seconds from being told until right", yscale="log", xlim=(0, None))
-        one.set_ylabel("felt excess over 100 ms, largest (JND)")
-        one.set_title(f"The truth comes {titles[name]}", pad=10)
-    drawn.legend(*axes[0][-1].get_legend_handles_labels(), loc="outside lower center", ncols=5, fontsize=8.5)
+    points = [point(share) for share in shares]
+    one.plot(*zip(*points), color=style.MEASURED, marker="o", markersize=4, linewidth=1.2, label="so much of a JND in 100 ms")
+    for share, place in zip(shares, points):
+        one.annotate(share, place, textcoords="offset points", xytext=(9, 4), fontsize=8, color=style.MEASURED)
+    for way, marker in zip(ways, "sX^D"):
+        one.plot(
+            *point(way), color=WAYS[way][0], marker=marker, markersize=9, fillstyle="none", linestyle="", label=LABELS[way]
+        )  # fmt: skip
+    one.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
+    one.set(xlabel="seconds from being told until right", xlim=(0, None), ylim=(0, None))
+    one.set_ylabel("felt excess over 100 ms, largest (JND)")
+    one.set_title("A wrong ground is put right under a hand that presses and slides", pad=10)
+    one.legend(fontsize=9)
     style.save(drawn, path)
