@@ -117,6 +117,8 @@ public:
     // All that a replay starts from. False where `memory` is too small or the bodies are others now.
     bool save(LoopMemento& memento);
     bool restore(const LoopMemento& memento);
+    // Still bodies are where they are in the other loop, and have always been there.
+    void follow_still(SessionLoop& other);
 
 private:
     struct DeviceSlot {
