@@ -70,6 +70,7 @@ private:
     ArmSettings arm_settings_;
     double force_limit_ = 8.0;
     bool clutch_ = false;
+    int dead_man_buttons_ = 0;
 
     std::shared_ptr<Device> port_;
     std::shared_ptr<MouseDevice> mouse_;  // the same as port_ where the driver is the mouse
