@@ -11,23 +11,23 @@
 namespace tactus {
 namespace {
 
-constexpr std::uint8_t seal_version = 2;
-enum SealedKind : std::uint8_t { greeting = 0, sealed_packet = 1 };
+using namespace sealed_format;
 
-// Magic, version, kind, session, counter: authenticated, not encrypted.
-constexpr std::size_t front_bytes = 16;
-constexpr std::size_t tag_bytes = crypto_aead_chacha20poly1305_ietf_ABYTES;
-static_assert(front_bytes + tag_bytes == SecureSession::overhead);
+static_assert(tag_bytes == crypto_aead_chacha20poly1305_ietf_ABYTES);
 static_assert(SecureSession::overhead + most_message_bytes <= most_datagram_bytes);
 static_assert(sizeof(SecretKey) == crypto_aead_chacha20poly1305_ietf_KEYBYTES);
+static_assert(salt_at + sizeof(SecureIdentity::salt) == public_key_at);
+static_assert(public_key_at + sizeof(SecureIdentity::public_key) == greeting_bytes);
 
-// Magic, version, kind, sender, receiver, salt, public key.
-constexpr std::size_t greeting_bytes = 4 + 8 + 8 + 16 + 32;
-
-constexpr std::uint64_t nobody = 0;
 constexpr Nanoseconds greet_every = 100'000'000;
 constexpr Nanoseconds answer_every = 10'000'000;
 constexpr Nanoseconds make_every = 500'000'000;
+
+// A side that lives says something at least every 100 ms.
+constexpr Nanoseconds silent_after = 250'000'000;
+
+// Strangers that greet too often are not heard for so long.
+constexpr Nanoseconds deaf_for = 20'000'000;
 
 unsigned char* raw(std::byte* bytes) {
     return reinterpret_cast<unsigned char*>(bytes);
@@ -36,23 +36,16 @@ const unsigned char* raw(const std::byte* bytes) {
     return reinterpret_cast<const unsigned char*>(bytes);
 }
 
-void write_front(std::span<std::byte> into, SealedKind kind) {
+void write_front(std::span<std::byte> into, Kind kind) {
     std::memcpy(into.data(), &sealed_magic, 2);
-    into[2] = std::byte{seal_version};
+    into[2] = std::byte{version};
     into[3] = std::byte{kind};
 }
 
 bool has_front(std::span<const std::byte> datagram) {
     return datagram.size() >= SecureSession::overhead &&
-           std::memcmp(datagram.data(), &sealed_magic, 2) == 0 && datagram[2] == std::byte{seal_version} &&
-           datagram[3] <= std::byte{sealed_packet};
-}
-
-template <typename Value>
-Value read_at(std::span<const std::byte> bytes, std::size_t at) {
-    Value value;
-    std::memcpy(&value, &bytes[at], sizeof value);
-    return value;
+           std::memcmp(datagram.data(), &sealed_magic, 2) == 0 && datagram[2] == std::byte{version} &&
+           datagram[3] <= std::byte{packet};
 }
 
 using SealNonce = std::array<unsigned char, crypto_aead_chacha20poly1305_ietf_NPUBBYTES>;
@@ -84,15 +77,15 @@ std::size_t SecureSession::seal_with(Session& session, std::span<const std::byte
     if (plain.size() + overhead > into.size()) {
         return 0;
     }
-    write_front(into, sealed_packet);
+    write_front(into, packet);
     const std::uint64_t counter = ++session.counter;
-    std::memcpy(&into[4], &session.keys.id, sizeof session.keys.id);
-    std::memcpy(&into[8], &counter, sizeof counter);
+    std::memcpy(&into[session_at], &session.keys.id, sizeof session.keys.id);
+    std::memcpy(&into[counter_at], &counter, sizeof counter);
     unsigned long long written = 0;
-    crypto_aead_chacha20poly1305_ietf_encrypt(raw(into.data()) + front_bytes, &written, raw(plain.data()),
-                                              plain.size(), raw(into.data()), front_bytes, nullptr,
+    crypto_aead_chacha20poly1305_ietf_encrypt(raw(into.data()) + ciphertext_at, &written, raw(plain.data()),
+                                              plain.size(), raw(into.data()), ciphertext_at, nullptr,
                                               nonce_of(counter).data(), session.keys.send.data());
-    return front_bytes + written;
+    return ciphertext_at + written;
 }
 
 std::size_t SecureSession::greet(std::uint64_t whom, std::span<std::byte> into) const {
@@ -100,10 +93,10 @@ std::size_t SecureSession::greet(std::uint64_t whom, std::span<std::byte> into) 
         return 0;
     }
     write_front(into, greeting);
-    std::memcpy(&into[4], &own_.start, 8);
-    std::memcpy(&into[12], &whom, 8);
-    std::memcpy(&into[20], own_.salt.data(), own_.salt.size());
-    std::memcpy(&into[36], own_.public_key.data(), own_.public_key.size());
+    std::memcpy(&into[sender_at], &own_.start, 8);
+    std::memcpy(&into[receiver_at], &whom, 8);
+    std::memcpy(&into[salt_at], own_.salt.data(), own_.salt.size());
+    std::memcpy(&into[public_key_at], own_.public_key.data(), own_.public_key.size());
     return greeting_bytes;
 }
 
@@ -115,9 +108,10 @@ std::size_t SecureSession::due(std::span<std::byte> into, Nanoseconds now) {
     take_keys();
     if (answer_to_ != nobody && now >= next_answer_) {
         next_answer_ = now + answer_every;
+        answers_known_ = false;
         return greet(std::exchange(answer_to_, nobody), into);
     }
-    if (!met() && now >= next_greeting_) {
+    if (!lives(now) && now >= next_greeting_) {
         next_greeting_ = now + greet_every;
         return greet(seen_, into);
     }
@@ -134,21 +128,37 @@ std::size_t SecureSession::due(std::span<std::byte> into, Nanoseconds now) {
 
 // --- receiving
 
-bool SecureSession::concerns(std::span<const std::byte> datagram) {
+bool SecureSession::lives(Nanoseconds now) const {
+    return current_ && now - opened_at_ < silent_after;
+}
+
+Admission SecureSession::admission(Nanoseconds now) const {
+    Admission admission;
+    admission.own_start = own_.start;
+    for (const std::optional<Session>* const session : {&current_, &next_}) {
+        if (*session) {
+            admission.sessions[admission.session_count++] = (*session)->keys.id;
+        }
+    }
+    admission.strangers = !lives(now) && now >= strangers_again_;
+    return admission;
+}
+
+bool SecureSession::concerns(std::span<const std::byte> datagram, Nanoseconds now) {
     if (!has_front(datagram)) {
         ++counts_.not_sealed;
         return false;
     }
-    if (datagram[3] == std::byte{greeting}) {
-        return true;
-    }
     take_keys();
+    if (datagram[3] == std::byte{greeting}) {
+        return hears(datagram, now);
+    }
     const Session* const session = session_of(datagram);
     if (session == nullptr) {
         ++counts_.other_start;
         return false;
     }
-    const auto counter = read_at<std::uint64_t>(datagram, 8);
+    const auto counter = read_at<std::uint64_t>(datagram, counter_at);
     if (counter == 0 || counter > plausible::max_sequence || session->window.has_come(counter)) {
         ++counts_.replayed;
         return false;
@@ -156,8 +166,28 @@ bool SecureSession::concerns(std::span<const std::byte> datagram) {
     return true;
 }
 
+// Who names this start has heard this side. Anybody else may be nobody at all: while a session lives none of
+// them is wanted, and else they are kept from crowding out the one that is.
+bool SecureSession::hears(std::span<const std::byte> greeting, Nanoseconds now) {
+    if (greeting.size() != greeting_bytes) {
+        ++counts_.not_sealed;
+        return false;
+    }
+    if (read_at<std::uint64_t>(greeting, receiver_at) == own_.start) {
+        return true;
+    }
+    if (!lives(now) && now >= strangers_again_) {
+        if (strangers_.pass(now)) {
+            return true;
+        }
+        strangers_again_ = now + deaf_for;
+    }
+    ++counts_.unheard;
+    return false;
+}
+
 SecureSession::Session* SecureSession::session_of(std::span<const std::byte> datagram) {
-    const auto id = read_at<std::uint32_t>(datagram, 4);
+    const auto id = read_at<std::uint32_t>(datagram, session_at);
     for (std::optional<Session>* const session : {&current_, &next_}) {
         if (*session && (*session)->keys.id == id) {
             return &**session;
@@ -166,11 +196,8 @@ SecureSession::Session* SecureSession::session_of(std::span<const std::byte> dat
     return nullptr;
 }
 
-std::size_t SecureSession::open(std::span<const std::byte> datagram, std::span<std::byte> into,
+std::size_t SecureSession::take(std::span<const std::byte> datagram, std::span<std::byte> into,
                                 Nanoseconds now) {
-    if (!concerns(datagram)) {
-        return 0;
-    }
     if (datagram[3] == std::byte{greeting}) {
         take_greeting(datagram, now);
         return 0;
@@ -178,8 +205,11 @@ std::size_t SecureSession::open(std::span<const std::byte> datagram, std::span<s
     Session& session = *session_of(datagram);
     const std::uint64_t before = counts_.opened;
     const std::size_t size = open_with(session, datagram, into);
-    if (counts_.opened > before && next_ && &session == &*next_) {
-        believe_next();
+    if (counts_.opened > before) {
+        if (next_ && &session == &*next_) {
+            believe_next();
+        }
+        opened_at_ = now;
     }
     return size;
 }
@@ -187,11 +217,11 @@ std::size_t SecureSession::open(std::span<const std::byte> datagram, std::span<s
 std::size_t SecureSession::open_with(Session& session, std::span<const std::byte> datagram,
                                      std::span<std::byte> into) {
     unsigned long long plain = 0;
-    const auto counter = read_at<std::uint64_t>(datagram, 8);
+    const auto counter = read_at<std::uint64_t>(datagram, counter_at);
     if (datagram.size() - overhead > into.size() ||
         crypto_aead_chacha20poly1305_ietf_decrypt(
-            raw(into.data()), &plain, nullptr, raw(datagram.data()) + front_bytes,
-            datagram.size() - front_bytes, raw(datagram.data()), front_bytes, nonce_of(counter).data(),
+            raw(into.data()), &plain, nullptr, raw(datagram.data()) + ciphertext_at,
+            datagram.size() - ciphertext_at, raw(datagram.data()), ciphertext_at, nonce_of(counter).data(),
             session.keys.receive.data()) != 0) {
         ++counts_.wrong_key;
         return 0;
@@ -216,26 +246,25 @@ bool SecureSession::is_past(std::uint64_t start) const {
 
 // It may be a recording: an answer is all that it gets. Only who names this very start has heard it.
 void SecureSession::take_greeting(std::span<const std::byte> datagram, Nanoseconds now) {
-    if (datagram.size() != greeting_bytes) {
-        ++counts_.not_sealed;
-        return;
-    }
     SecurePeer peer;
-    peer.start = read_at<std::uint64_t>(datagram, 4);
-    const auto receiver = read_at<std::uint64_t>(datagram, 12);
+    peer.start = read_at<std::uint64_t>(datagram, sender_at);
+    const auto receiver = read_at<std::uint64_t>(datagram, receiver_at);
     const bool known = current_ && current_->start == peer.start;
-    if (peer.start == nobody || peer.start == own_.start || (receiver != nobody && receiver != own_.start) ||
-        is_past(peer.start) || past_count_ == max_past) {
+    if (peer.start == nobody || peer.start == own_.start || is_past(peer.start) || past_count_ == max_past) {
         ++counts_.other_start;
         return;
     }
     if (known) {
         return;  // it was on its way when the two met
     }
-    seen_ = answer_to_ = peer.start;
-    if (receiver == own_.start) {
-        peer.salt = read_at<decltype(peer.salt)>(datagram, 20);
-        peer.public_key = read_at<decltype(peer.public_key)>(datagram, 36);
+    const bool knows_this = receiver == own_.start;
+    if (knows_this || !answers_known_) {
+        seen_ = answer_to_ = peer.start;
+        answers_known_ = knows_this;
+    }
+    if (knows_this) {
+        peer.salt = read_at<decltype(peer.salt)>(datagram, salt_at);
+        peer.public_key = read_at<decltype(peer.public_key)>(datagram, public_key_at);
         make_keys(peer, now);
     }
 }

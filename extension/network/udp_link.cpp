@@ -79,6 +79,7 @@ std::string UdpLink::open(const UdpSettings& settings) {
     }
     overhead_.store(udp_overhead(sockets_.sockets.front().family) + (secure_ ? SecureSession::overhead : 0));
     limit_ = RateLimit(one_every, burst);
+    admitted_.reset();
     chosen_ = sockets_.sockets.size() == 1 && sockets_.sockets[0].remotes.size() == 1 ? 0 : undecided;
     next_try_ = monotonic_now() + try_others_every;
     next_publish_ = 0;
@@ -129,6 +130,7 @@ UdpFigures UdpLink::figures() {
             read(oversized_),
             read(unreachable_),
             read(too_many_),
+            secure.dropped_by_system,
             settings_.secret.has_value(),
             secure.met,
             secure.counts};
@@ -199,6 +201,7 @@ void UdpLink::say_what_is_due() {
                 send_to_far_side(std::span(batch_->sealed).first(size));
             }
         }
+        filter(now);
     }
     try_other_addresses(now);
     publish(now);
@@ -258,7 +261,7 @@ std::size_t UdpLink::receive_from(std::size_t which) {
 
 void UdpLink::take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived) {
     // What names another session is dropped unopened; the rest has to keep to the rate.
-    if (secure_ && !secure_->concerns(datagram)) {
+    if (secure_ && !secure_->concerns(datagram, arrived)) {
         return;
     }
     if (!limit_.pass(arrived)) {
@@ -269,7 +272,7 @@ void UdpLink::take(std::size_t which, std::span<const std::byte> datagram, Nanos
     opened.arrived = arrived;
     if (secure_) {
         const std::uint64_t believed = secure_->counts().opened;
-        opened.size = secure_->open(datagram, opened.bytes, arrived);
+        opened.size = secure_->take(datagram, opened.bytes, arrived);
         if (secure_->counts().opened > believed) {
             decide_for(which);
         }
@@ -298,6 +301,18 @@ void UdpLink::decide_for(std::size_t which) {
     }
 }
 
+// Where the system cannot, concerns() does the same for more.
+void UdpLink::filter(Nanoseconds now) {
+    const Admission admission = secure_->admission(now);
+    if (admitted_ == admission) {
+        return;
+    }
+    admitted_ = admission;
+    for (const UdpSocket& socket : sockets_.sockets) {
+        attach_filter(socket.file, admission);
+    }
+}
+
 void UdpLink::try_other_addresses(Nanoseconds now) {
     if (chosen_ != undecided || now < next_try_) {
         return;
@@ -313,7 +328,11 @@ void UdpLink::publish(Nanoseconds now) {
         return;
     }
     next_publish_ = now + publish_every;
-    secure_figures_.publish({secure_->met(), secure_->counts()});
+    SecureFigures figures{secure_->met(), secure_->counts(), 0};
+    for (const UdpSocket& socket : sockets_.sockets) {
+        figures.dropped_by_system += dropped_by_system(socket.file);
+    }
+    secure_figures_.publish(figures);
 }
 
 // An unreachable far side is asked on: it may be about to start.

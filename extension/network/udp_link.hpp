@@ -6,9 +6,9 @@
 // sleeping thread is a system call as well, nobody wakes it: it wakes by itself, at once when a datagram
 // comes in, and every `look_out` to see what there is to send. That is what sending takes longer for.
 //
-// A flood costs the haptic thread nothing and the network thread little: what comes is taken in batches, at
-// most one every `look_out`, and what is not sealed for this session, or comes faster than any honest side
-// sends, is dropped before anything is done for it.
+// A flood costs the haptic thread nothing and the network thread little: what is not sealed for this session
+// is dropped by the system (socket_filter.hpp), the rest is taken in batches, at most one every `look_out`,
+// and what comes faster than any honest side sends is dropped before anything is done for it.
 #pragma once
 
 #include <pthread.h>
@@ -23,6 +23,7 @@
 #include "network/memory_link.hpp"
 #include "network/rate_limit.hpp"
 #include "network/secure_session.hpp"
+#include "network/socket_filter.hpp"
 #include "network/udp_sockets.hpp"
 #include "realtime/triple_buffer.hpp"
 
@@ -48,15 +49,16 @@ enum class UdpState : std::uint8_t {
 
 struct UdpFigures {
     UdpState state = UdpState::closed;
-    std::uint64_t sent = 0;             // given to the system
-    std::uint64_t received = 0;         // given to the haptic thread's ring
-    std::uint64_t no_room_to_send = 0;  // lost: the ring or the system was full
-    std::uint64_t no_room_to_take = 0;  // lost: the haptic thread did not come to take them
-    std::uint64_t oversized = 0;        // longer than most_datagram_bytes, dropped
-    std::uint64_t unreachable = 0;      // times that the far machine said so
-    std::uint64_t too_many = 0;         // came faster than any honest side sends, dropped
-    bool sealed = false;                // under a secret
-    bool met = false;                   // the far side has shown that it knows the same secret
+    std::uint64_t sent = 0;               // given to the system
+    std::uint64_t received = 0;           // given to the haptic thread's ring
+    std::uint64_t no_room_to_send = 0;    // lost: the ring or the system was full
+    std::uint64_t no_room_to_take = 0;    // lost: the haptic thread did not come to take them
+    std::uint64_t oversized = 0;          // longer than most_datagram_bytes, dropped
+    std::uint64_t unreachable = 0;        // times that the far machine said so
+    std::uint64_t too_many = 0;           // came faster than any honest side sends, dropped
+    std::uint64_t dropped_by_system = 0;  // unseen: not for this session, or no room
+    bool sealed = false;                  // under a secret
+    bool met = false;                     // the far side has shown that it knows the same secret
     SecureCounts secure;
 };
 
@@ -84,6 +86,7 @@ private:
     struct SecureFigures {
         bool met = false;
         SecureCounts counts;
+        std::uint64_t dropped_by_system = 0;
     };
     // A second of the most that an honest side sends passes at once.
     static constexpr Nanoseconds one_every = 50'000;
@@ -99,6 +102,7 @@ private:
     std::size_t receive_from(std::size_t which);
     void take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived);
     void decide_for(std::size_t which);
+    void filter(Nanoseconds now);
     void try_other_addresses(Nanoseconds now);
     void publish(Nanoseconds now);
     void note_error(int error);
@@ -117,6 +121,7 @@ private:
     std::unique_ptr<Batch> batch_;
     std::unique_ptr<SecureSession> secure_;  // null: no secret
     std::unique_ptr<JobThread> jobs_;        // makes its keys
+    std::optional<Admission> admitted_;      // by the system
     RateLimit limit_{one_every, burst};
     std::size_t chosen_ = undecided;  // the socket that the far side was heard on
     Nanoseconds next_try_ = 0;

@@ -16,6 +16,7 @@
 #include "physics/motion_type.hpp"
 #include "physics/shape_conversion.hpp"
 #include "physics/solid_properties.hpp"
+#include "realtime/thread_role.hpp"
 
 namespace tactus {
 
@@ -150,6 +151,7 @@ PreparedBody::PreparedBody(PreparedBody&&) noexcept = default;
 PreparedBody& PreparedBody::operator=(PreparedBody&&) noexcept = default;
 
 PreparedBody prepare(const BodyDescription& description) {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     start_jolt();
     if (std::string wrong = wrong_in(description); !wrong.empty())
         return PreparedBody(std::move(wrong));
@@ -197,6 +199,7 @@ PreparedBody prepare(const BodyDescription& description) {
 }
 
 PreparedBody duplicate(const PreparedBody& body) {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     const BodyRecord& original = *body.record_;
     auto record = std::make_unique<BodyRecord>();
     record->collision = original.collision;

@@ -21,6 +21,9 @@ struct PlainSettings final : JPH::ConstraintSettings {};
 // A body is light to a spring when k dt^2 exceeds this share of its mass.
 constexpr float light = 0.05f;
 
+// The share s of a free body (see the header): enough to come to rest in the end, too little to tell.
+constexpr float least_share = 0.01f;
+
 // Contacts of a single light body settle to a thousandth within the first, spring and contacts together in
 // the rest.
 constexpr int held_iterations = 24;
@@ -57,32 +60,24 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
     push_.damping = static_cast<float>(limits::cut(spring.damping, limits::stiffest));
 }
 
-// In terms of the impulse l and with the hand's velocity w, the force at a sub-step's end is
-//     l / dt = F0 + k (h + w dt - u - v dt) - c (v - v0)
-//     <=>   v + l / (dt (c + k dt)) = (F0 + k (h - u + w dt) + c v0) / (c + k dt).
-// A sliding fingertip solves it along n: numbers in place of vectors, n.v + (r x n).w in place of v.
 void SpringPush::SetupVelocityConstraint(float seconds) {
     const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
     arm_ = push_.body->GetRotation() * push_.local_point;
     lever_ = arm_.Cross(push_.direction);
     turn_ = motion.MultiplyWorldSpaceInverseInertiaByVector(push_.body->GetRotation(), lever_);
-    const JPH::Vec3 given = along(JPH::Vec3(push_.body->GetCenterOfMassPosition() - push_.start) + arm_);
-    const JPH::Vec3 force = push_.force + push_.stiffness * (push_.hand_velocity * push_.elapsed - given);
-    const float resistance = push_.damping + push_.stiffness * seconds;
-    softness_ = 1.0f / (seconds * resistance);
-    bias_ = (force + push_.stiffness * seconds * push_.hand_velocity + push_.damping * push_.first_velocity) /
-            resistance;
-    bias_along_ = bias_.Dot(push_.direction);
-    impulse_ = force.Dot(push_.direction) > 0.0f ? force * seconds : JPH::Vec3::sZero();
+    inverse_mass_along_ = motion.GetInverseMass() + lever_.Dot(turn_);
+    const JPH::Vec3 gone = along(JPH::Vec3(push_.body->GetCenterOfMassPosition() - push_.start) + arm_);
+    force_ = push_.force + push_.stiffness * (push_.hand_velocity * push_.elapsed - gone);
+    push_.given += push_.elapsed > 0.0f ? given_along() : 0.0f;
+    impulse_ = force_.Dot(push_.direction) > 0.0f ? force_ * seconds : JPH::Vec3::sZero();
     impulse_along_ = impulse_.Dot(push_.direction);
     push_.elapsed += seconds;
 
-    const float inverse_mass_along = motion.GetInverseMass() + lever_.Dot(turn_);
-    effective_mass_along_ = 1.0f / (inverse_mass_along + softness_);
-    if (push_.sticks)
-        effective_mass_ = (inverse_mass_at(*push_.body, arm_) + JPH::Mat44::sScale(softness_)).Inversed3x3();
-    held_ = inverse_mass_along > light * softness_ ? held_iterations : 0;
-    SetNumVelocityStepsOverride(held_ > 0 ? light_iterations : 0);
+    const float resistance = push_.damping + push_.stiffness * seconds;
+    is_light_ = inverse_mass_along_ * seconds * resistance > light;
+    held_ = is_light_ ? held_iterations : 0;
+    SetNumVelocityStepsOverride(is_light_ ? light_iterations : 0);
+    gives_ = false;
 }
 
 // A braced body does not give way: the answer is the force itself, and the contacts remember theirs.
@@ -93,12 +88,40 @@ void SpringPush::WarmStartVelocityConstraint(float) {
         add_impulse_along(impulse_along_);
 }
 
-bool SpringPush::SolveVelocityConstraint(float) {
+bool SpringPush::SolveVelocityConstraint(float seconds) {
     if (held_ > 0) {
         --held_;
         return true;  // or Jolt would think that it is done
     }
+    if (!gives_)
+        give_way(seconds);
     return push_.sticks ? solve() : solve_along();
+}
+
+// In terms of the impulse l, with the hand's velocity w, the force of a sub-step is
+//     l / dt = F0 + k (h - u) + s k dt (w - v) - c (v - v0)
+//     <=>   v + l / (dt (c + s k dt)) = (F0 + k (h - u) + s k dt w + c v0) / (c + s k dt).
+// A sliding fingertip solves it along n: numbers in place of vectors, n.v + (r x n).w in place of v.
+//
+// By now contacts, joints and other fingers have given what they gave in the last step, or what they found
+// while the impulse was held: what of this impulse has not become speed is borne by them.
+void SpringPush::give_way(float seconds) {
+    const JPH::MotionProperties& motion = *push_.body->GetMotionProperties();
+    const JPH::Vec3 velocity = motion.GetLinearVelocity() + motion.GetAngularVelocity().Cross(arm_);
+    const float given = push_.given + given_along();
+    const float gained = (velocity - push_.first_velocity).Dot(push_.direction);
+    const float free = inverse_mass_along_ * given;  // what a free body would have gained
+    const bool keeps = !is_light_ && gained > 0.0f && free > 0.0f;
+    const float share = keeps ? std::clamp(1.0f - gained / free, least_share, 1.0f) : 1.0f;
+    const float give = share * push_.stiffness * seconds;
+    const float resistance = push_.damping + give;
+    softness_ = 1.0f / (seconds * resistance);
+    bias_ = (force_ + give * push_.hand_velocity + push_.damping * push_.first_velocity) / resistance;
+    bias_along_ = bias_.Dot(push_.direction);
+    effective_mass_along_ = 1.0f / (inverse_mass_along_ + softness_);
+    if (push_.sticks)
+        effective_mass_ = (inverse_mass_at(*push_.body, arm_) + JPH::Mat44::sScale(softness_)).Inversed3x3();
+    gives_ = true;
 }
 
 bool SpringPush::solve() {

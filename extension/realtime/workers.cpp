@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <atomic>
 
+#include "realtime/thread_role.hpp"
+
 namespace tactus {
 
 namespace {
@@ -70,6 +72,7 @@ void Workers::start() {
 }
 
 void Workers::add(std::function<void()> job) {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     if (threads_.empty()) {
         start();
     }
@@ -120,6 +123,7 @@ void Workers::take_part(Batch& batch) {
 }
 
 void Workers::run(std::size_t count, const std::function<void(std::size_t)>& task) {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     if (count < 2) {
         run_serially(count, task);
         return;
@@ -143,6 +147,7 @@ ParallelRunner Workers::runner() {
 }
 
 void Workers::wait() {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     std::unique_lock lock(mutex_);
     all_done_.wait(lock, [this] { return working_ == 0 && jobs_.empty(); });
 }

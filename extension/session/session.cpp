@@ -5,6 +5,7 @@
 
 #include "physics/limits.hpp"
 #include "realtime/spsc_ring.hpp"
+#include "realtime/thread_role.hpp"
 #include "realtime/triple_buffer.hpp"
 #include "session/session_loop.hpp"
 
@@ -128,6 +129,7 @@ struct Session::Impl {
           joints(s.physics.max_joints) {}
 
     void send(Command&& command) {
+        TACTUS_ASSERT_NOT_HAPTIC_THREAD();
         send_backlog();
         if (!backlog.empty() || !commands.try_push(std::move(command))) {
             backlog.push_back(std::move(command));
@@ -394,6 +396,7 @@ void Session::attach(std::unique_ptr<TeleopSide> side) {
 }
 
 bool Session::collect() {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     Retired remains;
     while (impl_->retired.try_pop(remains)) {
         switch (remains.kind) {
@@ -421,6 +424,7 @@ bool Session::collect() {
 }
 
 bool Session::refresh() {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     return impl_->snapshots.refresh();
 }
 const SessionSnapshot& Session::snapshot() const {
@@ -432,16 +436,20 @@ std::size_t Session::backlog() const {
 
 void Session::settle() {
     do {
+        const HapticRole loop_side;
         impl_->take_commands(0xffff'ffffu);
     } while (collect());
+    const HapticRole loop_side;
     impl_->loop.settle();
 }
 
 void Session::rest() {
+    const HapticRole loop_side;
     impl_->loop.rest();
 }
 
 TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
+    const HapticRole loop_side;
     TickStatus status = 0;
     {
         const TraceScope scope(trace, TickStage::take_commands);

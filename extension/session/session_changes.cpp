@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "realtime/thread_role.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
@@ -21,6 +22,7 @@ bool changes_touch(const Command& command) {
 }  // namespace
 
 bool SessionLoop::take(Command& command, Retired& retired) {
+    TACTUS_ASSERT_HAPTIC_THREAD();
     touch_changed_ = touch_changed_ || changes_touch(command);
     return std::visit([&](auto& c) { return carry_out(c, retired); }, command);
 }

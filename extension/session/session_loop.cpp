@@ -8,6 +8,7 @@
 
 #include "core/haptics/nearest_surface.hpp"
 #include "physics/limits.hpp"
+#include "realtime/thread_role.hpp"
 
 namespace tactus {
 
@@ -59,6 +60,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
 }
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
+    TACTUS_ASSERT_HAPTIC_THREAD();
     ++tick_;
     time_ = now;
     scene_.begin_tick();
@@ -373,6 +375,7 @@ void SessionLoop::write_devices(Nanoseconds now) {
 }
 
 void SessionLoop::rest() {
+    TACTUS_ASSERT_HAPTIC_THREAD();
     for (DeviceSlot& slot : devices_) {
         if (slot.device) {
             slot.force = Vec3(0.0);

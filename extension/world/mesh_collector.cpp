@@ -1,8 +1,9 @@
 #include "world/mesh_collector.hpp"
 
-#include <bit>
 #include <cstring>
 #include <utility>
+
+#include "core/geometry/same_places.hpp"
 
 namespace tactus {
 
@@ -14,39 +15,27 @@ constexpr float whole_share = 65535.0F;
 
 }  // namespace
 
-std::size_t MeshCollector::PlaceHash::operator()(const Vec3& v) const {
-    const auto mix = [](std::size_t seed, double x) {
-        return (seed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9e37'79b9'7f4a'7c15u;  // + 0.0: -0 is 0
-    };
-    const std::size_t hash = mix(mix(mix(0, v.x), v.y), v.z);
-    return hash ^ (hash >> 32);
-}
-
-std::uint32_t MeshCollector::vertex_at(const Vec3& place) {
-    const auto [entry, is_new] =
-        vertices_.try_emplace(place, static_cast<std::uint32_t>(mesh_.vertices.size()));
-    if (is_new) {
-        mesh_.vertices.push_back(place);
-    }
-    return entry->second;
-}
-
 void MeshCollector::add(std::span<const PackedPlace> corners, std::span<const std::int32_t> indices) {
-    std::vector<std::uint32_t> vertex_of(corners.size());
-    vertices_.reserve(vertices_.size() + vertex_of.size() / 2);
-    for (std::size_t i = 0; i < vertex_of.size(); ++i) {
-        vertex_of[i] = vertex_at({corners[i][0], corners[i][1], corners[i][2]});
+    const std::size_t before = mesh_.vertices.size();
+    mesh_.vertices.reserve(before + corners.size());
+    for (const PackedPlace& place : corners) {
+        mesh_.vertices.emplace_back(place[0], place[1], place[2]);
     }
     // An index without a corner stays one: check_mesh() says so.
     const auto vertex = [&](std::size_t i) {
         const std::size_t corner = indices.empty() ? i : static_cast<std::size_t>(indices[i]);
-        return corner < vertex_of.size() ? vertex_of[corner] : 0xffff'ffffu;
+        return corner < corners.size() ? static_cast<std::uint32_t>(before + corner) : 0xffff'ffffu;
     };
     const std::size_t count = (indices.empty() ? corners.size() : indices.size()) / 3 * 3;
     mesh_.triangles.reserve(mesh_.triangles.size() + count / 3);
     for (std::size_t i = 0; i < count; i += 3) {
         mesh_.triangles.push_back({vertex(i), vertex(i + 2), vertex(i + 1)});
     }
+}
+
+TriangleMesh MeshCollector::take() {
+    merge_places(mesh_);
+    return std::move(mesh_);
 }
 
 bool is_whole(const SurfaceBytes& bytes) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "core/geometry/triangle_mesh.hpp"
@@ -20,16 +19,10 @@ class MeshCollector {
 public:
     // Three corners a triangle; without indices, each corner in turn.
     void add(std::span<const PackedPlace> corners, std::span<const std::int32_t> indices);
-    TriangleMesh take() { return std::move(mesh_); }
+    TriangleMesh take();
 
 private:
-    struct PlaceHash {
-        std::size_t operator()(const Vec3& v) const;
-    };
-    std::uint32_t vertex_at(const Vec3& place);
-
     TriangleMesh mesh_;
-    std::unordered_map<Vec3, std::uint32_t, PlaceHash> vertices_;
 };
 
 // The bytes of one surface. A corner's place comes first in them, all places together: three floats, or in a

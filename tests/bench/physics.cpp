@@ -24,9 +24,10 @@ void checks(bench::Results& results) {
     results.add("check_fall_error_percent", check.fall);
     results.add("check_sliding_error_percent", check.sliding);
     results.add("check_push_error_percent", push);
+    results.add("check_spring_throw_percent", check.thrown);
+    results.add("check_spring_bounce_percent", check.bounced);
     results.add("check_spring_loss_percent", check.spring_loss);
     results.add("check_max_error_percent", std::max({check.fall, check.sliding, push, check.spring_loss}));
-    results.add("spring_energy_loss_percent", check.spring_loss);
 }
 
 }  // namespace

@@ -145,6 +145,7 @@ bool flood(Report& report) {
     report.set("flood_tick_over_quiet", figures.tick_over_quiet);
     report.set("flood_tick_p99_over_quiet", figures.tick_p99_over_quiet);
     report.set("flood_network_thread_percent", figures.network_thread_percent);
+    report.set("quiet_network_thread_percent", figures.quiet_network_thread_percent);
     report.set("flood_honest_packets_lost_percent", figures.honest_lost_percent);
     return true;
 }

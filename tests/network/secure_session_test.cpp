@@ -12,6 +12,7 @@
 #include <string>
 
 #include "network/messages.hpp"
+#include "network/sealed_format.hpp"
 #include "published_vectors.hpp"
 #include "shared/random_values.hpp"
 #include "support/realtime_audit.hpp"
@@ -299,6 +300,53 @@ TEST(SecureSession, WhoOnlyGreetsShutsNobodyOut) {
         }
     }
     EXPECT_LE(rig.near.session->counts().keys_made, 5u) << "one at a time, and not too often";
+    rig.expect_talk();
+}
+
+// Greetings as they could be: of the right form, from a start that there is not.
+Bytes strangers_greeting(int number) {
+    Bytes greeting(sealed_format::greeting_bytes, std::byte{0x21});
+    std::memcpy(greeting.data(), "TS\2\0", 4);
+    const std::uint64_t sender = 0x1000'0000u + static_cast<std::uint64_t>(number), nobody = 0;
+    std::memcpy(&greeting[sealed_format::sender_at], &sender, sizeof sender);
+    std::memcpy(&greeting[sealed_format::receiver_at], &nobody, sizeof nobody);
+    return greeting;
+}
+
+TEST(SecureSession, ALivingSessionAnswersNoStranger) {
+    SecureRig rig;
+    rig.run(20 * ms);
+    const std::size_t before = rig.near.sent.size();
+    for (int i = 0; i < 1000; ++i) {
+        rig.near.inbox.push_back(strangers_greeting(i));
+        rig.say(rig.far, one(i));
+        rig.run(ms);
+    }
+    EXPECT_EQ(rig.near.sent.size(), before);
+    EXPECT_EQ(rig.near.session->counts().unheard, 1000u);
+    EXPECT_FALSE(rig.near.session->admission(rig.now).strangers);
+}
+
+// So many strangers that near hears next to none of them: what far says first is lost among them, but far
+// hears near and can then call it by its name.
+TEST(SecureSession, ManyStrangersDoNotKeepARestartAway) {
+    SecureRig rig;
+    rig.run(20 * ms);
+    rig.start(rig.far);
+    int number = 0;
+    std::uint64_t answered = rig.near.sent.size();
+    const Nanoseconds begin = rig.now;
+    while (rig.now < begin + 2000 * ms && !rig.far.session->met()) {
+        for (int i = 0; i < 200; ++i) {
+            rig.near.inbox.push_front(strangers_greeting(++number));
+        }
+        rig.run(ms);
+    }
+    answered = rig.near.sent.size() - answered;
+    EXPECT_LT(rig.now - begin, 1500 * ms);
+    EXPECT_LT(answered, 200u) << "few answers, whatever comes";
+    rig.run(200 * ms);
+    EXPECT_GT(rig.near.session->counts().unheard, static_cast<std::uint64_t>(number / 2));
     rig.expect_talk();
 }
 

@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <set>
 #include <thread>
 
@@ -208,6 +209,36 @@ TEST(UdpLink, WhatComesTooFastIsDropped) {
         }
         return pair.first.figures().too_many > 0;
     }));
+}
+
+// Thrown from the far side's own address, as who forges it would.
+TEST(UdpLink, WhatIsNotSealedForTheSessionIsNotEvenSeen) {
+    Pair pair(true);
+    ASSERT_TRUE(eventually([&] {
+        pair.first.send(bytes(3, 1), 0);
+        pair.second.send(bytes(3, 1), 0);
+        return pair.first.figures().met && pair.second.figures().met;
+    }));
+    const std::uint16_t second_port = pair.second.local_port();
+    sockaddr_in target{}, own{};
+    target.sin_family = own.sin_family = AF_INET;
+    target.sin_port = htons(pair.first.local_port());
+    own.sin_port = htons(second_port);
+    target.sin_addr.s_addr = own.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    pair.second.close();
+    const int forger = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    ASSERT_EQ(bind(forger, reinterpret_cast<const sockaddr*>(&own), sizeof own), 0);
+    std::vector<std::byte> packet = bytes(100, 9);
+    std::memcpy(packet.data(), "TS\2\1", 4);
+    const std::uint64_t unseen = pair.first.figures().dropped_by_system;
+    const std::uint64_t seen = pair.first.figures().secure.other_start;
+    for (int i = 0; i < 1000; ++i) {
+        sendto(forger, packet.data(), packet.size(), 0, reinterpret_cast<const sockaddr*>(&target),
+               sizeof target);
+    }
+    ::close(forger);
+    EXPECT_TRUE(eventually([&] { return pair.first.figures().dropped_by_system >= unseen + 1000; }));
+    EXPECT_EQ(pair.first.figures().secure.other_start, seen);
 }
 
 TEST(UdpLink, AClosedLinkTakesNothingAndGivesNothing) {

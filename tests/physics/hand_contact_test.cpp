@@ -150,6 +150,42 @@ TEST(HandContact, SpringForceIsAPlainForceToAHeavyBody) {
     EXPECT_NEAR(world.linear_velocity(id).x, 10.0 * tick / 1000.0, 1e-10);
 }
 
+// Energy of a free body over what it and the spring had at first, after a hand that stands still `depth`
+// inside it (or as far away, and it comes at `speed`) has pushed it off.
+double energy_kept(double stiffness, double mass, double depth, double speed, int sub_steps) {
+    PhysicsSettings settings;
+    settings.gravity = Vec3(0.0);
+    settings.sub_steps = sub_steps;
+    PhysicsWorld world(settings);
+    const BodyId id = add(world, box(Vec3(0.1), Vec3(0.0), mass));
+    world.set_velocity(id, {-speed, 0.0, 0.0}, Vec3(0.0));
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 point = world.pose(id).position - Vec3(0.05, 0.0, 0.0);
+        const double left = depth - 0.05 - point.x;
+        if (left > 0.0)
+            world.apply_spring_force(id, {{stiffness * left, 0.0, 0.0}, point, stiffness});
+        world.step(tick);
+    }
+    const double first = mass * speed * speed + (depth > 0.0 ? stiffness * depth * depth : 0.0);
+    const double last = world.linear_velocity(id).x;
+    return mass * last * last / first;
+}
+
+// The share k dt^2 / m is what the steps' places are off by; to a free body, a hundredth of the spring gives
+// way.
+TEST(HandContact, AFreeBodyKeepsTheEnergyThatASpringGivesIt) {
+    for (const double stiffness : {100.0, 1000.0, 3000.0})
+        for (const double mass : {1.0, 3.0})
+            for (const int sub_steps : {1, 2}) {
+                const double share = stiffness * tick * tick / mass;
+                const double off = 1e-3 + 2.0 * share + 0.01 * std::numbers::pi * std::sqrt(share);
+                EXPECT_NEAR(energy_kept(stiffness, mass, 0.01, 0.0, sub_steps), 1.0, off)
+                    << "thrown, " << stiffness << " N/m, " << mass << " kg, " << sub_steps;
+                EXPECT_NEAR(energy_kept(stiffness, mass, -0.005, 0.1, sub_steps), 1.0, off)
+                    << "bounced, " << stiffness << " N/m, " << mass << " kg, " << sub_steps;
+            }
+}
+
 TEST(HandContact, BodyMayLeaveBetweenPushAndStep) {
     PhysicsWorld world;
     const BodyId first = add(world, cube(0.1, Vec3(0.0)));

@@ -6,38 +6,16 @@
 #include <memory>
 
 #include "physics/physics_world.hpp"
+#include "shared/bodies.hpp"
 
 namespace tactus::scene {
 
 constexpr double tick = 1e-3;  // (unit: seconds)
 
-inline std::vector<PlacedShape> one(Shape shape) {
-    return {PlacedShape{std::move(shape), Pose{}}};
-}
-
-inline BodyDescription box(const Vec3& size, const Vec3& position, double mass) {
-    BodyDescription body;
-    body.shapes = one(BoxShape{0.5 * size});
-    body.pose.position = position;
-    body.mass = mass;
-    return body;
-}
-
-inline BodyDescription ball(double radius, const Vec3& position, double mass) {
-    BodyDescription body;
-    body.shapes = one(SphereShape{radius});
-    body.pose.position = position;
-    body.mass = mass;
-    return body;
-}
-
-// The ground y <= 0.
-inline BodyDescription ground() {
-    BodyDescription body;
-    body.shapes = one(PlaneShape{});
-    body.motion = Motion::Static;
-    return body;
-}
+using shared::ball;
+using shared::box;
+using shared::ground;
+using shared::one;
 
 inline BodyId add(PhysicsWorld& world, const BodyDescription& description) {
     PreparedBody body = prepare(description);

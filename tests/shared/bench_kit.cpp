@@ -112,7 +112,23 @@ std::filesystem::path result_path(std::string_view name) {
                  : std::filesystem::path("build/bench") / (std::string(name) + ".json");
 }
 
+namespace {
+
+// Those that the program began with.
+const cpu_set_t& processors() {
+    static const cpu_set_t all = [] {
+        cpu_set_t set;
+        CPU_ZERO(&set);
+        sched_getaffinity(0, sizeof set, &set);
+        return set;
+    }();
+    return all;
+}
+
+}  // namespace
+
 bool stay_on_one_processor() {
+    processors();
     cpu_set_t one;
     CPU_ZERO(&one);
     CPU_SET(static_cast<std::size_t>(sched_getcpu()), &one);
@@ -168,7 +184,11 @@ void run_on_two_threads(std::size_t count, const std::function<void(std::size_t)
         work();
         return;
     }
-    std::thread other(work);
+    std::thread other([&work] {
+        // A thread begins with its maker's processors: that may be one only.
+        sched_setaffinity(0, sizeof(cpu_set_t), &processors());
+        work();
+    });
     work();
     other.join();
 }

@@ -70,7 +70,7 @@ private:
 // The value below which the share q of all lies; 0 for none. Reorders.
 double quantile(std::vector<double>& values, double q);
 
-// Two tasks at a time.
+// Two tasks at a time, on two processors also where the calling thread stays on one.
 void run_on_two_threads(std::size_t count, const std::function<void(std::size_t)>& task);
 
 }  // namespace tactus::shared

@@ -71,6 +71,23 @@ std::vector<int> network_threads() {
     return found;
 }
 
+std::vector<double> times_of(const std::vector<int>& threads) {
+    std::vector<double> times;
+    for (const int thread : threads) {
+        times.push_back(time_of_thread(thread));
+    }
+    return times;
+}
+
+// Of the thread that has done most (unit: seconds).
+double busiest_since(const std::vector<double>& before, const std::vector<double>& after) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        most = std::max(most, after[i] - before[i]);
+    }
+    return most;
+}
+
 // Headers of IPv4 and UDP and a packet that looks like a sealed one, counters rising.
 struct Forged {
     std::array<std::byte, sizeof(iphdr) + sizeof(udphdr) + flood_bytes> bytes{};
@@ -250,23 +267,22 @@ FloodFigures run_flood(const FloodSettings& settings) {
     // The operator's network thread is the one that the flood keeps busy.
     const std::vector<int> threads = network_threads();
     std::vector<double> quiet, flooded;
-    double thrown = 0.0, flooded_seconds = 0.0, thread_seconds = 0.0, reached = 0.0;
+    double thrown = 0.0, flooded_seconds = 0.0, thread_seconds = 0.0, quiet_seconds = 0.0, reached = 0.0;
     const auto missing = [&rig] { return static_cast<double>(rig.near.statistics().link.missing); };
     const auto came = [&rig] { return static_cast<double>(rig.near.statistics().link.packets_received); };
     const auto looked_at = [&rig] {
         const UdpFigures udp = rig.near_link.figures();
         return static_cast<double>(udp.too_many + udp.secure.not_sealed + udp.secure.other_start +
-                                   udp.secure.replayed);
+                                   udp.secure.replayed + udp.secure.unheard);
     };
     double lost = 0.0, honest = 0.0;
     figures.from_peers_address = may_forge();
     for (int round = 0; round < settings.rounds && figures.error.empty(); ++round) {
+        const std::vector<double> idle = times_of(threads);
         const std::vector<double> calm = rig.run(settings.seconds);
         quiet.insert(quiet.end(), calm.begin(), calm.end());
-        std::vector<double> before;
-        for (const int thread : threads) {
-            before.push_back(time_of_thread(thread));
-        }
+        const std::vector<double> before = times_of(threads);
+        quiet_seconds += busiest_since(idle, before);
         const double lost_before = missing(), came_before = came(), looked_before = looked_at();
         Flooder flooder(rig.far_port, rig.near_link.local_port(), settings.packets_per_s,
                         figures.from_peers_address);
@@ -276,11 +292,7 @@ FloodFigures run_flood(const FloodSettings& settings) {
         thrown += static_cast<double>(flooder.stop());
         flooded.insert(flooded.end(), wild.begin(), wild.end());
         flooded_seconds += elapsed;
-        double busiest = 0.0;
-        for (std::size_t i = 0; i < threads.size(); ++i) {
-            busiest = std::max(busiest, time_of_thread(threads[i]) - before[i]);
-        }
-        thread_seconds += busiest;
+        thread_seconds += busiest_since(before, times_of(threads));
         lost += missing() - lost_before;
         honest += came() - came_before;
         reached += looked_at() - looked_before;
@@ -295,6 +307,7 @@ FloodFigures run_flood(const FloodSettings& settings) {
     figures.tick_over_quiet = quantile(flooded, 0.5) / quantile(quiet, 0.5);
     figures.tick_p99_over_quiet = quantile(flooded, 0.99) / quantile(quiet, 0.99);
     figures.network_thread_percent = 100.0 * thread_seconds / flooded_seconds;
+    figures.quiet_network_thread_percent = 100.0 * quiet_seconds / (settings.rounds * settings.seconds);
     figures.honest_lost_percent = 100.0 * lost / std::max(lost + honest, 1.0);
     return figures;
 }

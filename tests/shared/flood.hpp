@@ -19,7 +19,8 @@ struct FloodFigures {
     double tick_over_quiet = 0.0;     // median of the tick's processor time, flooded over quiet
     double tick_p99_over_quiet = 0.0;
     double network_thread_percent = 0.0;  // of one processor, flooded
-    double honest_lost_percent = 0.0;     // of the far side's own packets
+    double quiet_network_thread_percent = 0.0;
+    double honest_lost_percent = 0.0;  // of the far side's own packets
 };
 
 FloodFigures run_flood(const FloodSettings& settings);

@@ -10,11 +10,12 @@ struct PhysicsCheck {
     double momentum = 0.0;  // of a box pushed over ice for half a second: F t
     double energy = 0.0;    // of the same: (F t)^2 / (2 m)
     double work = 0.0;      // done on the same: F s against its exact energy
-    // Share of its energy that a hand's spring loses when it throws a box over ice: the price of a spring
-    // that is stable for bodies however light (physics/spring_push.hpp), pi / 2 dt sqrt(k / m) to first
-    // order.
-    double spring_loss = 0.0;
-    double run_time = 0.0;  // of the sliding box, per second of its time (unit: seconds)
+    // Share of its energy that a free body loses to a hand's spring: one that is thrown over ice, and one
+    // that comes and bounces off. The spring damps only what others hold (physics/spring_push.hpp).
+    double thrown = 0.0;
+    double bounced = 0.0;
+    double spring_loss = 0.0;  // the larger of the two
+    double run_time = 0.0;     // of the sliding box, per second of its time (unit: seconds)
 };
 
 PhysicsCheck check_physics(double step);  // (unit: seconds)

@@ -14,7 +14,6 @@ ALLOWED = [
     ("devices", '"realtime/thing.hpp"'),
     ("session", '"devices/thing.hpp"'),
     ("session", '"network/thing.hpp"'),
-    ("world", '"session/thing.hpp"'),
 ]
 FORBIDDEN = [
     ("core", '"realtime/thing.hpp"'),
@@ -27,11 +26,8 @@ FORBIDDEN = [
     ("session", "<Jolt/Jolt.h>"),
     ("session", "<godot_cpp/classes/node.hpp>"),
     ("session", '"nodes/thing.hpp"'),
-    ("session", '"world/thing.hpp"'),
-    ("world", "<godot_cpp/classes/node.hpp>"),
-    ("world", '"nodes/thing.hpp"'),
 ]
-LAYERS = ["core", "realtime", "physics", "devices", "network", "session", "world"]
+LAYERS = ["core", "realtime", "physics", "devices", "network", "session"]
 
 
 def _object(number: int, layer: str) -> str:

@@ -85,9 +85,10 @@ inline float round_up(double value) {
     return nearest < value ? std::nextafterf(nearest, __builtin_inff()) : nearest;
 }
 
-// One bit a lane: those with a value up to `limit`.
-inline unsigned lanes_up_to(FloatLanes values, float limit) {
-    const auto mask = values <= splat_float(limit);
+using FloatMask = std::int32_t __attribute__((vector_size(32)));  // all bits of a lane set: true
+
+// One bit a lane.
+inline unsigned lane_bits(FloatMask mask) {
 #if defined(__AVX__)
     return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 #else
@@ -97,6 +98,11 @@ inline unsigned lanes_up_to(FloatLanes values, float limit) {
     }
     return bits;
 #endif
+}
+
+// Those with a value up to `limit`.
+inline unsigned lanes_up_to(FloatLanes values, float limit) {
+    return lane_bits(values <= splat_float(limit));
 }
 
 // Squared distance from the point to each box; infinite for unused slots.

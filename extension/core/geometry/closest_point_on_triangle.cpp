@@ -3,6 +3,8 @@
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "core/geometry/triangle_pack.hpp"
+
 namespace tactus {
 
 namespace {
@@ -29,7 +31,6 @@ double squared_distance(const Vec3& p, const Vec3& q) {
 // The same steps as in offset_from_triangles, for the same reasons.
 TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                                const Vec3& c) {
-    constexpr double flat_area = 1e-12;
     OnSegment best = closest_on_segment(point, a, b);
     Vec3 best_edge = b - a;
     double least = squared_distance(point, best.point);

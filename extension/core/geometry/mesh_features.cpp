@@ -4,16 +4,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/same_places.hpp"
+#include "core/geometry/corners_by_place.hpp"
+#include "core/geometry/spokes.hpp"
 
 namespace tactus {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
 constexpr std::size_t part_size = std::size_t{1} << 15;  // triangles or vertices a task looks at
-constexpr std::size_t range_count = 2;                   // ranges of vertices that are sorted side by side
 
 constexpr int next_of(int k) {
     return k == 2 ? 0 : k + 1;
@@ -22,83 +20,38 @@ constexpr int before(int k) {
     return k == 0 ? 2 : k - 1;
 }
 
-// The corners of all triangles by vertex: those of v are corner[first[v]] … corner[first[v + 1] - 1], the
-// last triangle first.
-struct CornersByVertex {
-    std::vector<std::uint32_t> first;
-    std::vector<EdgeLink> corner;  // a triangle and the edge that leaves this corner
-
-    std::span<const EdgeLink> at(std::size_t v) const {
-        return std::span(corner).subspan(first[v], first[v + 1] - first[v]);
-    }
-};
-
-CornersByVertex sort_corners(const std::vector<Corners>& triangles, std::size_t vertex_count,
-                             const ParallelRunner& run) {
-    CornersByVertex sorted{std::vector<std::uint32_t>(vertex_count + 1),
-                           std::vector<EdgeLink>(3 * triangles.size())};
-    const std::size_t range = vertex_count / range_count + 1;
-    const auto visit = [&](std::size_t task, auto&& visitor) {
-        for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-            for (unsigned k = 0; k < 3; ++k) {
-                const std::uint32_t v = triangles[t][k];
-                if (v - task * range < range) {
-                    visitor(v, EdgeLink::to(t, k));
-                }
-            }
-        }
-    };
-    run(range_count,
-        [&](std::size_t task) { visit(task, [&](std::uint32_t v, EdgeLink) { ++sorted.first[v]; }); });
-    std::uint32_t sum = 0;
-    for (std::uint32_t& first : sorted.first) {
-        sum += first;
-        first = sum;
-    }
-    // Each list is filled from its end; then `first` is where it begins.
-    run(range_count, [&](std::size_t task) {
-        visit(task, [&](std::uint32_t v, EdgeLink corner) { sorted.corner[--sorted.first[v]] = corner; });
-    });
-    return sorted;
-}
-
 class FeatureFinder {
 public:
     FeatureFinder(const TriangleMesh& mesh, const ParallelRunner& run)
         : mesh_(mesh),
           run_(run),
-          triangles_(mesh.triangles.size()),
+          corners_(corners_by_place(mesh, run)),
+          triangles_(corners_.triangles),
           is_needle_(mesh.triangles.size()),
           found_(mesh.triangles.size()) {
-        const std::vector<std::uint32_t> same = same_places(mesh.vertices, run);
-        for_triangles([&](std::uint32_t t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                triangles_[t][k] = same[mesh.triangles[t][k]];
-            }
-            is_needle_[t] = is_needle(t);
-        });
-        corners_ = sort_corners(triangles_, mesh.vertices.size(), run);
+        for_triangles([&](std::uint32_t t) { is_needle_[t] = is_needle(t); });
     }
 
     std::vector<TriangleFeatures> find() {
+        has_closed_fan_.resize(mesh_.vertices.size());
         run_in_parts(run_, mesh_.vertices.size(), part_size,
                      [&](std::size_t, std::size_t v, std::size_t end) {
-                         std::vector<HalfEdge> leaving;
+                         Spokes spokes;
                          for (; v < end; ++v) {
-                             link_edges_from(static_cast<std::uint32_t>(v), leaving);
+                             link_around(static_cast<std::uint32_t>(v), spokes);
                          }
                      });
         bends_.resize(triangles_.size());
         for_triangles([&](std::uint32_t t) {
             for (int k = 0; k < 3; ++k) {
-                bends_[t][static_cast<std::size_t>(k)] = bend_across(t, k);
+                set_bend(t, k);
             }
         });
         corner_states_.resize(triangles_.size());
         run_in_parts(run_, mesh_.vertices.size(), part_size,
                      [&](std::size_t, std::size_t v, std::size_t end) {
                          for (; v < end; ++v) {
-                             decide_corner(corners_.at(v));
+                             decide_corner(v);
                          }
                      });
         for_triangles([&](std::uint32_t t) { set_owned(t); });
@@ -106,11 +59,6 @@ public:
     }
 
 private:
-    struct HalfEdge {
-        std::uint32_t to;  // its other vertex
-        EdgeLink edge;
-    };
-
     // How the surface goes on across an edge.
     struct Bend {
         std::uint8_t sides = both_sides;  // from which the edge is convex; none where it is flat
@@ -147,41 +95,51 @@ private:
         return !(glm::dot(across, across) > thin * thin * longest * longest);
     }
 
-    // Of the edges between v and a higher vertex, those that two triangles share are linked.
-    void link_edges_from(std::uint32_t v, std::vector<HalfEdge>& leaving) {
-        leaving.clear();
-        for (const EdgeLink corner : corners_.at(v)) {
-            const auto& ends = triangles_[corner.triangle()];
-            for (const int k : {corner.edge(), before(corner.edge())}) {
-                const std::uint32_t to = ends[static_cast<std::size_t>(k == corner.edge() ? next_of(k) : k)];
-                if (to > v) {
-                    leaving.push_back({to, EdgeLink::to(corner.triangle(), static_cast<unsigned>(k))});
-                }
+    // Finds which two edges at v are one, links those that lead to a higher vertex, and whether the way
+    // across them comes to all triangles at v and back to the first.
+    void link_around(std::uint32_t v, Spokes& spokes) {
+        const std::span<const EdgeLink> corners = corners_.at(v);
+        spokes.begin(2 * corners.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const std::uint32_t t = corners[i].triangle();
+            const int k = corners[i].edge();
+            spokes.to[2 * i] = triangles_[t][static_cast<std::size_t>(next_of(k))];
+            spokes.to[2 * i + 1] = triangles_[t][static_cast<std::size_t>(before(k))];
+        }
+        spokes.pair_up();
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            if (is_needle_[corners[i].triangle()]) {
+                spokes.part(2 * i);
+                spokes.part(2 * i + 1);
             }
         }
-        std::ranges::sort(leaving, [](const HalfEdge& p, const HalfEdge& q) {
-            return p.to != q.to ? p.to < q.to : p.edge.packed < q.edge.packed;
-        });
-        for (std::size_t i = 0, end = 0; i < leaving.size(); i = end) {
-            for (end = i + 1; end < leaving.size() && leaving[end].to == leaving[i].to; ++end) {
+        const auto edge_of = [&](std::size_t spoke) {
+            const EdgeLink corner = corners[spoke / 2];
+            const int k = spoke % 2 == 0 ? corner.edge() : before(corner.edge());
+            return EdgeLink::to(corner.triangle(), static_cast<unsigned>(k));
+        };
+        for (std::size_t i = 0; i < 2 * corners.size(); ++i) {
+            if (spokes.partner[i] != Spokes::nobody && spokes.to[i] > v) {
+                const EdgeLink edge = edge_of(i);
+                found_[edge.triangle()].neighbour[edge.edge()] = edge_of(spokes.partner[i]);
             }
-            const EdgeLink one = leaving[i].edge;
-            const EdgeLink other = leaving[end - 1].edge;
-            if (end - i == 2 && one.triangle() != other.triangle() && !is_needle_[one.triangle()] &&
-                !is_needle_[other.triangle()]) {
-                found_[one.triangle()].neighbour[one.edge()] = other;
-                found_[other.triangle()].neighbour[other.edge()] = one;
-            }
+        }
+        has_closed_fan_[v] = spokes.are_one_round();
+    }
+
+    // Of an edge as the triangle that owns it sees it, for both. Without a neighbour, and for what is bent
+    // too far to tell, the edge is convex from both sides.
+    void set_bend(std::uint32_t t, int k) {
+        const EdgeLink other = found_[t].neighbour[k];
+        if (other.exists() && t < other.triangle()) {
+            bends_[other.triangle()][static_cast<std::size_t>(other.edge())] =
+                bends_[t][static_cast<std::size_t>(k)] = bend_across(t, k, other);
         }
     }
 
-    Bend bend_across(std::uint32_t t, int k) const {
+    Bend bend_across(std::uint32_t t, int k, EdgeLink other) const {
         constexpr double flat = 1e-7;  // sine below which an edge is flat
         constexpr double gentle = 0.87;
-        const EdgeLink other = found_[t].neighbour[k];
-        if (!other.exists() || other.triangle() < t) {
-            return {};
-        }
         const Vec3 start = place(t, k);
         const Vec3 edge = place(t, next_of(k)) - start;
         const Vec3 normal = glm::cross(edge, place(t, before(k)) - start);
@@ -204,44 +162,18 @@ private:
         return {static_cast<std::uint8_t>(sides), cosine * cosine > gentle * gentle * lengths_squared};
     }
 
-    // Of the triangle that owns it.
-    const Bend& bend_of(std::uint32_t t, int k) const {
-        const EdgeLink other = found_[t].neighbour[k];
-        return other.exists() && other.triangle() < t
-                   ? bends_[other.triangle()][static_cast<std::size_t>(other.edge())]
-                   : bends_[t][static_cast<std::size_t>(k)];
-    }
-
-    // Whether the way across the edges around the corner comes to all its triangles and back to the first.
-    bool is_closed_fan(std::span<const EdgeLink> corners) const {
-        std::uint32_t t = corners[0].triangle();
-        const std::uint32_t v = triangles_[t][static_cast<std::size_t>(corners[0].edge())];
-        int k = corners[0].edge();  // the edge of t to cross next
-        std::size_t count = 0;
-        do {
-            const EdgeLink across = found_[t].neighbour[k];
-            if (!across.exists() || ++count > corners.size()) {
-                return false;
-            }
-            t = across.triangle();
-            const int entered = across.edge();
-            const bool starts_here = triangles_[t][static_cast<std::size_t>(entered)] == v;
-            k = starts_here ? before(entered) : next_of(entered);
-        } while (t != corners[0].triangle());
-        return count == corners.size();
-    }
-
     // In a gentle fan of few triangles, all of them look the same way: what is convex from the front of one
     // is so from all.
-    void decide_corner(std::span<const EdgeLink> corners) {
+    void decide_corner(std::size_t v) {
         constexpr std::size_t few = 7;
+        const std::span<const EdgeLink> corners = corners_.at(v);
         if (corners.empty()) {
             return;
         }
         const auto state_of = [&](EdgeLink corner) -> CornerState& {
             return corner_states_[corner.triangle()][static_cast<std::size_t>(corner.edge())];
         };
-        if (!is_closed_fan(corners)) {
+        if (!has_closed_fan_[v]) {
             for (const EdgeLink corner : corners) {
                 state_of(corner) = {both_sides, false};
             }
@@ -252,7 +184,7 @@ private:
         EdgeLink owner = corners[0];
         for (const EdgeLink corner : corners) {
             for (const int k : {corner.edge(), before(corner.edge())}) {
-                const Bend& bend = bend_of(corner.triangle(), k);
+                const Bend& bend = bends_[corner.triangle()][static_cast<std::size_t>(k)];
                 sides |= bend.sides;
                 gentle &= bend.gentle;
             }
@@ -275,11 +207,12 @@ private:
 
     const TriangleMesh& mesh_;
     const ParallelRunner& run_;
-    std::vector<Corners> triangles_;  // their corners as places: vertices that stand for all at theirs
+    const CornersByPlace corners_;
+    const std::vector<TriangleCorners>& triangles_;
     std::vector<std::uint8_t> is_needle_;
-    CornersByVertex corners_;
     std::vector<TriangleFeatures> found_;
-    std::vector<std::array<Bend, 3>> bends_;  // by edge, of the triangle that owns it
+    std::vector<std::uint8_t> has_closed_fan_;  // by vertex: its triangles are one closed fan
+    std::vector<std::array<Bend, 3>> bends_;    // by edge
     std::vector<std::array<CornerState, 3>> corner_states_;
 };
 

@@ -11,10 +11,19 @@ constexpr std::size_t chunk = std::size_t{1} << 15;  // vertices a task hashes
 constexpr std::uint32_t table_count = 4;             // by the highest bits of the hash
 constexpr std::uint32_t nobody = 0xffff'ffffu;
 
+// What two vertices at one place share: also two that are no numbers, by the same bits.
+std::uint64_t bits_of(double coordinate) {
+    return std::bit_cast<std::uint64_t>(coordinate + 0.0);  // -0 and 0 are one
+}
+
+bool is_same(const Vec3& p, const Vec3& q) {
+    return bits_of(p.x) == bits_of(q.x) && bits_of(p.y) == bits_of(q.y) && bits_of(p.z) == bits_of(q.z);
+}
+
 std::uint32_t hash_of(const Vec3& place) {
     std::uint64_t hash = 0x9e37'79b9'7f4a'7c15ull;
     for (int axis = 0; axis < 3; ++axis) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(place[axis] + 0.0)) * 0xff51'afd7'ed55'8ccdull;
+        hash = (hash ^ bits_of(place[axis])) * 0xff51'afd7'ed55'8ccdull;
         hash ^= hash >> 32;
     }
     return static_cast<std::uint32_t>(hash);
@@ -33,7 +42,7 @@ void find_first(std::span<const Vec3> vertices, std::span<const std::uint32_t> h
         }
         std::size_t slot = hashes[v] & mask;
         while (slots[slot] != nobody &&
-               !(hashes[slots[slot]] == hashes[v] && vertices[slots[slot]] == vertices[v])) {
+               !(hashes[slots[slot]] == hashes[v] && is_same(vertices[slots[slot]], vertices[v]))) {
             slot = (slot + 1) & mask;
         }
         slots[slot] = std::min(slots[slot], v);
@@ -53,6 +62,26 @@ std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices, const Par
     run(table_count,
         [&](std::size_t table) { find_first(vertices, hashes, static_cast<std::uint32_t>(table), first); });
     return first;
+}
+
+void merge_places(TriangleMesh& mesh, const ParallelRunner& run) {
+    const std::vector<std::uint32_t> first = same_places(mesh.vertices, run);
+    std::vector<std::uint32_t> place_of(first.size());
+    std::uint32_t kept = 0;
+    for (std::uint32_t v = 0; v < first.size(); ++v) {
+        if (first[v] == v) {
+            mesh.vertices[kept] = mesh.vertices[v];
+            place_of[v] = kept++;
+        } else {
+            place_of[v] = place_of[first[v]];
+        }
+    }
+    mesh.vertices.resize(kept);
+    for (auto& triangle : mesh.triangles) {
+        for (std::uint32_t& corner : triangle) {
+            corner = corner < place_of.size() ? place_of[corner] : 0xffff'ffffu;
+        }
+    }
 }
 
 }  // namespace tactus

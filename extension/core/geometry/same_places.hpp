@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/parallel.hpp"
+#include "core/geometry/triangle_mesh.hpp"
 #include "core/math/types.hpp"
 
 namespace tactus {
@@ -13,5 +14,8 @@ namespace tactus {
 // By vertex: the first with the same coordinates, itself where there is none before. 0 and -0 are the same.
 std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices,
                                        const ParallelRunner& run = run_serially);
+
+// One vertex for each place, in the order of the first ones. An index without a vertex stays one.
+void merge_places(TriangleMesh& mesh, const ParallelRunner& run = run_serially);
 
 }  // namespace tactus

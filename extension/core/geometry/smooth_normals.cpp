@@ -1,37 +1,13 @@
 #include "core/geometry/smooth_normals.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/geometric.hpp>
-#include <unordered_map>
+
+#include "core/geometry/corners_by_place.hpp"
 
 namespace tactus {
 
 namespace {
-
-struct SamePlace {
-    bool operator()(const Vec3& p, const Vec3& q) const { return p == q; }
-};
-
-struct PlaceHash {
-    std::size_t operator()(const Vec3& p) const {
-        std::uint64_t hash = 0x9e3779b97f4a7c15ull;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double coordinate = p[axis] + 0.0;  // -0 and 0 are one place
-            std::uint64_t bits;
-            std::memcpy(&bits, &coordinate, sizeof bits);
-            hash = (hash ^ bits) * 0xff51afd7ed558ccdull;
-            hash ^= hash >> 32;
-        }
-        return hash;
-    }
-};
-
-struct Corner {
-    std::uint32_t triangle;
-    double angle;  // of the facet at the corner (unit: radians)
-};
 
 Vec3 unit_or_zero(const Vec3& v) {
     const double length = glm::length(v);
@@ -45,16 +21,16 @@ double angle_between(const Vec3& u, const Vec3& v) {
 }  // namespace
 
 std::vector<CornerNormals> smooth_normals(const TriangleMesh& mesh, double crease) {
+    const CornersByPlace corners = corners_by_place(mesh);
     std::vector<Vec3> facets(mesh.triangles.size());
-    std::unordered_map<Vec3, std::vector<Corner>, PlaceHash, SamePlace> corners_at;
+    std::vector<std::array<double, 3>> angles(facets.size());  // of the facet at its corners (unit: radians)
     for (std::size_t t = 0; t < facets.size(); ++t) {
         const auto& triangle = mesh.triangles[t];
         const Vec3 p[3] = {mesh.vertices[triangle[0]], mesh.vertices[triangle[1]],
                            mesh.vertices[triangle[2]]};
         facets[t] = unit_or_zero(glm::cross(p[1] - p[0], p[2] - p[0]));
-        for (int k = 0; k < 3; ++k) {
-            const double angle = angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-            corners_at[p[k]].push_back({static_cast<std::uint32_t>(t), angle});
+        for (std::size_t k = 0; k < 3; ++k) {
+            angles[t][k] = angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
         }
     }
     const double least_cosine = std::cos(crease);
@@ -62,9 +38,11 @@ std::vector<CornerNormals> smooth_normals(const TriangleMesh& mesh, double creas
     for (std::size_t t = 0; t < facets.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             Vec3 sum(0.0);
-            for (const Corner& corner : corners_at[mesh.vertices[mesh.triangles[t][k]]]) {
-                const bool mixes = glm::dot(facets[corner.triangle], facets[t]) >= least_cosine;
-                sum += mixes ? facets[corner.triangle] * corner.angle : Vec3(0.0);
+            for (const EdgeLink corner : corners.at(corners.triangles[t][k])) {
+                const std::uint32_t other = corner.triangle();
+                const bool mixes = glm::dot(facets[other], facets[t]) >= least_cosine;
+                sum += mixes ? facets[other] * angles[other][static_cast<std::size_t>(corner.edge())]
+                             : Vec3(0.0);
             }
             const Vec3 mean = unit_or_zero(sum);
             normals[t][k] = glm::vec3(mean == Vec3(0.0) ? facets[t] : mean);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace tactus {
 
@@ -117,18 +118,56 @@ std::size_t TreeSplitter::partition(const Range& range, GoesLeft&& goes_left, Ra
     return border;
 }
 
+// The `lower` triangles of a small range with the lowest centres along an axis come first; all keep their
+// order. Each is ranked by counting those below it, eight at once: nothing here depends on a guess about the
+// order.
+void TreeSplitter::move_lower_ahead(const Range& range, int axis, std::size_t lower) const {
+    constexpr std::size_t rows = median_below / node_width;
+    static_assert(median_below == 64, "a bit for each triangle");
+    const std::size_t count = range.size();
+    Primitive* const triangles = primitives_ + range.begin;
+    FloatLanes centers[rows];
+    std::fill(std::begin(centers), std::end(centers), splat_float(infinite));
+    for (std::size_t i = 0; i < count; ++i) {
+        centers[i / node_width][i % node_width] = triangles[i].doubled_center()[axis];
+    }
+    const std::size_t used_rows = (count + node_width - 1) / node_width;
+    Primitive upper[median_below];
+    std::size_t kept = 0;
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const FloatLanes own = splat_float(centers[i / node_width][i % node_width]);
+        std::uint64_t below = 0;
+        std::uint64_t equal = 0;
+        for (std::size_t row = 0; row < used_rows; ++row) {
+            below |= std::uint64_t{lane_bits(centers[row] < own)} << (row * node_width);
+            equal |= std::uint64_t{lane_bits(centers[row] == own)} << (row * node_width);
+        }
+        const std::uint64_t ahead = below | (equal & ((std::uint64_t{1} << i) - 1));
+        const bool is_lower = static_cast<std::size_t>(std::popcount(ahead)) < lower;
+        (is_lower ? triangles[kept] : upper[moved]) = triangles[i];
+        kept += is_lower;
+        moved += !is_lower;
+    }
+    std::copy(upper, upper + moved, triangles + kept);
+}
+
 // Halves along the longest side, with a whole number of full nodes or packs on the left.
 void TreeSplitter::split_at_median(const Range& range, Range& left, Range& right) const {
     const int axis = longest_axis(range.centers.high - range.centers.low);
     const std::size_t unit = range.size() > node_full ? node_full : lane_count;
     const std::size_t units = (range.size() + unit - 1) / unit;
     const std::size_t middle = range.begin + (units / 2) * unit;
-    std::nth_element(primitives_ + range.begin, primitives_ + middle, primitives_ + range.end,
-                     [axis](const Primitive& p, const Primitive& q) {
-                         const float a = p.doubled_center()[axis];
-                         const float b = q.doubled_center()[axis];
-                         return a < b || (a == b && p.id() < q.id());
-                     });
+    if (range.size() <= median_below) {
+        move_lower_ahead(range, axis, middle - range.begin);
+    } else {
+        std::nth_element(primitives_ + range.begin, primitives_ + middle, primitives_ + range.end,
+                         [axis](const Primitive& p, const Primitive& q) {
+                             const float a = p.doubled_center()[axis];
+                             const float b = q.doubled_center()[axis];
+                             return a < b || (a == b && p.id() < q.id());
+                         });
+    }
     left = {range.begin, middle, {}, {}};
     right = {middle, range.end, {}, {}};
     for (std::size_t i = range.begin; i < range.end; ++i) {

@@ -108,6 +108,7 @@ private:
     bool split_cells(const Range& range, Range& left, Range& right) const;
     bool split_in_the_middle(const Range& range, Range& left, Range& right) const;
     void split_at_median(const Range& range, Range& left, Range& right) const;
+    void move_lower_ahead(const Range& range, int axis, std::size_t lower) const;
     template <class GoesLeft>
     std::size_t partition(const Range& range, GoesLeft&& goes_left, Range& left, Range& right) const;
 

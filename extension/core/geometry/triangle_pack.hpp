@@ -26,6 +26,10 @@ struct PackOffset {
     Lanes squared;     // its squared length (unit: square meters)
 };
 
+// The sine of a triangle's sharpest angle, or what comes to the same, below which its normal's direction is
+// rounding: such a triangle is its edges (docs/tolerances.md).
+constexpr double flat_area = 1e-12;
+
 namespace pack_detail {
 
 // Offset of a point from a segment; `from_start` = point - start. A segment without length is its start.
@@ -51,7 +55,6 @@ inline PackOffset nearer(const PackOffset& p, const PackOffset& q) {
 // edges.
 inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& point) {
     using namespace pack_detail;
-    constexpr double flat_area = 1e-12;
     const LanesVec3 ab = t.b - t.a;
     const LanesVec3 ac = t.c - t.a;
     const LanesVec3 ap = point - t.a;

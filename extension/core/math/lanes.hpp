@@ -61,8 +61,9 @@ inline bool any(LaneMask mask) {
     return lane_bits(mask) != 0;
 }
 
-// a * b + c and a * b - c, rounded once where the processor can: written out, so that every build gives the
-// same bits.
+// a * b + c and a * b - c, rounded once. This is the one place where products are fused with sums, and it is
+// so on every processor: elsewhere the compiler may not (-ffp-contract=off), so that x86-64 and ARM give the
+// same bits. Where no instruction does it, std::fma does, slowly.
 #if defined(__FMA__)
 inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
     return _mm256_fmadd_pd(a, b, c);
@@ -72,10 +73,11 @@ inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) {
 }
 #else
 inline Lanes multiply_add(Lanes a, Lanes b, Lanes c) {
-    return a * b + c;
+    return Lanes{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1]), std::fma(a[2], b[2], c[2]),
+                 std::fma(a[3], b[3], c[3])};
 }
 inline Lanes multiply_subtract(Lanes a, Lanes b, Lanes c) {
-    return a * b - c;
+    return multiply_add(a, b, -c);
 }
 #endif
 

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <memory>
 #include <random>
 #include <span>
 #include <vector>
@@ -150,28 +152,38 @@ void measure_rollback(Results& results, bool quick) {
         results.add("rollback_one_box_work_p99_ms", percentile(work, 0.99) * 1e-3);
     }
     {
-        // Spread out: a tick is the present's step and two of the past's.
-        Past past(10, throw_about);
+        // Spread out: a tick is the present's step and two of the past's. Three that live through the same,
+        // in turns: what a tick takes is the least of the three, so that the host's pauses do not count.
+        std::array<std::unique_ptr<Past>, 3> pasts;
+        for (std::unique_ptr<Past>& past : pasts)
+            past = std::make_unique<Past>(10, throw_about);
         std::vector<double> ticks;
         std::vector<double> lengths;
+        double longest = 0.0;
         for (int round = 0; round < 30; ++round) {
-            past.live(100);
+            for (const std::unique_ptr<Past>& past : pasts)
+                past->live(100);
             int length = 0;
-            bool done = false;
-            while (!done) {
-                ticks.push_back(microseconds([&] {
-                    if (length == 0)
-                        past.go_back(100);
-                    done = past.replay(2);
-                    past.live(1);
-                }));
-                ++length;
+            for (bool done = false; !done; ++length) {
+                double least = std::numeric_limits<double>::infinity();
+                for (const std::unique_ptr<Past>& past : pasts) {
+                    const double time = microseconds([&] {
+                        if (length == 0)
+                            past->go_back(100);
+                        done = past->replay(2);
+                        past->live(1);
+                    });
+                    least = std::min(least, time);
+                    longest = std::max(longest, time);
+                }
+                ticks.push_back(least);
             }
             lengths.push_back(length);
         }
         results.add("rollback_ten_boxes_tick_p50_us", percentile(ticks, 0.5));
         results.add("rollback_ten_boxes_tick_p99_us", percentile(ticks, 0.99));
         results.add("rollback_ten_boxes_tick_max_us", percentile(ticks, 1.0));
+        results.add("rollback_ten_boxes_tick_max_with_pauses_us", longest);
         results.add("rollback_ten_boxes_ticks", percentile(lengths, 0.5));
     }
     {

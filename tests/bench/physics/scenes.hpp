@@ -11,6 +11,7 @@
 #include "realtime/clock.hpp"
 #include "session/session.hpp"
 #include "shared/bench_kit.hpp"
+#include "shared/bodies.hpp"
 
 namespace tactus::bench {
 
@@ -40,25 +41,11 @@ double microseconds(Work&& work) {
     return static_cast<double>(monotonic_now() - start) * 1e-3;
 }
 
-inline std::vector<PlacedShape> one(Shape shape) {
-    return {PlacedShape{std::move(shape), Pose{}}};
-}
-
 inline BodyDescription box(const Vec3& size, const Vec3& position, double mass) {
-    BodyDescription body;
-    body.shapes = one(BoxShape{0.5 * size});
-    body.pose.position = position;
-    body.mass = mass;
-    body.material.friction = 0.5;
-    return body;
+    return shared::box(size, position, mass, 0.5);
 }
-
 inline BodyDescription ground() {
-    BodyDescription body;
-    body.shapes = one(PlaneShape{});
-    body.motion = Motion::Static;
-    body.material.friction = 0.5;
-    return body;
+    return shared::ground(0.5);
 }
 
 // A hand that is told where to be.

@@ -132,6 +132,36 @@ TEST(MeshFeatures, OfAClosedBodyEveryEdgeAndCornerHasOneOwner) {
     }
 }
 
+// Two cones on one rim: as many triangles as it takes around either tip.
+TEST(MeshFeatures, FansOfAnySizeAreClosedOrNot) {
+    for (const std::uint32_t count : {3u, 8u, 9u, 40u}) {
+        TriangleMesh mesh{{Vec3(0.0, 1.0, 0.0), Vec3(0.0, -1.0, 0.0)}, {}};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double angle = 6.283185307179586 * i / count;
+            mesh.vertices.emplace_back(std::cos(angle), 0.0, std::sin(angle));
+            const std::uint32_t next = 2 + (i + 1) % count;
+            mesh.triangles.push_back({0, next, 2 + i});
+            mesh.triangles.push_back({1, 2 + i, next});
+        }
+        std::map<std::uint32_t, int> owners;
+        const auto found = find_features(mesh);
+        for (std::size_t t = 0; t < found.size(); ++t) {
+            for (int k = 0; k < 3; ++k) {
+                EXPECT_TRUE(found[t].neighbour[k].exists()) << count;
+                EXPECT_FALSE(found[t].owned.is_undecided(k)) << count;
+                owners[mesh.triangles[t][static_cast<std::size_t>(k)]] += found[t].owned.corner_sides(k) != 0;
+            }
+        }
+        for (const auto& [vertex, number] : owners) {
+            EXPECT_EQ(number, 1) << count << ", vertex " << vertex;
+        }
+        mesh.triangles.pop_back();  // open at both ends of the gap's edges, and at the lower tip
+        const auto open = find_features(mesh);
+        EXPECT_FALSE(open[0].owned.is_undecided(0)) << count;
+        EXPECT_TRUE(open[1].owned.is_undecided(0)) << count;
+    }
+}
+
 TEST(MeshFeatures, AFlatSheetHasNoneButItsRim) {
     const TriangleMesh mesh = shared::terrain(8, 1.0, 0.0);
     for (const TriangleFeatures& triangle : find_features(mesh)) {
