@@ -47,7 +47,7 @@ BodyMirrors::BodyMirrors(std::size_t max_bodies, bool in_turn) : in_turn_(in_tur
 // A shape or mesh that comes or goes changes the body above it.
 void BodyMirrors::scene_changed(const Node& node) {
     const bool is_mirrored = is_solid_body(&node) || Object::cast_to<Joint3D>(&node) != nullptr;
-    has_other_nodes_ |= is_mirrored;
+    tree_changed_ |= is_mirrored;
     if (!is_mirrored) {
         others_.push_back(node.get_instance_id());
     }
@@ -232,7 +232,7 @@ void BodyMirrors::synchronise(const Node& root, Session& session, const MirrorCo
             say_kind(*other, complaints);
         }
     }
-    if (std::exchange(has_other_nodes_, false)) {
+    if (std::exchange(tree_changed_, false)) {
         find(root, session, complaints);
     }
     look_at_bodies(session, with_news, seconds, complaints);

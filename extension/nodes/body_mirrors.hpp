@@ -81,7 +81,7 @@ private:
     std::vector<std::uint64_t> touched_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
     bool is_first_look_ = true;
-    bool has_other_nodes_ = true;
+    bool tree_changed_ = true;
     bool all_changed_ = true;
     bool handles_changed_ = false;
     std::uint64_t mesh_changes_ = 0;

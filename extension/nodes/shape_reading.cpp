@@ -70,7 +70,8 @@ std::shared_ptr<TriangleSource> source_of(const godot::ConcavePolygonShape3D& co
     std::erase_if(all, [](const auto& entry) { return entry.second.source.expired(); });
     Known& known = all[concave.get_instance_id()];
     std::shared_ptr<TriangleSource> source = known.source.lock();
-    if (source == nullptr || known.faces != faces) {
+    const bool is_same = known.faces.ptr() == faces.ptr() || known.faces == faces;
+    if (source == nullptr || !is_same) {
         const std::shared_ptr<TriangleSource> made = tactus::source_of(faces);
         if (source != nullptr) {
             made->succeed(*source);
@@ -103,7 +104,8 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const godot::Transform
         return scaled_hull(points_of(*convex), matrix_of(scaling), pose);
     }
     if (const auto* concave = Object::cast_to<godot::ConcavePolygonShape3D>(object)) {
-        reading.meshes = {{source_of(*concave), matrix_of(without_rounding(scaling)), pose, 0.0, false, {}}};
+        reading.meshes.push_back(
+            {source_of(*concave), matrix_of(without_rounding(scaling)), pose, 0.0, false, {}});
         return reading;
     }
     reading.error =

@@ -1,5 +1,7 @@
 #include "world/body_twin.hpp"
 
+#include <utility>
+
 #include "world/same_shapes.hpp"
 
 namespace tactus {

@@ -18,8 +18,8 @@ constexpr double half_plane_side = 10.0;  // a plane without end is drawn so wid
 constexpr std::uint32_t tube_sides = 6;
 
 // More than facets of what is round meet at, less than an edge.
-constexpr double round = 0.6;
-constexpr double round_tube = 1.2;
+constexpr double crease_of_round = 0.6;
+constexpr double crease_of_tube = 1.2;
 
 // Joins two rings of `sides` vertices each, whose numbers begin at a and b, by triangles.
 void join_rings(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t sides) {
@@ -89,17 +89,19 @@ TriangleMesh square(const PlaneShape& plane) {
 }
 
 struct Draw {
-    Drawing operator()(const SphereShape& shape) const { return {capsule(shape.radius, 0.0), round}; }
+    Drawing operator()(const SphereShape& shape) const {
+        return {capsule(shape.radius, 0.0), crease_of_round};
+    }
     Drawing operator()(const BoxShape& shape) const { return {box(shape.half_extents)}; }
     Drawing operator()(const CapsuleShape& shape) const {
-        return {capsule(shape.radius, shape.half_segment), round};
+        return {capsule(shape.radius, shape.half_segment), crease_of_round};
     }
     Drawing operator()(const CylinderShape& shape) const {
         return {revolved({{0.0, -shape.half_height},
                           {shape.radius, -shape.half_height},
                           {shape.radius, shape.half_height},
                           {0.0, shape.half_height}}),
-                round};
+                crease_of_round};
     }
     Drawing operator()(const PlaneShape& shape) const { return {square(shape)}; }
     Drawing operator()(const ConvexHullShape& shape) const { return {*shape.hull}; }
@@ -123,7 +125,7 @@ Drawing drawn_shape(const Shape& shape) {
 }
 
 Drawing tube(const std::vector<Vec3>& points, double thickness, bool closed) {
-    Drawing drawing{{}, round_tube};
+    Drawing drawing{{}, crease_of_tube};
     TriangleMesh& mesh = drawing.mesh;
     if (points.size() < 2) {
         return drawing;

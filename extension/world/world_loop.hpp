@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "realtime/baseline_loop.hpp"
 #include "realtime/tick_loop.hpp"
