@@ -5,17 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/parallel.hpp"
 #include "core/geometry/triangle_mesh.hpp"
-#include "core/math/types.hpp"
 
 namespace tactus {
 
 // By vertex: the first with the same coordinates, itself where there is none before. 0 and -0 are the same.
-std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices,
-                                       const ParallelRunner& run = run_serially);
+std::vector<std::uint32_t> same_places(std::span<const Vec3> vertices);
 
 // One vertex for each place, in the order of the first ones. An index without a vertex stays one.
-void merge_places(TriangleMesh& mesh, const ParallelRunner& run = run_serially);
+void merge_places(TriangleMesh& mesh);
 
 }  // namespace tactus

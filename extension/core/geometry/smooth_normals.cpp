@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <span>
 
-#include "core/geometry/corners_by_place.hpp"
+#include "core/geometry/same_places.hpp"
 
 namespace tactus {
 
@@ -18,10 +20,40 @@ double angle_between(const Vec3& u, const Vec3& v) {
     return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
 }
 
+// The triangles' corners by place: those at vertex v are corner[first[v]] … corner[first[v + 1] - 1].
+struct CornersByPlace {
+    struct Corner {
+        std::uint32_t triangle, k;
+    };
+    std::vector<std::uint32_t> place;  // by vertex: the one that stands for all at its place
+    std::vector<std::uint32_t> first;
+    std::vector<Corner> corner;
+
+    explicit CornersByPlace(const TriangleMesh& mesh)
+        : place(same_places(mesh.vertices)),
+          first(mesh.vertices.size() + 1),
+          corner(3 * mesh.triangles.size()) {
+        const auto visit = [&](auto&& visitor) {
+            for (auto t = static_cast<std::uint32_t>(mesh.triangles.size()); t-- > 0;) {
+                for (std::uint32_t k = 0; k < 3; ++k) {
+                    visitor(place[mesh.triangles[t][k]], Corner{t, k});
+                }
+            }
+        };
+        visit([&](std::uint32_t v, Corner) { ++first[v]; });
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        visit([&](std::uint32_t v, Corner one) { corner[--first[v]] = one; });  // each list from its end
+    }
+    std::span<const Corner> at(std::uint32_t vertex) const {
+        const std::uint32_t v = place[vertex];
+        return std::span(corner).subspan(first[v], first[v + 1] - first[v]);
+    }
+};
+
 }  // namespace
 
 std::vector<CornerNormals> smooth_normals(const TriangleMesh& mesh, double crease) {
-    const CornersByPlace corners = corners_by_place(mesh);
+    const CornersByPlace corners(mesh);
     std::vector<Vec3> facets(mesh.triangles.size());
     std::vector<std::array<double, 3>> angles(facets.size());  // of the facet at its corners (unit: radians)
     for (std::size_t t = 0; t < facets.size(); ++t) {
@@ -38,11 +70,9 @@ std::vector<CornerNormals> smooth_normals(const TriangleMesh& mesh, double creas
     for (std::size_t t = 0; t < facets.size(); ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
             Vec3 sum(0.0);
-            for (const EdgeLink corner : corners.at(corners.triangles[t][k])) {
-                const std::uint32_t other = corner.triangle();
+            for (const auto& [other, corner] : corners.at(mesh.triangles[t][k])) {
                 const bool mixes = glm::dot(facets[other], facets[t]) >= least_cosine;
-                sum += mixes ? facets[other] * angles[other][static_cast<std::size_t>(corner.edge())]
-                             : Vec3(0.0);
+                sum += mixes ? facets[other] * angles[other][corner] : Vec3(0.0);
             }
             const Vec3 mean = unit_or_zero(sum);
             normals[t][k] = glm::vec3(mean == Vec3(0.0) ? facets[t] : mean);

@@ -149,7 +149,7 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
 
 std::size_t TriangleTree::bytes() const {
     return nodes_.size() * (sizeof(BoxNode) + sizeof(SlabNode)) +
-           labels_.size() * (packs_.bytes_each() + sizeof(PackLabels));
+           ids_.size() * (packs_.bytes_each() + sizeof(PackIds));
 }
 
 }  // namespace tactus

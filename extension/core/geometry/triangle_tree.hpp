@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "core/geometry/inside_test.hpp"
-#include "core/geometry/pack_labels.hpp"
 #include "core/geometry/pack_store.hpp"
 #include "core/geometry/parallel.hpp"
 #include "core/geometry/slab_node.hpp"
@@ -37,6 +36,9 @@ inline float square_up(double value) {
     const double squared = value * value * (1.0 + 1e-6);
     return static_cast<float>(std::min(squared, 3.4e38));
 }
+
+// Of the mesh, those of one pack. Lanes that fill up a pack repeat its last triangle.
+using PackIds = std::array<std::uint32_t, lane_count>;
 
 struct FoundPacks {
     std::size_t count = 0;  // packs written
@@ -104,18 +106,11 @@ public:
     TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
     void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
-    std::uint32_t triangle_at(std::uint32_t slot) const {
-        return labels_[slot / lane_count].triangle[slot % lane_count];
-    }
+    std::uint32_t triangle_at(std::uint32_t slot) const { return ids_[slot / lane_count][slot % lane_count]; }
     // Which triangles of the mesh stand in the lanes of a pack.
-    std::span<const std::uint32_t, lane_count> triangle_ids(std::uint32_t pack) const {
-        return labels_[pack].triangle;
-    }
+    const PackIds& triangle_ids(std::uint32_t pack) const { return ids_[pack]; }
 
-    // What is known of the triangles of a pack, the links between them as slots.
-    const PackLabels& labels(std::uint32_t pack) const { return labels_[pack]; }
-
-    std::size_t pack_count() const { return labels_.size(); }
+    std::size_t pack_count() const { return ids_.size(); }
     std::size_t triangle_count() const { return triangle_count_; }
     std::size_t bytes() const;
     Vec3 center() const { return origin_; }
@@ -132,17 +127,15 @@ private:
     template <class Keys, class Visit>
     float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;
     void place_nodes(const TriangleMesh& mesh, const CornerExtent& extent, const ParallelRunner& run);
-    void place_features(const TriangleMesh& mesh, const ParallelRunner& run);
     void place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run);
-    void forget_sides(const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
     void fit_slabs(const ParallelRunner& run);
     std::size_t packs_below(std::uint32_t child, std::span<std::uint32_t> out) const;
 
     std::vector<BoxNode> nodes_;   // parents before children
     std::vector<SlabNode> slabs_;  // one a node
-    PackStore packs_;              // as many as labels_
-    std::vector<PackLabels> labels_;
+    PackStore packs_;              // as many as ids_
+    std::vector<PackIds> ids_;
     Vec3 origin_{0.0};
     double radius_ = 0.0;
     double extent_ = 0.0;  // largest distance of a box side from the origin along an axis

@@ -5,17 +5,12 @@
 #include <array>
 #include <atomic>
 
-#include "core/geometry/mesh_features.hpp"
 #include "core/geometry/tree_cells.hpp"
 #include "core/geometry/triangle_tree.hpp"
 
 namespace tactus {
 
 namespace {
-
-constexpr std::size_t packs_a_task = 16384;
-
-using PackIds = std::array<std::uint32_t, lane_count>;
 
 // A subtree under construction: its node children count from its own first node and pack.
 struct Subtree {
@@ -81,7 +76,41 @@ private:
             children[static_cast<std::size_t>(widest)] = left;
             children[static_cast<std::size_t>(count++)] = right;
         }
+        while (open_into_packs(smallest_node(children, count), level, children, count)) {
+        }
         return count;
+    }
+
+    // Of the children that would need a node of their own, the one with the fewest triangles; -1: none.
+    static int smallest_node(const std::array<Range, node_width>& children, int count) {
+        int smallest = -1;
+        for (int i = 0; i < count; ++i) {
+            const std::size_t size = children[static_cast<std::size_t>(i)].size();
+            if (size > lane_count &&
+                (smallest < 0 || size < children[static_cast<std::size_t>(smallest)].size())) {
+                smallest = i;
+            }
+        }
+        return smallest;
+    }
+
+    // A small child's packs stand in its parent, where they find room there: a node less. False where not.
+    bool open_into_packs(int child, int level, std::array<Range, node_width>& children, int& count) const {
+        const std::size_t size = child < 0 ? 0 : children[static_cast<std::size_t>(child)].size();
+        const std::size_t packs = (size + lane_count - 1) / lane_count;
+        if (size == 0 || static_cast<std::size_t>(count) - 1 + packs > node_width) {
+            return false;
+        }
+        const int first_new = count;
+        for (int i = child; i < count; i = i == child ? first_new : i + 1) {
+            while (!children[static_cast<std::size_t>(i)].is_leaf()) {
+                Range left, right;
+                splitter_.split(children[static_cast<std::size_t>(i)], level, left, right);
+                children[static_cast<std::size_t>(i)] = left;
+                children[static_cast<std::size_t>(count++)] = right;
+            }
+        }
+        return true;
     }
 
     static BoxNode empty_node() {
@@ -130,16 +159,14 @@ void TriangleTree::place_nodes(const TriangleMesh& mesh, const CornerExtent& ext
     }
     nodes_ = std::move(top.nodes);
     nodes_.reserve(node_count);
-    labels_.reserve(pack_count);
+    ids_.reserve(pack_count);
     const auto add_packs = [&](const Subtree& subtree) {
-        for (const PackIds& ids : subtree.packs) {
-            std::ranges::copy(ids, labels_.emplace_back().triangle);
-        }
+        ids_.insert(ids_.end(), subtree.packs.begin(), subtree.packs.end());
     };
     add_packs(top);
     for (const Subtree& subtree : parts) {
         const auto first_node = static_cast<std::uint32_t>(nodes_.size());
-        const auto first_pack = static_cast<std::uint32_t>(labels_.size());
+        const auto first_pack = static_cast<std::uint32_t>(ids_.size());
         for (BoxNode node : subtree.nodes) {
             for (std::uint32_t& child : node.child) {
                 child += child == BoxNode::unused ? 0 : (child & BoxNode::leaf_bit ? first_pack : first_node);
@@ -150,33 +177,6 @@ void TriangleTree::place_nodes(const TriangleMesh& mesh, const CornerExtent& ext
     }
 }
 
-void TriangleTree::place_features(const TriangleMesh& mesh, const ParallelRunner& run) {
-    const std::vector<TriangleFeatures> features = find_features(mesh, run);
-    std::vector<std::uint32_t> slot_of(features.size());
-    run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
-        for (; p < end; ++p) {
-            for (std::size_t i = lane_count; i-- > 0;) {  // of the lanes that repeat one, the first
-                slot_of[labels_[p].triangle[i]] = static_cast<std::uint32_t>(p * lane_count + i);
-            }
-        }
-    });
-    run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
-        for (; p < end; ++p) {
-            for (std::size_t i = 0; i < lane_count; ++i) {
-                const TriangleFeatures& triangle = features[labels_[p].triangle[i]];
-                labels_[p].owned[i] = triangle.owned;
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const EdgeLink other = triangle.neighbour[k];
-                    labels_[p].neighbour[k][i] =
-                        other.exists()
-                            ? EdgeLink::to(slot_of[other.triangle()], static_cast<unsigned>(other.edge()))
-                            : other;
-                }
-            }
-        }
-    });
-}
-
 TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner& run) {
     static std::atomic<std::uint64_t> last_lineage{0};
     const CornerExtent extent = corner_extent(mesh, run);
@@ -184,7 +184,6 @@ TriangleTree TriangleTree::build(const TriangleMesh& mesh, const ParallelRunner&
     tree.triangle_count_ = mesh.triangles.size();
     tree.origin_ = 0.5 * (extent.low + extent.high);
     tree.place_nodes(mesh, extent, run);
-    tree.place_features(mesh, run);
     tree.place_triangles(mesh, extent.is_single, run);
     tree.fit_boxes(run);
     tree.lineage_ = ++last_lineage;

@@ -88,13 +88,13 @@ CornerExtent corner_extent(const TriangleMesh& mesh, const ParallelRunner& run) 
 }
 
 void TriangleTree::place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run) {
-    packs_.reset(labels_.size(), single);
-    run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
+    packs_.reset(ids_.size(), single);
+    run_in_parts(run, ids_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
         for (; p < end; ++p) {
             TrianglePack pack;
             LanesVec3* const corners[3] = {&pack.a, &pack.b, &pack.c};
             for (std::size_t i = 0; i < lane_count; ++i) {
-                const auto& triangle = mesh.triangles[labels_[p].triangle[i]];
+                const auto& triangle = mesh.triangles[ids_[p][i]];
                 for (std::size_t k = 0; k < 3; ++k) {
                     const Vec3& corner = mesh.vertices[triangle[k]];
                     corners[k]->x[i] = corner.x;
@@ -158,7 +158,7 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
 TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {
     TriangleTree tree;
     tree.nodes_ = nodes_;
-    tree.labels_ = labels_;
+    tree.ids_ = ids_;
     tree.origin_ = origin_;
     tree.triangle_count_ = triangle_count_;
     tree.lineage_ = lineage_;
@@ -166,24 +166,7 @@ TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRun
     return tree;
 }
 
-void TriangleTree::forget_sides(const ParallelRunner& run) {
-    run_in_parts(run, labels_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
-        for (; p < end; ++p) {
-            PackLabels& labels = labels_[p];
-            for (int i = 0; i < lane_count; ++i) {
-                std::array<bool, 3> owns{};
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const EdgeLink other = labels.neighbour[k][i];
-                    owns[k] = !other.exists() || labels.triangle[i] < triangle_at(other.triangle());
-                }
-                labels.owned[i].forget_sides(owns);
-            }
-        }
-    });
-}
-
 void TriangleTree::refit(const TriangleMesh& moved, const ParallelRunner& run) {
-    forget_sides(run);
     place_triangles(moved, corner_extent(moved, run).is_single, run);
     fit_boxes(run);
 }

@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "core/geometry/corners_by_place.hpp"
 #include "shared/meshes.hpp"
 
 namespace tactus {
@@ -48,19 +47,6 @@ TEST(SamePlaces, AnIndexWithoutAVertexStaysOne) {
     merge_places(mesh);
     EXPECT_EQ(mesh.vertices.size(), 2u);
     EXPECT_GE(mesh.triangles[0][2], mesh.vertices.size());
-}
-
-TEST(CornersByPlace, EveryCornerIsAtItsPlaceOnce) {
-    const TriangleMesh mesh = shared::icosphere(2, 1.0);
-    const CornersByPlace corners = corners_by_place(mesh);
-    std::size_t seen = 0;
-    for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-        for (const EdgeLink corner : corners.at(v)) {
-            EXPECT_EQ(mesh.triangles[corner.triangle()][static_cast<std::size_t>(corner.edge())], v);
-            ++seen;
-        }
-    }
-    EXPECT_EQ(seen, 3 * mesh.triangles.size());
 }
 
 }  // namespace

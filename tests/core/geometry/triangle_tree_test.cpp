@@ -342,9 +342,9 @@ TEST(TriangleTree, TakesLittleMemoryMostOfAllForMeshesInSinglePrecision) {
         EXPECT_EQ(tree.triangle_count(), mesh.triangles.size());
         return static_cast<double>(tree.bytes()) / static_cast<double>(mesh.triangles.size());
     };
-    EXPECT_LE(bytes_each(terrain), 115.0);
-    EXPECT_LE(bytes_each(in_single_precision(terrain)), 80.0);
-    EXPECT_LE(bytes_each(in_single_precision(shared::icosphere(5, 1.0))), 80.0);
+    EXPECT_LE(bytes_each(terrain), 100.0);
+    EXPECT_LE(bytes_each(in_single_precision(terrain)), 64.0);
+    EXPECT_LE(bytes_each(in_single_precision(shared::icosphere(5, 1.0))), 64.0);
 }
 
 // One corner far away that is not in single precision: the same triangles, kept in double.
