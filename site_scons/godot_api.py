@@ -9,7 +9,7 @@ BINDING = Path("extension/binding")
 sys.path.append(str(BINDING.resolve()))
 
 
-def installed(prefix, target):
+def installed(prefix, target, system="linux"):
     """Include folders and library of a godot-cpp: one that was installed (include/, lib/), or a checkout in which it
     was built (include/, gen/include/, gdextension/, bin/)."""
     root = Path(prefix)
@@ -18,12 +18,12 @@ def installed(prefix, target):
         raise RuntimeError(f"{prefix} has no include/godot_cpp/godot.hpp: it is no godot-cpp")
     if not any((folder / "godot_cpp/classes/node3d.hpp").is_file() for folder in includes):
         raise RuntimeError(f"{prefix} has no generated classes yet: build godot-cpp first, with scons target={target}")
-    return includes, _installed_library(root, target)
+    return includes, _installed_library(root, target, system)
 
 
-def _installed_library(root, target):
+def _installed_library(root, target, system):
     found = sorted(path for folder in ("lib", "bin") for path in (root / folder).glob("libgodot-cpp*.a"))
-    suits = [path for path in found if f".linux.{target}." in path.name and ".double." not in path.name]
+    suits = [path for path in found if f".{system}.{target}." in path.name and ".double." not in path.name]
     # Without a target in its name it is the only one there is.
     suits += [path for path in found if path.name == "libgodot-cpp.a"]
     if not suits:
@@ -32,9 +32,16 @@ def _installed_library(root, target):
     return suits[0]
 
 
-def defines(target):
+SYSTEM_DEFINES = {
+    "linux": ["LINUX_ENABLED", "UNIX_ENABLED"],
+    "windows": ["WINDOWS_ENABLED"],
+    "macos": ["MACOS_ENABLED", "UNIX_ENABLED"],
+}
+
+
+def defines(target, system):
     """What godot-cpp's headers expect, for the same layout as in its library."""
-    common = ["LINUX_ENABLED", "UNIX_ENABLED", "GDEXTENSION"]
+    common = [*SYSTEM_DEFINES[system], "GDEXTENSION"]
     return common + (["DEBUG_ENABLED", "HOT_RELOAD_ENABLED"] if target == "template_debug" else [])
 
 

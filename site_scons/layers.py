@@ -6,35 +6,63 @@ and to the layers named here and to nothing else. An include of any other layer 
 
 from pathlib import Path
 
-_ENGINE_FREE = ["core", "realtime", "physics", "devices", "network", "session", "world"]
+_ENGINE_FREE = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world"]
 
 MAY_INCLUDE = {
     "core": [],
-    "realtime": ["core"],
-    "physics": ["core", "realtime"],
+    "platform": ["core"],
+    "realtime": ["core", "platform"],
+    "physics": ["core", "platform", "realtime"],
     "devices": ["core", "realtime", "physics"],
-    "network": ["core", "realtime", "physics"],
+    "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
-    "world": ["core", "realtime", "physics", "devices", "network", "session"],
+    "world": ["core", "platform", "realtime", "physics", "devices", "network", "session"],
     "binding": [],
     "nodes": _ENGINE_FREE,
 }
 
+
+
+def linked(layer):
+    """The layer and all that it stands on, also where it may not include it itself."""
+    below = {name for other in MAY_INCLUDE[layer] for name in linked(other)}
+    return below | {layer}
+
+
 SEES_JOLT = ["physics"]
 SEES_GODOT = ["binding", "nodes"]
 HAS_TEST_PROGRAM = _ENGINE_FREE
+# They divide themselves into processes as only Unix does, or forge packets.
+BENCHES_OF_LINUX = ["stress", "teleop_stress"]
+
+# A source whose name ends in one of these is for that system, or that processor, alone.
+_SYSTEMS = {"linux": ["linux", "posix"], "macos": ["macos", "posix"], "windows": ["windows"]}
+_ARCHITECTURES = ["x86_64", "arm64"]
 
 
-def sources(layer):
-    return sorted(str(path) for path in Path("extension", layer).rglob("*.cpp"))
+def is_for(path, system, architecture):
+    """Whether a source is for that system and processor: clock_windows.cpp, clock_windows_test.cpp."""
+    stem = Path(path).stem.removesuffix("_test")
+    others = {ending for endings in _SYSTEMS.values() for ending in endings} - set(_SYSTEMS[system])
+    others |= set(_ARCHITECTURES) - {architecture}
+    return not stem.endswith(tuple(f"_{ending}" for ending in others))
+
+
+def chosen(folder, pattern, system, architecture):
+    """The sources of a folder that are for that system and processor."""
+    return sorted(str(path) for path in Path(folder).rglob(pattern) if is_for(path, system, architecture))
+
+
+def sources(layer, system, architecture):
+    return chosen(Path("extension", layer), "*.cpp", system, architecture)
 
 
 def present():
-    return [layer for layer in MAY_INCLUDE if sources(layer)]
+    return with_sources(MAY_INCLUDE)
 
 
 def with_sources(layers):
-    return [layer for layer in layers if sources(layer)]
+    return [layer for layer in layers if any(Path("extension", layer).rglob("*.cpp"))]
 
 
 def stage(target, layer):

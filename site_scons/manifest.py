@@ -10,12 +10,12 @@ from pathlib import Path
 
 ADDON = Path("demo_project/addons/tactus")
 TARGETS = {"debug": "template_debug", "release": "template_release"}
-SUFFIX = {"linux": "so", "windows": "dll"}
+SUFFIX = {"linux": "so", "windows": "dll", "macos": "dylib"}
 
 
-def library(platform, target, architecture):
+def library(platform, target):
     """The file name of a library."""
-    return f"libtactus.{platform}.{target}.{architecture}.{SUFFIX[platform]}"
+    return f"libtactus.{platform.system}.{target}.{platform.architecture}.{SUFFIX[platform.system]}"
 
 
 def api_version(description):
@@ -35,15 +35,15 @@ def installed_api_version(includes):
     return None
 
 
-def text(minimum, precision, builds):
-    """`builds`: (platform, architecture) of every library beside it."""
+def text(minimum, precision, platforms):
+    """`platforms`: of every library beside it."""
     lines = ["[configuration]", "", 'entry_symbol = "tactus_library_init"', f'compatibility_minimum = "{minimum}"']
     lines += ["reloadable = false", "", "[libraries]", ""]
-    for platform, architecture in builds:
+    for platform in platforms:
         for feature, target in TARGETS.items():
             # A library of one precision cannot be loaded by a Godot of the other: the tag hides it.
-            tags = f"{platform}.{feature}.{precision}.{architecture}"
-            lines.append(f'{tags} = "bin/{library(platform, target, architecture)}"')
+            tags = f"{platform.system}.{feature}.{precision}.{platform.architecture}"
+            lines.append(f'{tags} = "bin/{library(platform, target)}"')
     lines += ["", "[icons]", ""]
     lines += [f'{icon.stem} = "icons/{icon.name}"' for icon in sorted((ADDON / "icons").glob("*.svg"))]
     return "\n".join(lines) + "\n"

@@ -1,11 +1,9 @@
 """Compiler flags: one set for everything, so that the same numbers come out of every build."""
 
-OPTIMISED = ["-O3", "-march=x86-64-v3", "-fno-math-errno"]
 # A fused multiply-add rounds once where the source rounds twice; whether one is made depends on inlining.
 SAME_BITS = ["-ffp-contract=off"]
 # gcc 12 warns of overlap inside its own std::string (-Wrestrict, its bug 105651).
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-Wno-restrict"]
-LANGUAGE = ["-std=c++20", "-fno-exceptions", "-fPIC", "-fvisibility=hidden", "-fvisibility-inlines-hidden"]
 
 BY_TARGET = {
     "template_debug": ["-g1"],  # assertions on: thread roles, preconditions
@@ -13,10 +11,27 @@ BY_TARGET = {
 }
 
 # Godot carries a Jolt of its own: neither may see the other's symbols.
-LINK_EXTENSION = [
-    "-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-Wl,--gc-sections",
-    "-static-libgcc", "-static-libstdc++",
+LINK_EXTENSION = {
+    "linux": [
+        "-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic", "-Wl,-z,defs", "-Wl,--gc-sections",
+        "-static-libgcc", "-static-libstdc++",
+    ],
+    # A DLL shows what is marked so, and no more.
+    "windows": ["-static", "-Wl,--gc-sections"],
+    "macos": ["-Wl,-dead_strip", "-Wl,-undefined,error"],
+}  # fmt: skip
+
+# Nothing of the compiler has to lie beside a program for another machine.
+LINK_PROGRAM = {"linux": [], "windows": ["-static"], "macos": []}
+
+
+# What stands in front of the C library where its functions cannot simply be defined once more:
+# tests/support/realtime_audit_windows.cpp.
+WRAPPED = [
+    "malloc", "calloc", "realloc", "free", "_aligned_malloc", "_aligned_free", "pthread_mutex_lock",
+    "pthread_mutex_trylock", "pthread_cond_wait", "pthread_cond_timedwait", "pthread_join",
 ]  # fmt: skip
+LINK_AUDIT = {"linux": [], "windows": [f"-Wl,--wrap={name}" for name in WRAPPED], "macos": []}
 
 
 # Which may stand together: address with undefined.
@@ -29,8 +44,11 @@ def sanitize_flags(sanitizers):
     return [f"-fsanitize={sanitizers}", "-fno-sanitize=vptr", "-fno-sanitize-recover=all"] if sanitizers else []
 
 
-def compile_flags(target, sanitizers=""):
-    plain = [*LANGUAGE, *OPTIMISED, *SAME_BITS, *WARNINGS, *BY_TARGET[target]]
+def compile_flags(platform, target, sanitizers=""):
+    """What belongs to the platform comes with it: tools/setup/platforms.py."""
+    language = ["-std=c++20", "-fno-exceptions", *platform.position, "-fvisibility=hidden", "-fvisibility-inlines-hidden"]
+    optimised = ["-O3", *platform.machine, "-fno-math-errno"]
+    plain = [*language, *optimised, *SAME_BITS, *WARNINGS, *BY_TARGET[target]]
     if not sanitizers:
         return plain
     # Less inlining than -O3 for a quicker build; warnings that only watched code gives are not errors.
@@ -49,13 +67,15 @@ FLAGS_OF_LAYER = {
     "nodes": SPEAKS_GODOT,
 }
 
-# Runs on any processor, to say what is missing on an older one.
-FLAGS_OF_FILE = {"extension/nodes/entry.cpp": ["-march=x86-64"]}
+# Run on any processor, to say what is missing on an older one.
+ANY_PROCESSOR = {"x86_64": ["-march=x86-64"], "arm64": []}
+RUN_ANYWHERE = ["extension/nodes/entry.cpp", "extension/platform/processor_x86_64.cpp"]
 
 # Stands in front of the C library and of the sanitizers: it runs before these are ready.
-NOT_WATCHED = ["tests/support/realtime_audit.cpp"]
+NOT_WATCHED = ["tests/support/realtime_audit_linux.cpp"]
 
 
-def flags_of_file(source, sanitizers):
+def flags_of_file(platform, source, sanitizers):
+    anywhere = ANY_PROCESSOR[platform.architecture] if source in RUN_ANYWHERE else []
     audit = [f"-DTACTUS_SANITIZE_{name.upper()}=1" for name in sanitizers.split(",") if name]
-    return [*FLAGS_OF_FILE.get(source, []), *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]
+    return [*anywhere, *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]

@@ -1,11 +1,18 @@
-"""./run addon: one archive of the addon, to be unzipped into any Godot project: build/addon/tactus-VERSION.zip."""
+"""./run addon [--platform=NAME,…]: one archive of the addon, to be unzipped into any Godot project:
+build/addon/tactus-VERSION.zip. It has the libraries of this machine's platform, and of those named.
+"""
 
 import re
 import sys
 import zipfile
 from pathlib import Path
 
-from setup import cache, godot, jolt
+import build
+from setup import cache, cross, godot, jolt, platforms
+from setup.platforms import Platform
+
+sys.path.insert(0, str(cache.clone() / "site_scons"))
+import manifest  # noqa: E402
 
 FOLDER = cache.clone() / "demo_project/addons/tactus"
 STAGE = cache.clone() / "build/addon"
@@ -13,7 +20,7 @@ OLDEST_DATE = (1980, 1, 1, 0, 0, 0)  # of a zip: the same content gives the same
 
 SYSTEM_NOTICES = {
     "GLM": "/usr/share/doc/libglm-dev/copyright",
-    "libsodium": "/usr/share/doc/libsodium-dev/copyright",
+    "libsodium": "/usr/share/doc/libsodium-dev/copyright",  # the same work in the libraries of every platform
     "GCC's runtime libraries, linked under the GCC Runtime Library Exception": "/usr/share/doc/libstdc++-*-dev/copyright",
 }
 
@@ -30,8 +37,9 @@ def archive() -> Path:
     return STAGE / f"tactus-{version()}.zip"
 
 
-def pack() -> Path:
-    content = contents()
+def pack(others: list[Platform] | None = None) -> Path:
+    """`others`: platforms besides this machine's own, whose libraries are built already."""
+    content = contents(others or [])
     missing = [name for name in _libraries(content["tactus.gdextension"].decode()) if name not in content]
     if missing:
         raise RuntimeError(f"{FOLDER} has no {', '.join(missing)}: ./run setup builds them")
@@ -46,7 +54,7 @@ def pack() -> Path:
     return partial.rename(archive())
 
 
-def contents() -> dict[str, bytes]:
+def contents(others: list[Platform]) -> dict[str, bytes]:
     """Path below the addon's folder → bytes."""
     found = {}
     for path in sorted(FOLDER.rglob("*")):
@@ -54,11 +62,28 @@ def contents() -> dict[str, bytes]:
         if path.is_file() and path.suffix != ".import" and ".partial" not in path.name:
             found[str(path.relative_to(FOLDER))] = path.read_bytes()
     clone = cache.clone()
+    for platform in others:
+        for target in manifest.TARGETS.values():
+            name = manifest.library(platform, target)
+            library = clone / "build" / cache.variant(target, foreign=platform.name) / "bin" / name
+            if library.is_file():
+                found[f"bin/{name}"] = library.read_bytes()
+    found["tactus.gdextension"] = _description(others).encode()
     found["README.md"] = (clone / "docs/addon.md").read_bytes()
     for name in ("LICENSE", "CHANGELOG.md"):
         found[name] = (clone / name).read_bytes()
     found["NOTICES.txt"] = notices().encode()
     return found
+
+
+def _description(others: list[Platform]) -> str:
+    """tactus.gdextension as this machine's build has written it, for the other platforms as well."""
+    own = (FOLDER / "tactus.gdextension").read_text()
+    minimum = re.search(r'compatibility_minimum = "(.*)"', own)
+    precision = re.search(r"\.debug\.(\w+)\.", own)
+    if not minimum or not precision:
+        raise RuntimeError(f"{FOLDER}/tactus.gdextension names no version or no library: ./run setup writes it")
+    return manifest.text(minimum[1], precision[1], [platforms.host(), *others])
 
 
 def _libraries(description: str) -> list[str]:
@@ -91,17 +116,26 @@ def _first_comment(header: Path | None) -> str:
     return "\n".join(lines)
 
 
-def main() -> int:
-    path = pack()
+def main(arguments: list[str]) -> int:
+    others = platforms.named_in(arguments)
+    if any(not argument.startswith("--platform=") for argument in arguments):
+        print("./run addon [--platform=NAME,…]", file=sys.stderr)
+        return 2
+    for platform in others:
+        for target in manifest.TARGETS.values():
+            print(f"Building {target} for {platform.name} … ", end="", flush=True)
+            build.build(target, "extension", f"platform={platform.name}")
+            print("done", flush=True)
+    path = pack(others)
     print(f"{path.relative_to(cache.clone())}: {path.stat().st_size / 1e6:.1f} MB, for")
-    for name in _libraries((FOLDER / "tactus.gdextension").read_text()):
+    for name in _libraries(_description(others)):
         print(f"  {Path(name).name}")
     return 0
 
 
 if __name__ == "__main__":
     try:
-        sys.exit(main())
+        sys.exit(main(sys.argv[1:]))
     except RuntimeError as error:
         print(error, file=sys.stderr)
         sys.exit(1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes sure of what must come from the system. Root: installs what is missing. Otherwise: says how, and stops with 2.
+# Makes sure of what must come from the system, and what the platforms and emulators named need besides. Root: installs what is missing. Otherwise: says how, and stops with 2.
 set -euo pipefail
 
 missing=()
@@ -19,6 +19,15 @@ needs libsodium-dev test -e /usr/include/sodium.h
 needs libgtest-dev test -e /usr/include/gtest/gtest.h
 needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
+for extra in "$@"; do
+    needs make command -v make
+    case "$extra" in
+    windows) needs g++-mingw-w64-x86-64-posix command -v x86_64-w64-mingw32-g++-posix ;;
+    linux_arm64) needs g++-aarch64-linux-gnu command -v aarch64-linux-gnu-g++ ;;
+    wine) needs wine64 test -x /usr/lib/wine/wine64 ;;
+    qemu) needs qemu-user command -v qemu-aarch64 ;;
+    esac
+done
 
 [ ${#missing[@]} -gt 0 ] || exit 0
 # What the same is called elsewhere. Godot itself is fetched on Debian only: there, one of version 4.4 or later must be on

@@ -80,7 +80,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::take(const Piece& piece) {
     removed_.clear();
     readings_.clear();
     incomplete_bytes_ = 0;
-    return DiscoveryEvent{DiscoveryEvent::Kind::restarted, no_object, {}};
+    return DiscoveryEvent{DiscoveryEvent::Kind::restarted, no_object, {}, {}};
 }
 
 void DiscoveryReceiver::take_fragment(const Piece& piece) {
@@ -207,11 +207,17 @@ void DiscoveryReceiver::read(Reading& reading) {
         std::memcpy(bytes.data() + number * most_fragment_bytes, piece.data(), piece.size());
     }
     if (content_hash(bytes) == reading.hash) {
-        const bool understood = decode_description(bytes, reading.description) == Refusal::none &&
-                                reading.description.object == reading.object;
-        reading.result = understood ? Reading::Result::good : Reading::Result::refused;
+        reading.result = understand(bytes, reading) ? Reading::Result::good : Reading::Result::refused;
     }
     reading.done.store(true, std::memory_order_release);
+}
+
+bool DiscoveryReceiver::understand(std::span<const std::byte> bytes, Reading& reading) {
+    if (is_joint(reading.object)) {
+        return decode_joint(bytes, reading.joint) == Refusal::none && reading.joint.object == reading.object;
+    }
+    return decode_description(bytes, reading.description) == Refusal::none &&
+           reading.description.object == reading.object;
 }
 
 std::optional<DiscoveryEvent> DiscoveryReceiver::take_read() {
@@ -244,7 +250,8 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::accept(Reading& reading) {
         answer(reading.object, DiscoveryVerdict::refused);
         return std::nullopt;
     }
-    DiscoveryEvent event{DiscoveryEvent::Kind::described, reading.object, std::move(reading.description)};
+    DiscoveryEvent event{DiscoveryEvent::Kind::described, reading.object, std::move(reading.description),
+                         reading.joint};
     event.description.touch.texture = event.description.texture.get();
     return event;
 }
@@ -264,7 +271,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::remove(const Piece& piece) {
     }
     release(found->second);
     objects_.erase(found);
-    return DiscoveryEvent{DiscoveryEvent::Kind::removed, piece.object, {}};
+    return DiscoveryEvent{DiscoveryEvent::Kind::removed, piece.object, {}, {}};
 }
 
 // Whether something newer is known of its object.

@@ -38,7 +38,8 @@ struct DiscoveryEvent {
 
     Kind kind = Kind::described;
     ObjectId object = no_object;
-    ObjectDescription description;  // for `described`
+    ObjectDescription description;  // for `described`, of a body
+    ObjectJoint joint;              // likewise, where is_joint(object)
 };
 
 struct DiscoveryReceiverCounts {
@@ -118,6 +119,7 @@ private:
         Pieces pieces;
         enum class Result : std::uint8_t { wrong_hash, refused, good } result = Result::wrong_hash;
         ObjectDescription description;
+        ObjectJoint joint;
         std::atomic<bool> done{false};
     };
 
@@ -126,6 +128,7 @@ private:
     std::optional<DiscoveryEvent> remove(const Piece& piece);
     void begin_reading(ObjectId id, Object& object);
     static void read(Reading& reading);
+    static bool understand(std::span<const std::byte> bytes, Reading& reading);
     std::optional<DiscoveryEvent> take_read();
     std::optional<DiscoveryEvent> accept(Reading& reading);
     Object* object_for(const Piece& piece);

@@ -10,13 +10,24 @@ constexpr Nanoseconds ask_again_for_room = 5 * nanoseconds_per_second;
 
 }  // namespace
 
-PreparedDiscovery prepare_discovery(const ObjectDescription& description) {
-    std::vector<std::byte> bytes = encode_description(description);
+namespace {
+
+PreparedDiscovery prepared(ObjectId object, std::vector<std::byte>&& bytes) {
     if (bytes.empty()) {
         return {};
     }
     const ContentHash hash = content_hash(bytes);
-    return {description.object, hash, std::make_shared<const std::vector<std::byte>>(std::move(bytes))};
+    return {object, hash, std::make_shared<const std::vector<std::byte>>(std::move(bytes))};
+}
+
+}  // namespace
+
+PreparedDiscovery prepare_discovery(const ObjectDescription& description) {
+    return prepared(description.object, encode_description(description));
+}
+
+PreparedDiscovery prepare_discovery(const ObjectJoint& joint) {
+    return prepared(joint.object, encode_joint(joint));
 }
 
 bool DiscoverySender::announce(PreparedDiscovery& prepared) {

@@ -23,6 +23,7 @@ struct PreparedDiscovery {
 
 // Off the loop. Empty where the description breaks a range.
 PreparedDiscovery prepare_discovery(const ObjectDescription& description);
+PreparedDiscovery prepare_discovery(const ObjectJoint& joint);
 
 struct DiscoveryCounts {
     std::uint32_t waiting = 0;  // objects that are not acknowledged yet, and removals

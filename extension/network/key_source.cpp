@@ -1,15 +1,9 @@
 #include "network/key_source.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 
 #include "network/shared_secret.hpp"
+#include "platform/private_file.hpp"
 
 namespace tactus {
 namespace {
@@ -23,38 +17,22 @@ KeySource checked(const std::string& text, const std::string& where) {
     return {text, {}};
 }
 
-// Closes itself.
-struct File {
-    explicit File(const std::string& path) : number(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-    ~File() {
-        if (number >= 0) {
-            close(number);
-        }
-    }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    int number;
-};
-
 KeySource read_file(const std::string& path) {
     const std::string where = "the key file \"" + path + "\"";
-    const File file(path);
-    struct stat status{};
-    if (file.number < 0 || fstat(file.number, &status) != 0) {
-        return {{}, where + " cannot be read: " + std::strerror(errno)};
+    const PrivateFile file = read_private_file(path, max_key_bytes);
+    switch (file.trouble) {
+        case FileTrouble::none:
+            return checked(file.bytes, where);
+        case FileTrouble::unreadable:
+            return {{}, where + " cannot be read: " + file.system_text};
+        case FileTrouble::not_ordinary:
+            return {{}, where + " is no ordinary file"};
+        case FileTrouble::open_to_others:
+            return {{}, where + " is open to others on this machine: " + file.way_out};
+        case FileTrouble::too_long:
+            break;
     }
-    if (!S_ISREG(status.st_mode)) {
-        return {{}, where + " is no ordinary file"};
-    }
-    if ((status.st_mode & (S_IRGRP | S_IROTH | S_IWGRP | S_IWOTH)) != 0) {
-        return {{}, where + " is open to others on this machine: chmod 600 \"" + path + "\""};
-    }
-    std::array<char, max_key_bytes + 1> bytes;
-    const ssize_t size = read(file.number, bytes.data(), bytes.size());
-    if (size < 0 || static_cast<std::size_t>(size) > max_key_bytes) {
-        return {{}, where + (size < 0 ? " cannot be read" : " is longer than any key")};
-    }
-    return checked(std::string(bytes.data(), static_cast<std::size_t>(size)), where);
+    return {{}, where + " is longer than any key"};
 }
 
 }  // namespace

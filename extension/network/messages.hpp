@@ -20,6 +20,7 @@
 #include "core/math/pose.hpp"
 #include "core/ports/link.hpp"
 #include "physics/body_description.hpp"
+#include "physics/joint.hpp"
 
 namespace tactus {
 
@@ -30,6 +31,11 @@ inline constexpr std::uint8_t oldest_wire_version = 2;
 // Given by the teleoperator. One that was removed may be given to another object, with a higher revision.
 using ObjectId = std::uint32_t;
 inline constexpr ObjectId no_object = 0xffff'ffffu;
+// What joins two bodies is described like a body, under a number of its own from here on.
+inline constexpr ObjectId first_joint = 0x8000'0000u;
+constexpr bool is_joint(ObjectId object) {
+    return object >= first_joint && object != no_object;
+}
 
 // Of operator samples: counts up from 1 within an epoch of the operator.
 using SampleSequence = std::uint64_t;
@@ -235,6 +241,23 @@ std::vector<std::byte> encode_description(const ObjectDescription& description);
 
 // Off the loop. `description` is valid only where the result is none.
 Refusal decode_description(std::span<const std::byte> bytes, ObjectDescription& description);
+
+// What joins two objects, or one and the scene. The frames are those of the two objects, or of the scene;
+// where one came from may be no more: it joins again what is described again.
+struct ObjectJoint {
+    ObjectId object = no_object;  // is_joint()
+    ObjectId first = no_object;
+    ObjectId second = no_object;  // no_object: the scene
+    JointDescription joint;       // with a second frame
+};
+
+inline constexpr double max_motor_torque = 1e9;  // (unit: newton meters)
+
+// Off the loop. Empty where it breaks a range.
+std::vector<std::byte> encode_joint(const ObjectJoint& joint);
+
+// Off the loop. `joint` is valid only where the result is none.
+Refusal decode_joint(std::span<const std::byte> bytes, ObjectJoint& joint);
 
 ContentHash content_hash(std::span<const std::byte> bytes);
 

@@ -277,7 +277,7 @@ void texture_fields(Stream& s, auto& texture) {
 template <typename Stream>
 void description_fields(Stream& s, auto& description) {
     s.integer(description.object);
-    s.require(description.object != no_object);
+    s.require(description.object < first_joint);
     texts(s, description.name);
     touch_fields(s, description.touch);
     texture_fields(s, description.texture);

@@ -1,11 +1,6 @@
 #include "network/socket_filter.hpp"
 
-#include <arpa/inet.h>
-#include <linux/filter.h>
-#include <linux/sock_diag.h>
-#include <sys/socket.h>
-
-#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -19,45 +14,46 @@ namespace {
 // What a filter of a UDP socket sees begins with the header of UDP.
 constexpr std::uint32_t udp_header = 8;
 
-// A program of the classic packet filter. A load beyond the end of the datagram ends it, and drops that.
 class Program {
 public:
     // A word or two bytes of the datagram, as the wire's order makes a number of them.
-    void load_word(std::size_t at) { load(BPF_W, at); }
-    void load_half(std::size_t at) { load(BPF_H, at); }
-    void load_length() { code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_LEN, 0)); }
+    void load_word(std::size_t at) { load(FilterStep::load_word, at); }
+    void load_half(std::size_t at) { load(FilterStep::load_half, at); }
+    void load_length() { code_.push_back({FilterStep::load_length}); }
 
     // The loaded number is this, or `steps` are skipped.
     void unless_equal_skip(std::uint32_t number, std::uint8_t steps) {
-        code_.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, number, 0, steps));
+        code_.push_back({FilterStep::jump_if_equal, 0, steps, number});
     }
     void unless_at_least_skip(std::uint32_t number, std::uint8_t steps) {
-        code_.push_back(BPF_JUMP(BPF_JMP | BPF_JGE | BPF_K, number, 0, steps));
+        code_.push_back({FilterStep::jump_if_at_least, 0, steps, number});
     }
-    void admit() { code_.push_back(BPF_STMT(BPF_RET | BPF_K, 0xffff'ffffu)); }
-    void drop() { code_.push_back(BPF_STMT(BPF_RET | BPF_K, 0)); }
+    void admit() { code_.push_back({FilterStep::end_with, 0, 0, 0xffff'ffffu}); }
+    void drop() { code_.push_back({FilterStep::end_with}); }
     void append(const Program& other) { code_.insert(code_.end(), other.code_.begin(), other.code_.end()); }
     std::uint8_t steps() const { return static_cast<std::uint8_t>(code_.size()); }
 
-    bool attach(int file) {
-        const sock_fprog program{static_cast<unsigned short>(code_.size()), code_.data()};
-        return setsockopt(file, SOL_SOCKET, SO_ATTACH_FILTER, &program, sizeof program) == 0;
-    }
+    bool attach(SocketHandle socket) const { return filter_udp(socket, code_); }
 
 private:
-    void load(int size, std::size_t at) {
-        code_.push_back(BPF_STMT(static_cast<unsigned short>(BPF_LD | size | BPF_ABS),
-                                 udp_header + static_cast<std::uint32_t>(at)));
+    void load(FilterStep::Code code, std::size_t at) {
+        code_.push_back({code, 0, 0, udp_header + static_cast<std::uint32_t>(at)});
     }
 
-    std::vector<sock_filter> code_;
+    std::vector<FilterStep> code_;
 };
 
 // The bytes of a value as they stand in a datagram, as the filter loads them.
 std::uint32_t word_of(const void* bytes) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, bytes, sizeof word);
-    return ntohl(word);
+    std::array<std::uint8_t, 4> b;
+    std::memcpy(b.data(), bytes, sizeof b);
+    return std::uint32_t{b[0]} << 24 | std::uint32_t{b[1]} << 16 | std::uint32_t{b[2]} << 8 | b[3];
+}
+
+std::uint32_t half_of(std::uint16_t value) {
+    std::array<std::uint8_t, 2> b;
+    std::memcpy(b.data(), &value, sizeof b);
+    return std::uint32_t{b[0]} << 8 | b[1];
 }
 
 std::uint32_t front_of(std::uint8_t kind) {
@@ -106,7 +102,7 @@ Program for_the_rest(const Admission& admission) {
     if (admission.strangers) {
         program.load_half(0);
         for (const std::uint16_t magic : {sealed_magic, packet_magic}) {
-            program.unless_equal_skip(ntohs(magic), 1);
+            program.unless_equal_skip(half_of(magic), 1);
             program.admit();
         }
     }
@@ -129,15 +125,8 @@ Program program_of(const Admission& admission) {
 
 }  // namespace
 
-bool attach_filter(int file, const Admission& admission) {
-    return program_of(admission).attach(file);
-}
-
-std::uint64_t dropped_by_system(int file) {
-    std::array<std::uint32_t, SK_MEMINFO_VARS> figures{};
-    socklen_t size = sizeof figures;
-    return getsockopt(file, SOL_SOCKET, SO_MEMINFO, figures.data(), &size) == 0 ? figures[SK_MEMINFO_DROPS]
-                                                                                : 0;
+bool attach_filter(SocketHandle socket, const Admission& admission) {
+    return program_of(admission).attach(socket);
 }
 
 }  // namespace tactus

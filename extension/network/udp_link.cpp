@@ -1,38 +1,11 @@
 #include "network/udp_link.hpp"
 
-#include <poll.h>
-#include <sys/eventfd.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
 #include <cstring>
 
-#include "realtime/clock.hpp"
-#include "realtime/realtime_thread.hpp"
+#include "platform/clock.hpp"
+#include "platform/realtime_thread.hpp"
 
 namespace tactus {
-
-// Datagrams of one system call.
-struct UdpLink::Batch {
-    static constexpr std::size_t size = 64;
-
-    // One byte more than a datagram may have shows that it has more.
-    std::array<std::array<std::byte, most_datagram_bytes + 1>, size> bytes;
-    std::array<iovec, size> parts;
-    std::array<mmsghdr, size> messages;
-    std::array<std::byte, most_datagram_bytes> sealed;
-
-    Batch() {
-        for (std::size_t i = 0; i < size; ++i) {
-            parts[i] = {bytes[i].data(), bytes[i].size()};
-            messages[i] = {};
-            messages[i].msg_hdr.msg_iov = &parts[i];
-            messages[i].msg_hdr.msg_iovlen = 1;
-        }
-    }
-};
 
 namespace {
 
@@ -70,7 +43,6 @@ std::string UdpLink::open(const UdpSettings& settings) {
     settings_ = settings;
     outgoing_ = std::make_unique<DatagramRing>(settings.capacity);
     incoming_ = std::make_unique<DatagramRing>(settings.capacity);
-    batch_ = std::make_unique<Batch>();
     if (settings.secret) {
         jobs_ = std::make_unique<JobThread>();
         secure_ = std::make_unique<SecureSession>(
@@ -83,34 +55,32 @@ std::string UdpLink::open(const UdpSettings& settings) {
     chosen_ = sockets_.sockets.size() == 1 && sockets_.sockets[0].remotes.size() == 1 ? 0 : undecided;
     next_try_ = monotonic_now() + try_others_every;
     next_publish_ = 0;
-    stop_event_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    wait_ = std::make_unique<SocketWait>();
     stop_requested_.store(false);
     state_.store(UdpState::open);
-    const int code = stop_event_ < 0 ? errno : pthread_create(&thread_, nullptr, &UdpLink::run_thread, this);
-    if (stop_event_ < 0 || code != 0) {
-        close();
-        return std::string("the network thread could not be created: ") + std::strerror(code);
+    std::string refused = wait_->error();
+    if (refused.empty()) {
+        refused =
+            thread_.start("tactus-network", [](void* link) { static_cast<UdpLink*>(link)->run(); }, this);
     }
-    running_ = true;
+    if (!refused.empty()) {
+        close();
+        return "the network thread could not be created: " + refused;
+    }
     return {};
 }
 
 void UdpLink::close() {
-    if (running_) {
+    if (wait_) {
         stop_requested_.store(true);
-        const std::uint64_t one = 1;
-        [[maybe_unused]] const ssize_t written = write(stop_event_, &one, sizeof one);
-        pthread_join(thread_, nullptr);
-        running_ = false;
+        wait_->wake();
+        thread_.join();
+        wait_.reset();
     }
     for (const UdpSocket& socket : sockets_.sockets) {
-        ::close(socket.file);
+        close_udp(socket.handle);
     }
     sockets_ = {};
-    if (stop_event_ >= 0) {
-        ::close(stop_event_);
-        stop_event_ = -1;
-    }
     jobs_.reset();
     secure_.reset();
     state_.store(UdpState::closed);
@@ -160,13 +130,7 @@ ReceivedDatagram UdpLink::receive(std::span<std::byte> into, Nanoseconds) {
 
 // --- the network thread
 
-void* UdpLink::run_thread(void* self) {
-    static_cast<UdpLink*>(self)->run();
-    return nullptr;
-}
-
 void UdpLink::run() {
-    pthread_setname_np(pthread_self(), "tactus-network");
     RealtimeRequest request;
     request.fifo_priority = settings_.fifo_priority;
     request.cpu = any_processor;
@@ -186,8 +150,8 @@ void UdpLink::send_waiting() {
         const std::span<const std::byte> plain = std::span(oldest->bytes).first(oldest->size);
         if (!secure_) {
             send_to_far_side(plain);
-        } else if (const std::size_t size = secure_->seal(plain, batch_->sealed); size > 0) {
-            send_to_far_side(std::span(batch_->sealed).first(size));
+        } else if (const std::size_t size = secure_->seal(plain, sealed_); size > 0) {
+            send_to_far_side(std::span(sealed_).first(size));
         }
         outgoing_->pop();
     }
@@ -197,8 +161,8 @@ void UdpLink::say_what_is_due() {
     const Nanoseconds now = monotonic_now();
     if (secure_) {
         for (int i = 0; i < 3; ++i) {
-            if (const std::size_t size = secure_->due(batch_->sealed, now); size > 0) {
-                send_to_far_side(std::span(batch_->sealed).first(size));
+            if (const std::size_t size = secure_->due(sealed_, now); size > 0) {
+                send_to_far_side(std::span(sealed_).first(size));
             }
         }
         filter(now);
@@ -213,13 +177,13 @@ void UdpLink::send_to_far_side(std::span<const std::byte> datagram) {
         if (chosen_ != undecided && chosen_ != i) {
             continue;
         }
-        if (::send(sockets_.sockets[i].file, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL) >=
-            0) {
+        const SocketError error = send_udp(sockets_.sockets[i].handle, datagram);
+        if (!error) {
             count(sent_);
-        } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
+        } else if (error.trouble == SocketTrouble::not_now) {
             no_room_to_send_.fetch_add(1, std::memory_order_relaxed);
         } else {
-            note_error(errno);
+            note_error(error);
         }
     }
 }
@@ -230,7 +194,7 @@ std::size_t UdpLink::receive_waiting() {
         for (int batch = 0; batch < max_batches; ++batch) {
             const std::size_t came = receive_from(i);
             received += came;
-            if (came < Batch::size) {
+            if (came < DatagramBatch::capacity) {
                 break;
             }
         }
@@ -239,24 +203,22 @@ std::size_t UdpLink::receive_waiting() {
 }
 
 std::size_t UdpLink::receive_from(std::size_t which) {
-    const int came =
-        recvmmsg(sockets_.sockets[which].file, batch_->messages.data(), Batch::size, MSG_DONTWAIT, nullptr);
-    if (came < 0) {
-        if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
-            note_error(errno);
+    if (const SocketError error = batch_.receive(sockets_.sockets[which].handle)) {
+        if (error.trouble != SocketTrouble::not_now) {
+            note_error(error);
         }
         return 0;
     }
     const Nanoseconds arrived = monotonic_now();
-    for (std::size_t i = 0; i < static_cast<std::size_t>(came); ++i) {
-        const std::size_t size = batch_->messages[i].msg_len;
-        if (size > most_datagram_bytes) {
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+        const std::span<const std::byte> datagram = batch_[i];
+        if (datagram.size() > most_datagram_bytes) {
             oversized_.fetch_add(1, std::memory_order_relaxed);
-        } else if (size > 0) {
-            take(which, std::span(batch_->bytes[i]).first(size), arrived);
+        } else if (!datagram.empty()) {
+            take(which, datagram, arrived);
         }
     }
-    return static_cast<std::size_t>(came);
+    return batch_.size();
 }
 
 void UdpLink::take(std::size_t which, std::span<const std::byte> datagram, Nanoseconds arrived) {
@@ -309,7 +271,7 @@ void UdpLink::filter(Nanoseconds now) {
     }
     admitted_ = admission;
     for (const UdpSocket& socket : sockets_.sockets) {
-        attach_filter(socket.file, admission);
+        attach_filter(socket.handle, admission);
     }
 }
 
@@ -330,14 +292,14 @@ void UdpLink::publish(Nanoseconds now) {
     next_publish_ = now + publish_every;
     SecureFigures figures{secure_->met(), secure_->counts(), 0};
     for (const UdpSocket& socket : sockets_.sockets) {
-        figures.dropped_by_system += dropped_by_system(socket.file);
+        figures.dropped_by_system += dropped_by_system(socket.handle);
     }
     secure_figures_.publish(figures);
 }
 
 // An unreachable far side is asked on: it may be about to start.
-void UdpLink::note_error(int error) {
-    if (error == ECONNREFUSED || error == EHOSTUNREACH || error == ENETUNREACH || error == ENETDOWN) {
+void UdpLink::note_error(SocketError error) {
+    if (error.trouble == SocketTrouble::unreachable) {
         count(unreachable_);
         state_.store(UdpState::unreachable, std::memory_order_relaxed);
     } else {
@@ -346,16 +308,15 @@ void UdpLink::note_error(int error) {
 }
 
 void UdpLink::wait_for_work(std::size_t received) {
-    const timespec timeout = to_timespec(settings_.look_out);
     // Nothing to wait for where a socket has failed, and too much where there is a flood: do not spin.
     const bool waits_for_sockets =
         received < a_flood && state_.load(std::memory_order_relaxed) != UdpState::failed;
-    std::array<pollfd, 3> files{{{stop_event_, POLLIN, 0}}};
-    nfds_t watched = 1;
+    std::array<SocketHandle, SocketWait::max_sockets> handles;
+    std::size_t watched = 0;
     for (std::size_t i = 0; waits_for_sockets && i < sockets_.sockets.size(); ++i) {
-        files[watched++] = {sockets_.sockets[i].file, POLLIN, 0};
+        handles[watched++] = sockets_.sockets[i].handle;
     }
-    ppoll(files.data(), watched, &timeout, nullptr);
+    wait_->wait(std::span(handles).first(watched), settings_.look_out);
 }
 
 }  // namespace tactus

@@ -11,8 +11,7 @@
 // and what comes faster than any honest side sends is dropped before anything is done for it.
 #pragma once
 
-#include <pthread.h>
-
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -25,6 +24,7 @@
 #include "network/secure_session.hpp"
 #include "network/socket_filter.hpp"
 #include "network/udp_sockets.hpp"
+#include "platform/thread.hpp"
 #include "realtime/triple_buffer.hpp"
 
 namespace tactus {
@@ -82,7 +82,6 @@ public:
     UdpFigures figures();
 
 private:
-    struct Batch;
     struct SecureFigures {
         bool met = false;
         SecureCounts counts;
@@ -93,7 +92,6 @@ private:
     static constexpr std::int64_t burst = 512;
     static constexpr std::size_t undecided = ~std::size_t{0};
 
-    static void* run_thread(void* self);
     void run();
     void send_waiting();
     void say_what_is_due();
@@ -105,20 +103,20 @@ private:
     void filter(Nanoseconds now);
     void try_other_addresses(Nanoseconds now);
     void publish(Nanoseconds now);
-    void note_error(int error);
+    void note_error(SocketError error);
     void wait_for_work(std::size_t received);
 
     UdpSettings settings_;
     UdpSockets sockets_;
-    int stop_event_ = -1;
-    pthread_t thread_{};
-    bool running_ = false;
+    std::unique_ptr<SocketWait> wait_;  // null: closed
+    Thread thread_;
     std::atomic<bool> stop_requested_{false};
     std::unique_ptr<DatagramRing> outgoing_;
     std::unique_ptr<DatagramRing> incoming_;
 
     // Of the network thread.
-    std::unique_ptr<Batch> batch_;
+    DatagramBatch batch_{most_datagram_bytes};
+    std::array<std::byte, most_datagram_bytes> sealed_;
     std::unique_ptr<SecureSession> secure_;  // null: no secret
     std::unique_ptr<JobThread> jobs_;        // makes its keys
     std::optional<Admission> admitted_;      // by the system

@@ -1,11 +1,11 @@
 // From addresses as people write them to sockets that talk to the far side and to nobody else.
 #pragma once
 
-#include <sys/socket.h>
-
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "platform/udp_socket.hpp"
 
 namespace tactus {
 
@@ -17,10 +17,10 @@ struct UdpAddress {
 // Bound here and connected there, so that the system drops what comes from anywhere else and says when nobody
 // listens. A name may stand for several addresses of a family: which of them answers is found by trying.
 struct UdpSocket {
-    int file = -1;
-    int family = AF_UNSPEC;
-    std::vector<sockaddr_storage> remotes;  // not empty
-    std::size_t remote = 0;                 // the one it is connected to
+    SocketHandle handle = no_socket;
+    IpFamily family = IpFamily::any;
+    std::vector<IpAddress> remotes;  // not empty
+    std::size_t remote = 0;          // the one it is connected to
 };
 
 struct UdpSockets {
@@ -36,6 +36,6 @@ UdpSockets open_udp_sockets(const UdpAddress& local, const UdpAddress& remote, b
 void try_next_remote(UdpSocket& socket);
 
 // What IP and UDP add to a datagram (unit: bytes).
-std::size_t udp_overhead(int family);
+std::size_t udp_overhead(IpFamily family);
 
 }  // namespace tactus

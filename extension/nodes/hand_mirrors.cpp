@@ -15,7 +15,7 @@ namespace {
 
 bool same(const Workspace& a, const Workspace& b) {
     return a.pose.position == b.pose.position && a.pose.rotation == b.pose.rotation && a.scale == b.scale &&
-           a.force_limit == b.force_limit && a.clutch == b.clutch;
+           a.force_limit == b.force_limit && a.clutch == b.clutch && a.dead_man == b.dead_man;
 }
 
 bool same(const ProxyDescription& a, const ProxyDescription& b) {

@@ -54,15 +54,25 @@ JointMirror::Ends JointMirror::find_ends(const Joint3D& node, const FindMirror& 
     return ends;
 }
 
-// The joint goes along with the body; its node need not. As with Godot, moving the node later moves nothing.
-Pose JointMirror::frame_in(const BodyMirror& anchor, const JointDescription& joint) {
-    if (anchor_ != anchor.id()) {
-        const Pose body = pose_of(anchor.body()->get_global_transform());
-        anchor_ = anchor.id();
-        frame_in_anchor_ = {to_local(body, joint.frame.position),
-                            glm::conjugate(body.rotation) * joint.frame.rotation};
+// The joint goes along with its bodies; its node need not. As with Godot, moving the node later moves
+// nothing, and limits count from where the bodies were first joined, whenever one of them is made anew.
+JointDescription JointMirror::in_bodies(const Ends& ends, const JointDescription& joint) {
+    const auto id_of = [](const BodyMirror* mirror) { return mirror != nullptr ? mirror->id() : 0; };
+    if (ids_[0] != id_of(ends.first) || ids_[1] != id_of(ends.second)) {
+        const auto frame_in = [&joint](const BodyMirror* mirror) {
+            return mirror == nullptr
+                       ? joint.frame
+                       : compose(inverse(pose_of(mirror->body()->get_global_transform())), joint.frame);
+        };
+        ids_[0] = id_of(ends.first);
+        ids_[1] = id_of(ends.second);
+        frame_in_first_ = frame_in(ends.first);
+        frame_in_second_ = frame_in(ends.second);
     }
-    return frame_in_anchor_;
+    JointDescription in_bodies = joint;
+    in_bodies.frame = frame_in_first_;
+    in_bodies.second_frame = frame_in_second_;
+    return in_bodies;
 }
 
 void JointMirror::synchronise(Session& session, const FindMirror& mirror_of) {
@@ -84,9 +94,9 @@ void JointMirror::synchronise(Session& session, const FindMirror& mirror_of) {
         return;
     }
     release(session);
-    JointDescription joint = reading.joint;
-    joint.frame = frame_in(*ends.first, reading.joint);
-    AddResult added = session.add_joint(joint, first, second);
+    joined_ = in_bodies(ends, reading.joint);
+    ++revision_;
+    AddResult added = session.add_joint(joined_, first, second);
     handle_ = added.handle;
     problem_ = added.error.empty() ? problem_ : std::move(added.error);
     first_ = first;

@@ -27,6 +27,14 @@ public:
     // Why it does not join, or only in part; empty where it does.
     const std::string& problem() const { return problem_; }
 
+    // What it joins, and how, for who tells others of it (see Session::add_joint). no_handle: it does not.
+    SessionHandle handle() const { return handle_; }
+    SessionHandle first() const { return first_; }
+    SessionHandle second() const { return second_; }
+    const JointDescription& joined() const { return joined_; }
+    // Another one whenever it joins anew.
+    std::uint64_t revision() const { return revision_; }
+
 private:
     struct Ends {
         BodyMirror* first = nullptr;   // null: the world
@@ -35,15 +43,17 @@ private:
     };
 
     Ends find_ends(const godot::Joint3D& node, const FindMirror& mirror_of);
-    Pose frame_in(const BodyMirror& anchor, const JointDescription& joint);
+    JointDescription in_bodies(const Ends& ends, const JointDescription& joint);
 
     std::uint64_t id_;
     SessionHandle handle_ = no_handle;
     SessionHandle first_ = no_handle;
     SessionHandle second_ = no_handle;
-    JointDescription sent_;
-    Pose frame_in_anchor_;      // of the joint, in the frame of the first of its bodies
-    std::uint64_t anchor_ = 0;  // id of that body
+    JointDescription sent_;    // as it was read
+    JointDescription joined_;  // with frames in those of the bodies
+    Pose frame_in_first_, frame_in_second_;
+    std::uint64_t ids_[2] = {0, 0};  // of the bodies that these are of; 0: the world
+    std::uint64_t revision_ = 0;
     std::string problem_;
 };
 

@@ -225,11 +225,18 @@ void WorldRun::tell_far_side(Nanoseconds now) {
             mirrors.push_back(mirror.get());
         }
     }
+    std::vector<WorldLink::ToldJoint> joints;
+    for (const auto& joint : bodies_.joints()) {
+        if (joint->handle() != no_handle) {
+            joints.push_back({joint->handle(), joint->first(), joint->second(), &joint->joined(), joint->id(),
+                              joint->revision()});
+        }
+    }
     const auto describe = [&](std::size_t i) {
         return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
                                       mirrors[i]->twin().addition()};
     };
-    link_->tell(told, describe, session_.snapshot(), now);
+    link_->tell(told, describe, joints, session_.snapshot(), now);
 }
 
 // --- recording

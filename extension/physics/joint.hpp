@@ -3,13 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/math/pose.hpp"
 
 namespace tactus {
 
-// From where the bodies are when they are joined. lower == upper: held there; lower > upper: free.
+// From where the frames of both bodies are the same. lower == upper: held there; lower > upper: free.
 struct JointRange {
     double lower = 0.0;
     double upper = 0.0;
@@ -28,6 +29,9 @@ enum class JointKind {
 struct JointDescription {
     JointKind kind = JointKind::Pin;
     Pose frame;  // in the world, where the bodies are now
+    // The same of the second body, where it is not where `frame` is now: what has moved since the two were
+    // joined, elsewhere.
+    std::optional<Pose> second_frame{};
 
     // Of the second body against the first, in the frame.
     std::array<JointRange, 3> linear{};   // (unit: meters)

@@ -25,13 +25,18 @@ bool is_free(const JointRange& range) {
     return range.lower > range.upper;
 }
 
-JPH::Vec3 axis(const JointDescription& joint, const Vec3& in_frame) {
-    return units::plain(joint.frame.rotation * in_frame);
+JPH::Vec3 axis(const Pose& frame, const Vec3& in_frame) {
+    return units::plain(frame.rotation * in_frame);
+}
+
+const Pose& second_frame(const JointDescription& joint) {
+    return joint.second_frame ? *joint.second_frame : joint.frame;
 }
 
 JPH::TwoBodyConstraint* pin(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
     const JPH::Ref settings = new JPH::PointConstraintSettings;
-    settings->mPoint1 = settings->mPoint2 = units::position(joint.frame.position);
+    settings->mPoint1 = units::position(joint.frame.position);
+    settings->mPoint2 = units::position(second_frame(joint).position);
     return settings->Create(first, second);
 }
 
@@ -42,10 +47,12 @@ JPH::TwoBodyConstraint* hinge(const JointDescription& joint, JPH::Body& first, J
     const double middle = free ? 0.0 : 0.5 * (range.lower + range.upper);
     const double half = free ? std::numbers::pi : 0.5 * (range.upper - range.lower);
     const JPH::Ref settings = new JPH::HingeConstraintSettings;
-    settings->mPoint1 = settings->mPoint2 = units::position(joint.frame.position);
-    settings->mHingeAxis1 = settings->mHingeAxis2 = axis(joint, {0.0, 0.0, 1.0});
-    settings->mNormalAxis1 = axis(joint, {std::cos(middle), std::sin(middle), 0.0});
-    settings->mNormalAxis2 = axis(joint, {1.0, 0.0, 0.0});
+    settings->mPoint1 = units::position(joint.frame.position);
+    settings->mPoint2 = units::position(second_frame(joint).position);
+    settings->mHingeAxis1 = axis(joint.frame, {0.0, 0.0, 1.0});
+    settings->mHingeAxis2 = axis(second_frame(joint), {0.0, 0.0, 1.0});
+    settings->mNormalAxis1 = axis(joint.frame, {std::cos(middle), std::sin(middle), 0.0});
+    settings->mNormalAxis2 = axis(second_frame(joint), {1.0, 0.0, 0.0});
     settings->mLimitsMin = static_cast<float>(-half);
     settings->mLimitsMax = static_cast<float>(half);
     if (joint.motor_torque > 0.0)
@@ -63,9 +70,12 @@ JPH::TwoBodyConstraint* hinge(const JointDescription& joint, JPH::Body& first, J
 JPH::TwoBodyConstraint* six_axes(const JointDescription& joint, JPH::Body& first, JPH::Body& second) {
     using Axis = JPH::SixDOFConstraintSettings::EAxis;
     const JPH::Ref settings = new JPH::SixDOFConstraintSettings;
-    settings->mPosition1 = settings->mPosition2 = units::position(joint.frame.position);
-    settings->mAxisX1 = settings->mAxisX2 = axis(joint, {1.0, 0.0, 0.0});
-    settings->mAxisY1 = settings->mAxisY2 = axis(joint, {0.0, 1.0, 0.0});
+    settings->mPosition1 = units::position(joint.frame.position);
+    settings->mPosition2 = units::position(second_frame(joint).position);
+    settings->mAxisX1 = axis(joint.frame, {1.0, 0.0, 0.0});
+    settings->mAxisX2 = axis(second_frame(joint), {1.0, 0.0, 0.0});
+    settings->mAxisY1 = axis(joint.frame, {0.0, 1.0, 0.0});
+    settings->mAxisY2 = axis(second_frame(joint), {0.0, 1.0, 0.0});
     settings->mSwingType = JPH::ESwingType::Pyramid;
     const auto limit = [&settings](int index, const JointRange& range, double to_jolt, double full) {
         const auto which = static_cast<Axis>(index);
@@ -103,7 +113,7 @@ JPH::TwoBodyConstraint* create(const JointDescription& joint, JPH::Body& first, 
 }  // namespace
 
 std::string wrong_in(const JointDescription& joint) {
-    if (!limits::is_pose(joint.frame))
+    if (!limits::is_pose(joint.frame) || !limits::is_pose(second_frame(joint)))
         return "the joint's transform is not finite, holds a scale or is more than 10,000 km away; reset it";
     for (const auto& ranges : {joint.linear, joint.angular})
         for (const JointRange& range : ranges)

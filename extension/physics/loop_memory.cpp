@@ -4,16 +4,16 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "platform/thread_slot.hpp"
+
 namespace tactus {
 
 namespace {
 
-// Set by LoopMemoryScope. The initial-exec model gives every thread its slot when it is created; the usual
-// model of a shared library would allocate it at the first tick.
-#if defined(__GNUC__) && !defined(_WIN32)
-__attribute__((tls_model("initial-exec")))
-#endif
-thread_local LoopMemory* current_memory = nullptr;
+// Set by LoopMemoryScope.
+LoopMemory* current_memory() {
+    return static_cast<LoopMemory*>(thread_slot());
+}
 
 // Stands right before every block given to Jolt, so that a block finds its way home from any thread.
 struct alignas(16) BlockHeader {
@@ -61,12 +61,12 @@ void LoopMemory::give_back(void* block, std::size_t bytes) {
     free_[index] = new (block) FreePiece{free_[index]};
 }
 
-LoopMemoryScope::LoopMemoryScope(LoopMemory& memory) : outer_(current_memory) {
-    current_memory = &memory;
+LoopMemoryScope::LoopMemoryScope(LoopMemory& memory) : outer_(current_memory()) {
+    set_thread_slot(&memory);
 }
 
 LoopMemoryScope::~LoopMemoryScope() {
-    current_memory = outer_;
+    set_thread_slot(outer_);
 }
 
 namespace jolt_allocation {
@@ -75,7 +75,7 @@ void* allocate_aligned(std::size_t bytes, std::size_t alignment) {
     if (alignment < alignof(BlockHeader))
         alignment = alignof(BlockHeader);
     const std::size_t piece_bytes = bytes + sizeof(BlockHeader) + alignment;
-    LoopMemory* owner = current_memory;
+    LoopMemory* owner = current_memory();
     void* piece = owner != nullptr ? owner->take(piece_bytes) : nullptr;
     if (piece == nullptr) {
         if (owner != nullptr)

@@ -7,10 +7,10 @@
 // Threads: start() and stop() belong to one owner. The thread inside waits for nobody and shares one flag.
 #pragma once
 
-#include <pthread.h>
-
 #include <atomic>
 #include <string>
+
+#include "platform/thread.hpp"
 
 namespace tactus {
 
@@ -27,15 +27,11 @@ public:
     void stop();
 
 private:
-    static void* run(void* self);
+    static void run(void* self);
 
     int cpu_ = 0;
-    pthread_t thread_{};
-    bool running_ = false;
     std::atomic<bool> stop_requested_{false};
+    Thread thread_;
 };
-
-// Whether a control group (version 2) limits this process's processor time, from the text of its cpu.max.
-bool limits_processor_time(const std::string& cpu_max);
 
 }  // namespace tactus

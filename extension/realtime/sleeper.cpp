@@ -1,10 +1,9 @@
 #include "realtime/sleeper.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
+#include "platform/processor.hpp"
 
 namespace tactus {
 
@@ -12,9 +11,7 @@ Nanoseconds Sleeper::wait_until(Nanoseconds deadline) {
     const Nanoseconds wake_up = deadline - oversleep_;
     Nanoseconds now = monotonic_now();
     if (now < wake_up) {
-        const timespec until = to_timespec(wake_up);
-        while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
-        }
+        timer_.sleep_until(wake_up);
         now = monotonic_now();
         learn(now - wake_up);
     }

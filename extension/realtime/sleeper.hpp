@@ -6,21 +6,13 @@
 #pragma once
 
 #include "core/math/types.hpp"
+#include "platform/sleep.hpp"
 
 namespace tactus {
 
-// Tells the processor that a loop only waits, which frees its sibling and saves power.
-inline void relax_processor() {
-#if defined(__x86_64__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-}
-
 struct SleepSettings {
     // The longest look-out before a deadline (unit: nanoseconds). 0: sleep only.
-    Nanoseconds spin_limit = 30'000;
+    Nanoseconds spin_limit = usual_lateness();
 };
 
 class Sleeper {
@@ -37,6 +29,7 @@ private:
     void learn(Nanoseconds overslept);
 
     SleepSettings settings_;
+    SleepTimer timer_;
     Nanoseconds oversleep_ = 0;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "realtime/thread_role.hpp"
 #include "realtime/tick_schedule.hpp"
 
@@ -44,9 +44,10 @@ std::string TickLoop::start(const TickLoopSettings& settings, TickFunction tick,
     ticks_.store(0, std::memory_order_relaxed);
     time_lost_.store(0, std::memory_order_relaxed);
 
-    const int error = pthread_create(&thread_, nullptr, &TickLoop::run_thread, this);
-    if (error != 0) {
-        return std::string("the haptic thread could not be created: ") + std::strerror(error);
+    const std::string refused =
+        thread_.start(settings_.thread_name, [](void* loop) { static_cast<TickLoop*>(loop)->run(); }, this);
+    if (!refused.empty()) {
+        return "the haptic thread could not be created: " + refused;
     }
     ready_.wait(false, std::memory_order_acquire);
     running_ = true;
@@ -69,20 +70,14 @@ void TickLoop::stop() {
         return;
     }
     stop_requested_.store(true, std::memory_order_release);
-    pthread_join(thread_, nullptr);
+    thread_.join();
     awake_.stop();
     release_realtime(report_);
     running_ = false;
 }
 
-void* TickLoop::run_thread(void* self) {
-    static_cast<TickLoop*>(self)->run();
-    return nullptr;
-}
-
 void TickLoop::run() {
     const HapticRole role;
-    pthread_setname_np(pthread_self(), settings_.thread_name.substr(0, 15).c_str());
     report_ = make_thread_realtime(settings_.realtime);
     touch_stack();
     ready_.store(true, std::memory_order_release);

@@ -6,16 +6,15 @@
 // its own sleep.
 #pragma once
 
-#include <pthread.h>
-
 #include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "core/math/types.hpp"
+#include "platform/realtime_thread.hpp"
+#include "platform/thread.hpp"
 #include "realtime/awake_processor.hpp"
-#include "realtime/realtime_thread.hpp"
 #include "realtime/sleeper.hpp"
 #include "realtime/tick_statistics.hpp"
 #include "realtime/tick_status.hpp"
@@ -41,7 +40,7 @@ struct TickLoopSettings {
 
     RealtimeRequest realtime;
     SleepSettings sleep;
-    std::string thread_name = "tactus-haptic";  // at most 15 characters
+    const char* thread_name = "tactus-haptic";  // at most 15 characters; outlives the loop
 };
 
 class TickLoop {
@@ -77,7 +76,6 @@ public:
 
 private:
     void keep_awake();
-    static void* run_thread(void* self);
     void run();
     void run_tick(Nanoseconds scheduled, Nanoseconds start, Nanoseconds due_next, TickStatus status);
 
@@ -87,7 +85,7 @@ private:
     TickTrace* trace_ = nullptr;
     RealtimeReport report_;
     AwakeProcessor awake_;
-    pthread_t thread_{};
+    Thread thread_;
     bool running_ = false;
     std::unique_ptr<TickStatistics> statistics_ = std::make_unique<TickStatistics>();
     std::atomic<bool> ready_{false};

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cinttypes>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 

@@ -1,20 +1,12 @@
 #include "realtime/workers.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <atomic>
 
+#include "platform/this_thread.hpp"
 #include "realtime/thread_role.hpp"
 
 namespace tactus {
-
-namespace {
-
-// A frame of the scene comes first where there are fewer processors than threads.
-constexpr int behind_frames = 10;  // nice value
-
-}  // namespace
 
 struct Workers::Batch {
     Batch(std::size_t tasks, const std::function<void(std::size_t)>& function)
@@ -85,7 +77,7 @@ void Workers::add(std::function<void()> job) {
 
 // Help for a job that is under way comes before the next job: what was asked for first is ready first.
 void Workers::work() {
-    setpriority(PRIO_PROCESS, 0, behind_frames);  // Linux: of this thread alone
+    work_in_background();  // a frame of the scene comes first
     std::unique_lock lock(mutex_);
     while (true) {
         news_.wait(lock, [this] { return ending_ || !batches_.empty() || !jobs_.empty(); });

@@ -1,6 +1,9 @@
 #include "session/environment_teller.hpp"
 
+#include <algorithm>
+
 #include "core/teleop/body_motion.hpp"
+#include "network/plausibility.hpp"
 
 namespace tactus {
 
@@ -40,11 +43,35 @@ std::string EnvironmentTeller::tell(SessionHandle body, const std::string& name,
 
 void EnvironmentTeller::forget(SessionHandle body) {
     if (told_.erase(body) > 0) {
-        PreparedDiscovery withdrawn;
-        withdrawn.object = body;
-        waiting_.push_back(std::move(withdrawn));
+        withdraw(body);
+    }
+}
+
+void EnvironmentTeller::tell_joint(SessionHandle joint, const JointDescription& description,
+                                   SessionHandle first, SessionHandle second) {
+    ObjectJoint told{first_joint + joint, first, second, description};
+    if (second == no_handle && told.joint.second_frame) {
+        told.joint.second_frame = compose(inverse(frame_), *told.joint.second_frame);
+    }
+    // What is beyond these no motor carries out.
+    told.joint.motor_speed =
+        std::clamp(told.joint.motor_speed, -plausible::max_angular_speed, plausible::max_angular_speed);
+    told.joint.motor_torque = std::min(told.joint.motor_torque, max_motor_torque);
+    if (PreparedDiscovery prepared = prepare_discovery(told)) {
+        waiting_.push_back(std::move(prepared));
         send_on();
     }
+}
+
+void EnvironmentTeller::forget_joint(SessionHandle joint) {
+    withdraw(first_joint + joint);
+}
+
+void EnvironmentTeller::withdraw(ObjectId object) {
+    PreparedDiscovery withdrawn;
+    withdrawn.object = object;
+    waiting_.push_back(std::move(withdrawn));
+    send_on();
 }
 
 void EnvironmentTeller::update(const SessionSnapshot& snapshot, std::uint64_t peer_epoch) {

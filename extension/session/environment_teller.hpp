@@ -28,6 +28,12 @@ public:
     // The body is about to be removed.
     void forget(SessionHandle body);
 
+    // Describes a joint of the session, or anew. Its frames are those of its two bodies, told or about to be,
+    // or of the scene where `second` is none.
+    void tell_joint(SessionHandle joint, const JointDescription& description, SessionHandle first,
+                    SessionHandle second);
+    void forget_joint(SessionHandle joint);
+
     // Call it now and then, as each of Godot's frames does. An operator who has just come (`peer_epoch` is
     // another one) is told where things are by now.
     void update(const SessionSnapshot& snapshot, std::uint64_t peer_epoch);
@@ -39,6 +45,7 @@ private:
     };
 
     void announce(SessionHandle body, const Told& told);
+    void withdraw(ObjectId object);
     void send_on();
 
     std::shared_ptr<TeleopPort> port_;

@@ -50,6 +50,9 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
         remove_outdated();
         changed = true;
     }
+    if (changed) {
+        join();
+    }
     send_on();
     return changed;
 }
@@ -74,7 +77,11 @@ void ModelBuilder::follow_gravity(Nanoseconds now, const Vec3& wanted) {
 void ModelBuilder::take(DiscoveryEvent& event, Nanoseconds now) {
     switch (event.kind) {
         case DiscoveryEvent::Kind::described:
-            prepare(event.description);
+            if (is_joint(event.object)) {
+                port_->discovery.answer(event.object, joints_.describe(event.joint));
+            } else {
+                prepare(event.description);
+            }
             break;
         case DiscoveryEvent::Kind::removed:
             remove(event.object);
@@ -91,15 +98,16 @@ void ModelBuilder::outdate(Nanoseconds now) {
         bind(object.object, no_handle);
         object.outdated = true;
     }
+    joints_.outdate();
     any_outdated_ = !objects_.empty();
     outdated_at_ = now;
 }
 
 // As many as the far side says that it has, and no more have come lately.
 bool ModelBuilder::all_described(Nanoseconds now, const LinkStatistics& link) const {
-    const auto current = std::ranges::count(objects_, false, &ModelObject::outdated);
+    const auto bodies = std::ranges::count(objects_, false, &ModelObject::outdated);
     return now - outdated_at_ >= settling && link.peer_hello.object_count > 0 &&
-           static_cast<std::uint64_t>(current) >= link.peer_hello.object_count;
+           static_cast<std::size_t>(bodies) + joints_.count() >= link.peer_hello.object_count;
 }
 
 void ModelBuilder::remove_outdated() {
@@ -109,6 +117,7 @@ void ModelBuilder::remove_outdated() {
         }
     }
     std::erase_if(objects_, [](const ModelObject& object) { return object.outdated; });
+    joints_.remove_outdated();
     any_outdated_ = false;
 }
 
@@ -163,7 +172,15 @@ void ModelBuilder::forget_prepared(ObjectId object) {
     std::erase_if(preparing_, [object](const auto& preparing) { return preparing->object == object; });
 }
 
+void ModelBuilder::join() {
+    joints_.join([this](ObjectId object) {
+        const auto found = find(object);
+        return found != objects_.end() ? found->body : no_handle;
+    });
+}
+
 void ModelBuilder::remove(ObjectId object) {
+    joints_.remove(object);
     forget_prepared(object);
     if (const auto found = find(object); found != objects_.end()) {
         bind(object, no_handle);
@@ -179,6 +196,7 @@ void ModelBuilder::clear() {
         take_out(object);
     }
     objects_.clear();
+    joints_.clear();
     send_on();
 }
 

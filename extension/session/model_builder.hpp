@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "session/model_joints.hpp"
 #include "session/session.hpp"
 #include "session/teleop_port.hpp"
 
@@ -35,10 +36,13 @@ public:
 
     // The session must outlive the builder.
     ModelBuilder(Session& session, std::shared_ptr<TeleopPort> port)
-        : session_(session), port_(std::move(port)) {}
+        : session_(session), port_(std::move(port)), joints_(session) {}
 
     // Where this side's world stands in its scene (TeleopSettings::frame). Before anything is described.
-    void set_frame(const Pose& frame) { frame_ = frame; }
+    void set_frame(const Pose& frame) {
+        frame_ = frame;
+        joints_.set_frame(frame);
+    }
 
     void set_distortion(Distortion distortion) { distortion_ = std::move(distortion); }
 
@@ -53,6 +57,7 @@ public:
     void clear();
 
     const std::vector<ModelObject>& objects() const { return objects_; }
+    const ModelJoints& joints() const { return joints_; }
 
 private:
     // Where the caller prepares bodies himself: a tree takes milliseconds for a large mesh, and a frame
@@ -84,6 +89,7 @@ private:
     void take_out(const ModelObject& object);
     void bind(ObjectId object, SessionHandle body);
     void send_on();
+    void join();
     std::vector<ModelObject>::iterator find(ObjectId object);
     std::vector<ModelObject>::iterator find_before(ObjectId object, const std::string& name);
 
@@ -93,6 +99,7 @@ private:
     DiscoveryReceiver::Run run_;
     std::deque<std::shared_ptr<Preparing>> preparing_;
     std::vector<ModelObject> objects_;
+    ModelJoints joints_;
     Nanoseconds outdated_at_ = 0;  // when the far side has started anew
     bool any_outdated_ = false;
     std::deque<ObjectBinding> waiting_;  // found the ring full

@@ -1,6 +1,7 @@
 #include "session/operator_side.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -17,7 +18,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
       past_(room.most_tracked, room.samples),
       resimulator_(session, room.samples, room.samples_a_memento, room.memento_bytes, room.replays),
       estimates_(room.most_tracked, ParameterEstimate(settings.estimate)),
-      filters_(room.most_tracked),
+      filters_(session.most_bodies),
       body_of_object_(session.most_bodies, no_handle),
       object_of_body_(session.most_bodies, no_object) {
     targets_.reserve(session.most_bodies);
@@ -144,6 +145,8 @@ void OperatorSide::start_over_if_peer_has() {
 // Another start of the far side: nothing that the last one said holds.
 void OperatorSide::forget_far_side() {
     truths_.forget_all();
+    std::ranges::fill(filters_, PoseFilter{});
+    eyes_ = {};
     std::ranges::fill(body_of_object_, no_handle);
     std::ranges::fill(object_of_body_, no_object);
     traditional_.forget();
@@ -175,12 +178,12 @@ void OperatorSide::forget_body(SessionHandle body) {
         forget_place(place);
     }
     truths_.forget(body);
+    filters_[body].forget();
 }
 
 void OperatorSide::forget_place(std::uint32_t place) {
     past_.forget(place);
     estimates_[place].forget(settings().estimate);
-    filters_[place].forget();
 }
 
 namespace {
@@ -206,19 +209,52 @@ bool is_as_sent(const BodyMotion& received, const BodyMotion& expected) {
 
 }  // namespace
 
-// Of a place that is seen only roughly, what the model's past makes of it.
-BodyMotion OperatorSide::believed(SessionHandle body, SampleSequence sample, const BodyMotion& received) {
+// Of a place that is seen only roughly, what its way and the model make of it.
+BodyMotion OperatorSide::believed(SessionLoop& loop, SessionHandle body, SampleSequence sample,
+                                  const BodyMotion& received) {
+    const BodyMotion* const expected = past_.motion(truths_.place_of(body), sample);
+    const bool is_right = expected && is_as_sent(received, *expected);
+    BodyMotion result = is_right ? *expected : received;
+    if (settings().derivation == Derivation::resimulate && resimulator_.exists()) {
+        const Pose model = expected ? expected->pose : loop.motion(body).pose;
+        const Pose steady = filters_[body].filter(settings().filter, result.pose, model,
+                                                  step_to(body, sample, received), eyes_);
+        result.pose = is_right ? result.pose : steady;
+    }
+    return result;
+}
+
+// How a body has come from its last state to this one: as the model's did, which may have begun and ended
+// with other velocities. Of that difference only the ends are known; somewhere in between it changed.
+PoseStep OperatorSide::step_to(SessionHandle body, SampleSequence sample, const BodyMotion& received) const {
+    constexpr double of_unknown = 0.2;  // a hand that is silent does not tell the time (unit: seconds)
+    const double spread = 1.0 / std::sqrt(12.0);
+    const Truth& last = truths_.of(body);
+    if (last.packet == 0 || last.sample == no_sample || sample <= last.sample) {
+        return {Vec3(0.0), Quat(1.0, 0.0, 0.0, 0.0), of_unknown * glm::length(received.linear_velocity),
+                of_unknown * glm::length(received.angular_velocity)};
+    }
+    const double seconds = static_cast<double>(sample - last.sample) * seconds_;
     const std::uint32_t place = truths_.place_of(body);
-    const BodyMotion* const expected = past_.motion(place, sample);
-    if (expected && is_as_sent(received, *expected)) {
-        return *expected;
+    const BodyMotion* const end = past_.motion(place, sample);
+    const BodyMotion* start = past_.motion(place, last.sample);
+    if (start && resimulator_.goes_on_from(body) == last.sample) {
+        start = &last.motion;
     }
-    if (!expected || settings().derivation != Derivation::resimulate) {
-        return received;
-    }
-    const SampleSequence before = truths_.of(body).sample;
-    const double seconds = sample > before ? static_cast<double>(sample - before) * seconds_ : 0.0;
-    return filters_[place].filter(settings().filter, received, *expected, seconds);
+    const bool known = start && end;
+    const BodyMotion from = known ? *start : BodyMotion{};
+    const BodyMotion to = known ? *end : BodyMotion{};
+    const Vec3 at_start = last.motion.linear_velocity - from.linear_velocity;
+    const Vec3 at_end = received.linear_velocity - to.linear_velocity;
+    const Vec3 spin_at_start = last.motion.angular_velocity - from.angular_velocity;
+    const Vec3 spin_at_end = received.angular_velocity - to.angular_velocity;
+    PoseStep step;
+    step.way = to.pose.position - from.pose.position + 0.5 * seconds * (at_start + at_end);
+    step.turn = turn_by(0.5 * (spin_at_start + spin_at_end), seconds) * to.pose.rotation *
+                glm::conjugate(from.pose.rotation);
+    step.open_way = spread * seconds * glm::length(at_end - at_start);
+    step.open_turn = spread * seconds * glm::length(spin_at_end - spin_at_start);
+    return step;
 }
 
 SessionHandle OperatorSide::body_of(ObjectId object) const {
@@ -245,7 +281,7 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
         const BodyMotion motion = to_parent(
             settings().frame, BodyMotion{state.pose, state.linear_velocity, state.angular_velocity});
         if (!truths_.is_newer(body, packet) ||
-            !truths_.take(body, sample, packet, believed(body, sample, motion))) {
+            !truths_.take(body, sample, packet, believed(loop, body, sample, motion))) {
             ++statistics_.stale_states;
             continue;
         }
@@ -345,11 +381,12 @@ void OperatorSide::find_targets(SessionLoop& loop, Nanoseconds now) {
         if (!any_news(loop)) {
             learn(loop);
             truths_.settle();
-        } else if (resimulator_.begin(truths_, past_, sample_)) {
+        } else if (resimulator_.begin(loop, truths_, past_, sample_)) {
             ++statistics_.replays;
             learn(loop);
             lands(loop, now);  // what would be felt, for those that are put right at once
             derive_targets(loop, true);
+            resimulator_.place_still(targets_);
         } else if (!lands(loop, now)) {
             derive_targets(loop, false);
         }

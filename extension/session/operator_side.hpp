@@ -75,7 +75,9 @@ private:
     void bind(const ObjectBinding& binding);
     void forget_body(SessionHandle body);
     void forget_place(std::uint32_t place);
-    BodyMotion believed(SessionHandle body, SampleSequence sample, const BodyMotion& received);
+    BodyMotion believed(SessionLoop& loop, SessionHandle body, SampleSequence sample,
+                        const BodyMotion& received);
+    PoseStep step_to(SessionHandle body, SampleSequence sample, const BodyMotion& received) const;
     SessionHandle body_of(ObjectId object) const;
     void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
@@ -115,7 +117,8 @@ private:
     Resimulator resimulator_;
     TraditionalTouch traditional_;
     std::vector<ParameterEstimate> estimates_;  // by place
-    std::vector<PoseFilter> filters_;           // by place
+    std::vector<PoseFilter> filters_;           // by body
+    FarEyes eyes_;
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there

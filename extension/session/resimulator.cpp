@@ -39,7 +39,8 @@ void Resimulator::plan(const TruthStore& truths) {
     });
 }
 
-bool Resimulator::begin(const TruthStore& truths, const ModelPast& past, SampleSequence now) {
+bool Resimulator::begin(SessionLoop& loop, const TruthStore& truths, const ModelPast& past,
+                        SampleSequence now) {
     SampleSequence oldest = no_sample;
     for (const SessionHandle body : truths.fresh()) {
         const SampleSequence sample = truths.of(body).sample;
@@ -59,6 +60,7 @@ bool Resimulator::begin(const TruthStore& truths, const ModelPast& past, SampleS
     if (start == mementos_.size() || !twin_->restore(mementos_[start])) {
         return false;
     }
+    twin_->follow_still(loop);
     running_ = true;
     replayed_ = memento_of_[start];
     first_truth_ = oldest;
@@ -67,6 +69,15 @@ bool Resimulator::begin(const TruthStore& truths, const ModelPast& past, SampleS
         ++next_;  // the memento knows it
     }
     return true;
+}
+
+void Resimulator::place_still(std::span<const Target> targets) {
+    for (const Target& target : targets) {
+        const SessionLoop::Body* const body = twin_->body(target.body);
+        if (body && body->motion == Motion::Static) {
+            twin_->put_right(target.body, target.motion, false, false, &target.motion.pose);
+        }
+    }
 }
 
 // The twin stands after the step of `replayed_`, and begins the next tick: what was true then.

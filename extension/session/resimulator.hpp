@@ -8,6 +8,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "session/model_past.hpp"
@@ -35,8 +36,11 @@ public:
     // After the step of `sample`, in the present or in the twin: a place that a replay can start from.
     void remember(SessionLoop& loop, SampleSequence sample);
 
-    // False where there is no past to start from.
-    bool begin(const TruthStore& truths, const ModelPast& past, SampleSequence now);
+    // False where there is no past to start from. What stands still does so where the present has it: the far
+    // side's word about it holds for the past as well.
+    bool begin(SessionLoop& loop, const TruthStore& truths, const ModelPast& past, SampleSequence now);
+    // The same for those that the present puts elsewhere in this tick.
+    void place_still(std::span<const Target> targets);
 
     // At most `ticks` more. True where only the present tick is missing.
     bool advance(const TruthStore& truths, ModelPast& past, SampleSequence now, std::uint32_t ticks);
@@ -46,7 +50,9 @@ public:
                 std::vector<Target>& targets);
 
     // The sample of the truth that the model's past of a body goes on from.
-    SampleSequence goes_on_from(SessionHandle body) const { return put_in_[body]; }
+    SampleSequence goes_on_from(SessionHandle body) const {
+        return body < put_in_.size() ? put_in_[body] : no_sample;
+    }
 
     void stop() { running_ = false; }
     // Of what was before, nothing is left to start from.

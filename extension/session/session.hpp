@@ -95,7 +95,8 @@ public:
     void set_gravity(const Vec3& gravity);
 
     // Joins two bodies, or one and the world (no_handle). The joint's frame is given in that of the first of
-    // them that is a body. It goes with its bodies.
+    // them that is a body, its second frame, for which both are bodies or the first is, in that of the second
+    // or in the world. It goes with its bodies.
     AddResult add_joint(const JointDescription& joint, SessionHandle first, SessionHandle second);
     void remove_joint(SessionHandle joint);
 

@@ -279,7 +279,10 @@ bool SessionLoop::carry_out(command::AddJoint& c, Retired&) {
     }
     const Pose at = physics_.pose(anchor->id);
     JointDescription joint = c.joint;
-    joint.frame = {to_parent(at, c.joint.frame.position), at.rotation * c.joint.frame.rotation};
+    joint.frame = compose(at, c.joint.frame);
+    if (joint.second_frame && second) {
+        joint.second_frame = compose(physics_.pose(second->id), *joint.second_frame);
+    }
     joints_[c.handle] =
         physics_.add_joint(joint, first ? first->id : BodyId{}, second ? second->id : BodyId{});
     status_ |= joints_[c.handle].valid() ? 0u : static_cast<TickStatus>(session_full);

@@ -79,7 +79,7 @@ struct PushBody {
 };
 struct AddJoint {
     SessionHandle handle;
-    JointDescription joint;  // its frame in that of the first of its bodies
+    JointDescription joint;  // its frames: see Session::add_joint
     SessionHandle first, second;
 };
 struct RemoveJoint {

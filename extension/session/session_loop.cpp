@@ -25,6 +25,21 @@ PhysicsSettings with_room(const SessionSettings& settings) {
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr ForceLimits local_touch{no_limit, no_limit, no_limit};
 
+SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& workspace,
+                           const ForceLimits& side) {
+    SafetySettings settings;
+    settings.limits = {std::min(side.slew, device.max_slew), std::min(side.energy, device.max_energy),
+                       std::min(side.power, device.max_power)};
+    settings.max_force = std::min(workspace.force_limit, device.max_force);
+    settings.max_speed = device.max_speed;
+    settings.ramp = device.ramp;
+    settings.dead_man = workspace.dead_man;
+    settings.passive = device.feels;
+    settings.damping = device.damping;
+    settings.max_damping = device.max_damping;
+    return settings;
+}
+
 // The pose that is one of `ticks` equal parts of the way on.
 Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
     const double share = 1.0 / ticks;
@@ -171,6 +186,8 @@ void SessionLoop::read_devices(Nanoseconds now) {
             continue;
         }
         const DeviceSample sample = slot.device->read(now);
+        slot.heard = sample;
+        slot.capabilities = slot.device->capabilities();
         if (limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
             limits::is_rotation(sample.rotation)) {
             slot.sample = sample;
@@ -258,7 +275,13 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     }
     const ProxyTick tick = slot.proxy->move(scene_, slot.hand);
     HandForce& force = slot.parts;
-    force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_);
+    // The device's own way is shorter by the scale: its damping counts for less in the scene.
+    DeviceSlot& device = devices_[slot.description.device];
+    const double damping = device.capabilities.damping / device.workspace.scale;
+    force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
+                          {{seconds_, device.capabilities.delay}, damping});
+    slot.pressed = force.total;
+    note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), {slot.hand, slot.hand_velocity}, now, seconds_,
                         slot.effects, force);
@@ -324,8 +347,8 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
             const bool sticks = !slot.sliding && material.static_friction > 0.0;
-            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, material.stiffness,
-                                                     material.damping, slot.hand_velocity, sticks});
+            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, part.wall.stiffness,
+                                                     part.wall.damping, slot.hand_velocity, sticks});
         }
     }
 }
@@ -360,17 +383,53 @@ void SessionLoop::write_devices(Nanoseconds now) {
         if (!slot.device) {
             continue;
         }
-        bool limited = false;
-        slot.force =
-            slot.exit.leave(side_ ? side_->limits() : local_touch, slot.force, slot.workspace.force_limit,
-                            slot.hand_velocity / slot.workspace.scale, seconds_, limited);
+        const SafetySample sample = safety_sample(slot, i);
+        slot.safe = slot.safety.pass(
+            settings_of(slot.capabilities, slot.workspace, side_ ? side_->limits() : local_touch), sample);
+        if (slot.safe.force != sample.wanted) {
+            slot.force = direction_to_parent(slot.workspace.pose, slot.safe.force);
+        }
+        const bool limited = slot.safe.limited != 0;
         status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
         for (ProxySlot& proxy : proxies_) {
             if (limited && side_ && proxy.proxy && proxy.description.device == i) {
                 proxy.state.status |= felt_limited;
             }
         }
-        slot.device->write(now, direction_to_local(slot.workspace.pose, slot.force));
+        slot.device->write(now, slot.safe.force);
+    }
+}
+
+// What is not pressed by a surface at rest may give energy to the hand: bodies on their way, and what a scene
+// means to add. Over a link without a model nothing is known of that, and everything is held to be passive.
+SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t index) const {
+    SafetySample sample;
+    sample.wanted = direction_to_local(slot.workspace.pose, slot.force);
+    sample.position = slot.heard.position;
+    sample.velocity = slot.heard.velocity;
+    sample.buttons = slot.heard.buttons;
+    sample.connected = slot.heard.connected;
+    sample.enabled = !slot.workspace.clutch;
+    sample.seconds = seconds_;
+    for (const ProxySlot& proxy : proxies_) {
+        if (proxy.proxy && proxy.description.device == index && (!side_ || side_->simulates())) {
+            const double added = seconds_ * glm::dot(proxy.state.force - proxy.pressed, slot.hand_velocity);
+            sample.source +=
+                (std::max(0.0, added) + std::max(0.0, proxy.parts.source)) / slot.workspace.scale;
+        }
+    }
+    return sample;
+}
+
+// For the owner to tell: which wall was not safe.
+void SessionLoop::note_walls(const ProxySlot& slot, DeviceSlot& device) const {
+    for (int i = 0; i < slot.parts.contact_count; ++i) {
+        const ContactForce& part = slot.parts.contacts[i];
+        const TouchMaterial& material = scene_.body(part.body).material;
+        if (part.wall.stiffness < material.stiffness) {
+            device.wanted = {material.stiffness, material.damping};
+            device.used = part.wall;
+        }
     }
 }
 
@@ -379,7 +438,7 @@ void SessionLoop::rest() {
     for (DeviceSlot& slot : devices_) {
         if (slot.device) {
             slot.force = Vec3(0.0);
-            slot.exit.rest();
+            slot.safety.rest();
             slot.device->write(time_, slot.force);
         }
     }
@@ -440,7 +499,11 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.hand_velocity,
                                                slot.force,
                                                slot.sample.buttons,
-                                               slot.sample.connected};
+                                               slot.sample.connected,
+                                               slot.safe.state,
+                                               slot.safe.limited,
+                                               slot.wanted.stiffness,
+                                               slot.used.stiffness};
         }
     }
     snapshots_.publish();

@@ -48,6 +48,7 @@ public:
         FadingForce fading;       // from `force` to state.force
         bool jumped = false;      // see ProxyTick
         HandForce parts;
+        Vec3 pressed{0.0};  // of `parts`, what surfaces press with (unit: newtons)
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
@@ -116,6 +117,8 @@ public:
     // All that a replay starts from. False where `memory` is too small or the bodies are others now.
     bool save(LoopMemento& memento);
     bool restore(const LoopMemento& memento);
+    // Still bodies are where they are in the other loop, and have always been there.
+    void follow_still(SessionLoop& other);
 
 private:
     struct DeviceSlot {
@@ -126,7 +129,11 @@ private:
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
-        ForceExit exit;
+        DeviceSample heard;       // as it came, with whatever nonsense
+        DeviceCapabilities capabilities;
+        HandSafety safety;
+        SafeForce safe;
+        Wall wanted, used;  // of what is touched, the last that was not safe
         bool was_held = false;
     };
 
@@ -169,11 +176,13 @@ private:
     void fade_jumps();
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
+    void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);
     void push_bodies();
     void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
+    SafetySample safety_sample(const DeviceSlot& slot, std::size_t index) const;
     void step_physics();
     void publish(Nanoseconds now);
     void append_record(Nanoseconds now);

@@ -138,4 +138,18 @@ bool SessionLoop::restore(const LoopMemento& memento) {
     return true;
 }
 
+void SessionLoop::follow_still(SessionLoop& other) {
+    for (const BodyState& state : other.states_) {
+        const Body* const still = body(state.handle);
+        if (!still || still->motion != Motion::Static) {
+            continue;
+        }
+        const Pose there = other.physics_.pose(other.bodies_[state.handle].id);
+        const Pose here = physics_.pose(still->id);
+        if (here.position != there.position || here.rotation != there.rotation) {
+            put_right(state.handle, {there, Vec3(0.0), Vec3(0.0)}, false, false, &there);
+        }
+    }
+}
+
 }  // namespace tactus

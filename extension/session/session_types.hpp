@@ -8,6 +8,7 @@
 #include "core/haptics/force_law.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/math/pose.hpp"
+#include "core/safety/hand_safety.hpp"
 #include "physics/physics_world.hpp"
 
 namespace tactus {
@@ -35,9 +36,10 @@ struct SessionSettings {
 // are turned with the pose and keep their size.
 struct Workspace {
     Pose pose;
-    double scale = 1.0;        // > 0
-    double force_limit = 8.0;  // longest force the device is given (unit: newtons)
-    bool clutch = false;       // held: the hand in the scene stays where it is while the device moves
+    double scale = 1.0;          // > 0
+    double force_limit = 8.0;    // longest force the device is given (unit: newtons)
+    bool clutch = false;         // held: the hand in the scene stays where it is while the device moves
+    std::uint32_t dead_man = 0;  // buttons, any of which must be held for a force; 0: none
 };
 
 struct ProxyDescription {
@@ -107,6 +109,11 @@ struct DeviceState {
     Vec3 force{0.0};     // given to the device, in the world (unit: newtons)
     std::uint32_t buttons = 0;
     bool connected = false;
+    HandState safety = HandState::working;
+    std::uint32_t limited = 0;  // HandLimited
+    // What was touched last that the device cannot render safely, and what it was given instead.
+    double stiffness_wanted = 0.0;  // (unit: newtons per meter); 0: all of it was safe
+    double stiffness_used = 0.0;
 };
 
 // Everything Godot shows of one tick. Bodies: those that can move, each with where it is now.

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "core/ports/link.hpp"
+#include "core/safety/force_exit.hpp"
 #include "core/teleop/control_scheme.hpp"
 #include "core/teleop/deadband.hpp"
 #include "core/teleop/derivation.hpp"
 #include "core/teleop/errors.hpp"
 #include "core/teleop/felt_pointer.hpp"
-#include "core/teleop/force_exit.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/parameter_estimate.hpp"
 #include "core/teleop/passivity.hpp"

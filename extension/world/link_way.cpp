@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "platform/file.hpp"
 #include "session/record_csv.hpp"
 
 namespace tactus {
@@ -34,9 +35,9 @@ Recording::File Recording::create(const std::string& path) const {
     if (path.empty()) {
         return nullptr;
     }
-    std::error_code ignored;  // fopen says whether there is a folder
+    std::error_code ignored;  // opening says whether there is a folder
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
-    File file(std::fopen(path.c_str(), "wb"));
+    File file(open_file(path, "wb"));
     if (file == nullptr) {
         say_("'" + path + "' cannot be written: choose a folder that exists and may be written to");
     }

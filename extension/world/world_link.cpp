@@ -1,6 +1,7 @@
 #include "world/world_link.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <unordered_set>
 
 #include "network/key_source.hpp"
@@ -223,7 +224,33 @@ bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gra
 }
 
 void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe,
-                     const SessionSnapshot& snapshot, Nanoseconds now) {
+                     const std::vector<ToldJoint>& joints, const SessionSnapshot& snapshot, Nanoseconds now) {
+    tell_bodies(bodies, describe, now);
+    tell_joints(joints);
+    teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
+}
+
+void WorldLink::tell_joints(const std::vector<ToldJoint>& joints) {
+    std::unordered_set<SessionHandle> there;
+    for (const ToldJoint& joint : joints) {
+        there.insert(joint.joint);
+        const std::pair<std::uint64_t, std::uint64_t> now{joint.source, joint.revision};
+        const auto [told, is_new] = told_joints_.try_emplace(joint.joint);
+        if (is_new || told->second != now) {
+            told->second = now;
+            teller_->tell_joint(joint.joint, *joint.description, joint.first, joint.second);
+        }
+    }
+    std::erase_if(told_joints_, [&](const auto& told) {
+        const bool gone = !there.contains(told.first);
+        if (gone) {
+            teller_->forget_joint(told.first);
+        }
+        return gone;
+    });
+}
+
+void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now) {
     std::unordered_set<SessionHandle> there;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Told& told = bodies[i];
@@ -243,7 +270,6 @@ void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe,
         }
         return gone;
     });
-    teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
 }
 
 std::vector<std::string> WorldLink::problems() const {
@@ -254,6 +280,7 @@ std::vector<std::string> WorldLink::problems() const {
         }
     }
     if (builder_ != nullptr) {
+        std::ranges::move(builder_->joints().problems(), std::back_inserter(all));
         for (const ModelObject& object : builder_->objects()) {
             if (!object.problem.empty()) {
                 all.push_back("\"" + object.name + "\" of the far side: " + object.problem);

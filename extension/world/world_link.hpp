@@ -102,9 +102,17 @@ public:
         BodyAddition addition;
     };
     using Describe = std::function<Description(std::size_t index)>;
-    // Far side: all that there is to touch; `describe` is asked for those that are to be told.
-    void tell(const std::vector<Told>& bodies, const Describe& describe, const SessionSnapshot& snapshot,
-              Nanoseconds now);
+    // A joint of the session, as it was given to it (Session::add_joint).
+    struct ToldJoint {
+        SessionHandle joint = no_handle, first = no_handle, second = no_handle;
+        const JointDescription* description = nullptr;
+        // Both together are others when it is to be described anew.
+        std::uint64_t source = 0, revision = 0;
+    };
+    // Far side: all that there is to touch, and what joins it; `describe` is asked for those bodies that are
+    // to be told.
+    void tell(const std::vector<Told>& bodies, const Describe& describe, const std::vector<ToldJoint>& joints,
+              const SessionSnapshot& snapshot, Nanoseconds now);
 
     // The far side is told in the next tick, which is this side's last.
     void leave();
@@ -136,6 +144,8 @@ private:
     };
 
     void attach(Session& session);
+    void tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now);
+    void tell_joints(const std::vector<ToldJoint>& joints);
     void pass_on_settings(const Vec3& gravity);
     void let_go_of_way();
     void look_after_way(Workers& workers, const LinkMoment& moment);
@@ -159,6 +169,8 @@ private:
     bool builds_elsewhere_ = false;              // in real time it does not hold frames up
     std::unique_ptr<EnvironmentTeller> teller_;  // far side
     std::unordered_map<SessionHandle, Telling> tellings_;
+    std::unordered_map<SessionHandle, std::pair<std::uint64_t, std::uint64_t>>
+        told_joints_;  // source, revision
 
     std::uint64_t revision_ = 0;      // of the plan, that has been passed on
     std::uint64_t way_revision_ = 0;  // that the way was opened with

@@ -1,8 +1,6 @@
 #include "world/world_loop.hpp"
 
-#include <chrono>
-
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -13,15 +11,12 @@ constexpr std::int64_t ticks_at_once = 1000;
 
 constexpr std::size_t trace_capacity = 4096;  // ticks between two drains: four seconds at 1 kHz
 
-Nanoseconds since_1970() {
-    using namespace std::chrono;
-    return duration_cast<nanoseconds>(system_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 WorldLoop::WorldLoop(Session& session, bool real_time)
-    : session_(session), real_time_(real_time), epoch_of_monotonic_clock_(since_1970() - monotonic_now()) {}
+    : session_(session),
+      real_time_(real_time),
+      epoch_of_monotonic_clock_(wall_clock_now() - monotonic_now()) {}
 
 std::string WorldLoop::start(const TickLoopSettings& settings, bool baseline) {
     is_new_ = true;

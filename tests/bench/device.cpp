@@ -1,10 +1,16 @@
-// Hands of metal: kinematics of a delta arm. build/bench/device.json.
+// Hands of metal: kinematics of a delta arm, and what leaves for any device. build/bench/device.json, and the
+// passivity sweep in device_walls.csv beside it.
 //
 //   --places=N   of the workspace, for each geometry (1000000)
+//   --inputs=N   at random to the safety layer (10000000)
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <vector>
 
 #include "shared/bench_kit.hpp"
 #include "shared/delta_figures.hpp"
+#include "shared/safety_figures.hpp"
 
 namespace {
 
@@ -42,15 +48,97 @@ void report_kinematics(Report& report, int places) {
                 all.force_size_error);
 }
 
+void report_random_input(Report& report, std::int64_t inputs) {
+    constexpr std::size_t parts = 20;
+    std::vector<SafetyFigures> figures(parts);
+    run_on_two_threads(parts, [&](std::size_t part) {
+        figures[part] = play_random_hand(2'000 + part, inputs / static_cast<std::int64_t>(parts));
+    });
+    SafetyFigures all;
+    for (const SafetyFigures& part : figures) {
+        all.add(part);
+    }
+    report.set("safety.inputs", static_cast<double>(all.inputs));
+    report.set("safety.violations", static_cast<double>(all.violations));
+    std::printf("safety      %lld random inputs, %lld with a force, %lld violations\n",
+                static_cast<long long>(all.inputs), static_cast<long long>(all.working),
+                static_cast<long long>(all.violations));
+}
+
+// Every wall as it is asked for, and as it is made safe.
+void report_walls(Report& report) {
+    struct Row {
+        ContactCase contact;
+        ContactFigures safe, free;
+    };
+    std::vector<Row> rows;
+    for (const double stiffness : {50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4, 2e4}) {
+        for (const double wall_damping : {0.0, 1.0, 5.0}) {
+            for (const double device_damping : {0.5, 1.5, 5.0}) {
+                for (const double rate : {250.0, 500.0, 1e3, 2e3, 4e3}) {
+                    for (const double delay : {0.0, 0.004, 0.012, 0.04, 0.1}) {
+                        Row row;
+                        row.contact.wall = {stiffness, wall_damping};
+                        row.contact.device_damping = device_damping;
+                        row.contact.lag = {1.0 / rate, delay};
+                        rows.push_back(row);
+                    }
+                }
+            }
+        }
+    }
+    run_on_two_threads(rows.size(), [&](std::size_t i) {
+        ContactCase contact = rows[i].contact;
+        rows[i].safe = play_contact(contact);
+        contact.limited = contact.passive = false;
+        rows[i].free = play_contact(contact);
+    });
+    double created = 0.0;
+    double created_free = 0.0;
+    int unstable = 0;
+    int unstable_free = 0;
+    const std::filesystem::path json = result_path("device");
+    std::FILE* csv = std::fopen((json.parent_path() / "device_walls.csv").c_str(), "w");
+    if (csv) {
+        std::fprintf(csv,
+                     "stiffness,wall_damping,device_damping,rate,delay,used,created_J,stable,"
+                     "free_created_J,free_stable\n");
+    }
+    for (const Row& row : rows) {
+        created = std::max(created, row.safe.energy_created);
+        created_free = std::max(created_free, row.free.energy_created);
+        unstable += row.safe.stable ? 0 : 1;
+        unstable_free += row.free.stable ? 0 : 1;
+        if (csv) {
+            std::fprintf(csv, "%g,%g,%g,%g,%g,%g,%g,%d,%g,%d\n", row.contact.wall.stiffness,
+                         row.contact.wall.damping, row.contact.device_damping, 1.0 / row.contact.lag.seconds,
+                         row.contact.lag.delay, row.safe.stiffness_used, row.safe.energy_created,
+                         row.safe.stable ? 1 : 0, row.free.energy_created, row.free.stable ? 1 : 0);
+        }
+    }
+    if (csv) {
+        std::fclose(csv);
+    }
+    report.set("safety.walls", static_cast<double>(rows.size()));
+    report.set("safety.energy_created_max_J", created);
+    report.set("safety.walls_unstable", unstable);
+    report.set("safety.walls_unstable_unlimited", unstable_free);
+    std::printf("walls       %zu, at most %.1e J made, %d unstable; as asked for: %.1e J, %d unstable\n",
+                rows.size(), created, unstable, created_free, unstable_free);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
     Options options(count, arguments);
     const int places = static_cast<int>(options.number("places", 1'000'000));
+    const auto inputs = static_cast<std::int64_t>(options.number("inputs", 10'000'000));
     if (!options.understood()) {
         return 2;
     }
     Report report;
     report_kinematics(report, places);
+    report_random_input(report, inputs);
+    report_walls(report);
     return report.write_json(result_path("device")) ? 0 : 1;
 }

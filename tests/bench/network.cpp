@@ -1,9 +1,6 @@
 // What the link costs: the haptic thread's part of a tick, and the way through real sockets on this machine.
 //
 //     network [--seconds=5]
-#include <sys/resource.h>
-#include <sys/time.h>
-
 #include <array>
 #include <cstdio>
 #include <cstring>
@@ -14,10 +11,11 @@
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
 #include "network/udp_link.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "realtime/sleeper.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/sealed_link.hpp"
+#include "support/process.hpp"
 
 namespace {
 
@@ -96,18 +94,9 @@ void measure_ticks(Report& report) {
     measure_tick(report, "sealed", near_link, far_link);
 }
 
-double seconds_of(const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
 // Processor time of this process but for the calling thread (unit: seconds).
 double time_of_other_threads() {
-    const auto used = [](int whose) {
-        rusage usage{};
-        getrusage(whose, &usage);
-        return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-    };
-    return used(RUSAGE_SELF) - used(RUSAGE_THREAD);
+    return to_seconds(tactus::testing::process_time() - tactus::testing::thread_time());
 }
 
 // One datagram a tick from one socket to another of this process: from the call of send() to the stamp of its

@@ -6,10 +6,9 @@
 // Runs are repeated in turns (--rounds) and each case reports its quietest round: what the rest of the
 // machine, or the other guests of a virtual one, take away varies from second to second, and `steal_share`
 // says how much it was.
-#include <unistd.h>
-
 #include <array>
 #include <charconv>
+#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
@@ -17,10 +16,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
+#include "platform/clock.hpp"
+#include "platform/file.hpp"
 #include "realtime/baseline_loop.hpp"
-#include "realtime/clock.hpp"
 #include "realtime/tick_loop.hpp"
 
 namespace {
@@ -55,7 +56,7 @@ TickStatus work_for(void* context, Nanoseconds) {
 }
 
 // The first line of /proc/stat: user nice system idle iowait irq softirq steal, in ticks since the machine
-// started.
+// started. Elsewhere than on Linux all are 0.
 struct ProcessorTimes {
     double stolen = 0.0;
     double all = 0.0;
@@ -87,18 +88,19 @@ std::optional<Outcome> measure(const Case& what, int seconds) {
         std::fprintf(stderr, "%s: %s\n", what.name.c_str(), error.c_str());
         return std::nullopt;
     }
-    usleep(300'000);  // warm up
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // warm up
     loop.statistics().request_clear();
     baseline.statistics().request_clear();
     const ProcessorTimes before = processor_times();
-    sleep(static_cast<unsigned>(seconds));
+    std::this_thread::sleep_for(std::chrono::seconds(seconds));
     const ProcessorTimes after = processor_times();
     loop.stop();
     baseline.stop();
     Outcome outcome;
     outcome.loop = loop.statistics().figures();
     outcome.baseline = baseline.statistics().figures();
-    outcome.steal_share = (after.stolen - before.stolen) / (after.all - before.all);
+    const double all = after.all - before.all;
+    outcome.steal_share = all > 0.0 ? (after.stolen - before.stolen) / all : 0.0;
     outcome.granted = loop.realtime_report().text;
     return outcome;
 }
@@ -224,9 +226,9 @@ int main(int argc, char** argv) {
     }
     std::error_code failed;
     std::filesystem::create_directories(options->output.parent_path(), failed);
-    std::FILE* file = std::fopen(options->output.c_str(), "w");
+    std::FILE* file = open_file(options->output, "w");
     if (file == nullptr) {
-        std::perror(options->output.c_str());
+        std::perror(options->output.string().c_str());
         return 1;
     }
     std::fprintf(file, "{\n  \"seconds\": %d,\n  \"rounds\": %d", options->seconds, options->rounds);

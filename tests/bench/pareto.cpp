@@ -32,6 +32,7 @@
 #include "shared/physics_checks.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/touch_rig.hpp"
+#include "support/process.hpp"
 
 namespace {
 
@@ -219,7 +220,7 @@ int main(int argc, char** argv) {
     for (const auto& [name, distance] : {std::pair{"at_1e4", 1e4}, {"at_1e6", 1e6}, {"at_1e8", 1e8}}) {
         rows.push_back({name, 4, 64, false, false, distance});
     }
-    shared::stay_on_one_processor();
+    testing::stay_on_one_processor();
     const SpanClock clock;
     Report report;
     std::printf("%-18s %8s %8s %10s %10s %9s %10s %10s %9s %9s %10s\n", "choice", "med us", "p99 us",

@@ -21,6 +21,7 @@
 #include "proxy/rough.hpp"
 #include "proxy/trace.hpp"
 #include "shared/bench_kit.hpp"
+#include "support/process.hpp"
 
 namespace {
 
@@ -41,7 +42,7 @@ int measure_all(shared::Options& options) {
     if (!options.understood() || even.ticks < 1 || rough.ticks < 1 || even.rounds < 1 || rough.replays < 1) {
         return 2;
     }
-    if (!shared::stay_on_one_processor()) {
+    if (!testing::stay_on_one_processor()) {
         std::fprintf(stderr, "the system does not let this program stay on one processor: times will vary\n");
     }
     const shared::SpanClock clock;

@@ -17,7 +17,7 @@
 #include <cstring>
 #include <string>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "shared/attack.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/flood.hpp"

@@ -2,25 +2,26 @@
 #include "network/key_source.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+
+#include "support/file_access.hpp"
+#include "support/process.hpp"
 
 namespace tactus {
 namespace {
 
 class KeyFile : public ::testing::Test {
 protected:
-    KeyFile() { unsetenv(key_variable); }
+    KeyFile() { testing::set_environment(key_variable, nullptr); }
     ~KeyFile() override {
-        unsetenv(key_variable);
+        testing::set_environment(key_variable, nullptr);
         std::filesystem::remove(path);
     }
-    void write(const std::string& text, mode_t mode = 0600) {
-        std::ofstream(path) << text;
-        chmod(path.c_str(), mode);
+    void write(const std::string& text, bool open_to_others = false) {
+        std::ofstream(path, std::ios::binary) << text;
+        EXPECT_TRUE(testing::set_access(path, open_to_others));
     }
     const std::string path = ::testing::TempDir() + "tactus_key_test";
 };
@@ -37,8 +38,8 @@ TEST_F(KeyFile, WhatIsWrongIsSaid) {
     EXPECT_NE(read_key(::testing::TempDir()).error.find("no ordinary file"), std::string::npos);
     write("short");
     EXPECT_NE(read_key(path).error.find("holds no key"), std::string::npos);
-    write("correct horse battery", 0644);
-    EXPECT_NE(read_key(path).error.find("chmod 600"), std::string::npos);
+    write("correct horse battery", true);
+    EXPECT_NE(read_key(path).error.find("is open to others on this machine: "), std::string::npos);
     write(std::string(5000, 'a'));
     EXPECT_NE(read_key(path).error.find("longer"), std::string::npos);
     for (const char* bad : {"short", "correct"}) {
@@ -50,11 +51,11 @@ TEST_F(KeyFile, WhatIsWrongIsSaid) {
 TEST_F(KeyFile, TheEnvironmentIsAskedOnlyWhereNoFileIsNamed) {
     EXPECT_EQ(read_key("").text, "");
     EXPECT_EQ(read_key("").error, "");
-    setenv(key_variable, "from the environment", 1);
+    testing::set_environment(key_variable, "from the environment");
     EXPECT_EQ(read_key("").text, "from the environment");
     write("correct horse battery");
     EXPECT_EQ(read_key(path).text, "correct horse battery");
-    setenv(key_variable, "short", 1);
+    testing::set_environment(key_variable, "short");
     EXPECT_NE(read_key("").error.find(key_variable), std::string::npos);
 }
 

@@ -2,10 +2,11 @@
 #include "network/network_link.hpp"
 
 #include <gtest/gtest.h>
-#include <time.h>
+
+#include <thread>
 
 #include "network/endpoint.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 namespace {
@@ -54,8 +55,7 @@ struct NetworkRig {
             if (done()) {
                 return true;
             }
-            const timespec nap{0, 500'000};
-            nanosleep(&nap, nullptr);
+            std::this_thread::sleep_for(std::chrono::microseconds(500));
         }
         return false;
     }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {

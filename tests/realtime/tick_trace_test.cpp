@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {

@@ -1,6 +1,4 @@
 // Virtual time: the same calls with the same times give the same bits.
-#include <unistd.h>
-
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -10,6 +8,7 @@
 
 #include "session_rig.hpp"
 #include "shared/meshes.hpp"
+#include "support/process.hpp"
 
 namespace tactus {
 namespace {
@@ -142,11 +141,8 @@ TEST(SessionDeterminism, InAProcessOfItsOwn) {
 }
 
 std::string hashes_of_a_process(const std::string& cores) {
-    const std::string path = ::testing::TempDir() + "tactus_hash_" + std::to_string(getpid());
-    const std::string command = std::string(hash_file) + "=" + path + " taskset -c " + cores + " /proc/" +
-                                std::to_string(getpid()) +
-                                "/exe --gtest_filter=SessionDeterminism.InAProcessOfItsOwn > /dev/null";
-    EXPECT_EQ(std::system(command.c_str()), 0);
+    const std::string path = ::testing::TempDir() + "tactus_hash_" + std::to_string(testing::time_stamp());
+    EXPECT_TRUE(testing::run_tests_again("SessionDeterminism.InAProcessOfItsOwn", hash_file, path, cores));
     std::string hashes;
     std::getline(std::ifstream(path), hashes);
     std::remove(path.c_str());

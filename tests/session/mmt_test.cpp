@@ -179,6 +179,15 @@ TeleopScene press() {
     return made;
 }
 
+TEST(Mmt, AGroundThatIsPutRightIsSoInTheReplayedPastAsWell) {
+    TeleopCase tilted = with_delay(100.0, 3.0);
+    tilted.object = "Box";
+    tilted.wrong["Ground"].turn = glm::angleAxis(0.08, Vec3(1.0, 0.0, 0.0));
+    const TeleopFigures figures = run_teleop(scene(true), tilted);
+    EXPECT_LT(figures.at("force_error_mean_N"), 0.05);
+    EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
+}
+
 TEST(Mmt, AnArmPressesTheModelAsItWouldPressWhatIsThere) {
     const TeleopFigures figures = run_teleop(press(), with_arm(200.0));
     EXPECT_EQ(figures.at("hand_deviation_rms_mm"), 0.0);
@@ -207,6 +216,7 @@ TEST(Mmt, PlacesThatAreSeenRoughlyAreNotFelt) {
     rough.pose_noise = 1e-3;
     const TeleopFigures figures = run_teleop(scene(true), rough);
     EXPECT_LT(figures.at("correction_force_step_max_N"), 0.02);
+    EXPECT_LT(figures.at("force_error_mean_N"), 0.1) << "as far as it is known, chance is not followed";
 }
 
 }  // namespace

@@ -4,155 +4,21 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "network/link_emulator.hpp"
-#include "network/memory_link.hpp"
-#include "session/environment_teller.hpp"
-#include "session/operator_side.hpp"
-#include "session/teleoperator_side.hpp"
-#include "session_rig.hpp"
+#include "model_rig.hpp"
 
 namespace tactus {
 namespace {
 
-using session_test::body;
-using session_test::period;
-
-constexpr Nanoseconds ms = 1'000'000;
-
-SessionSettings small_session() {
-    SessionSettings settings;
-    settings.most_bodies = 64;
-    settings.most_parts = 128;
-    return settings;
-}
-
-EndpointSettings endpoint(Side side, std::uint64_t epoch) {
-    EndpointSettings settings;
-    settings.side = side;
-    settings.epoch = epoch;
-    return settings;
-}
-
-// A hand and a pointer, on each side.
-void add_pointer(Session& session, session_test::HeldDevice& device) {
-    device.position = {0.0, 0.5, 0.0};
-    ProxyDescription description;
-    description.device = session.add_device(device, {}).handle;
-    session.add_proxy(description);
-}
-
-struct Environment {
-    Environment(Link& link, std::uint64_t epoch) {
-        session.attach(std::make_unique<TeleoperatorSide>(small_session(), TeleopSettings{}, link, port,
-                                                          endpoint(Side::teleoperator_side, epoch)));
-        add_pointer(session, device);
-    }
-
-    SessionHandle add(const std::string& name, const BodyAddition& addition) {
-        const AddResult added = session.add_body(addition);
-        EXPECT_EQ(added.error, "");
-        EXPECT_EQ(teller.tell(added.handle, name, addition), "");
-        return added.handle;
-    }
-
-    void remove(SessionHandle handle) {
-        teller.forget(handle);
-        session.remove_body(handle);
-    }
-
-    void tick(Nanoseconds now) {
-        session.tick(now);
-        session.collect();
-        session.refresh();
-        port->statistics.refresh();
-        teller.update(session.snapshot(), port->statistics.front().link.peer_epoch);
-    }
-
-    session_test::HeldDevice device;
-    std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
-    Session session{small_session()};
-    EnvironmentTeller teller{port};
-};
-
-struct Operator {
-    Operator(Link& link, std::uint64_t epoch) {
-        OperatorRoom room;
-        room.replays = false;
-        session.attach(std::make_unique<OperatorSide>(small_session(), room, TeleopSettings{}, link, port,
-                                                      endpoint(Side::operator_side, epoch)));
-        add_pointer(session, device);
-    }
-
-    void tick(Nanoseconds now) {
-        session.tick(now);
-        session.collect();
-        session.refresh();
-        port->statistics.refresh();
-        builder.update(now, port->statistics.front().link);
-    }
-
-    const ModelObject* find(const std::string& name) const {
-        const auto found = std::ranges::find(builder.objects(), name, &ModelObject::name);
-        return found == builder.objects().end() ? nullptr : &*found;
-    }
-
-    // Where the model has what is called `name`, of what can move.
-    Pose pose(const std::string& name) const {
-        const ModelObject* const object = find(name);
-        const SessionSnapshot& snapshot = session.snapshot();
-        for (std::size_t i = 0; object != nullptr && i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == object->body) {
-                return snapshot.bodies[i].pose;
-            }
-        }
-        return {Vec3(-99.0), {}};
-    }
-
-    session_test::HeldDevice device;
-    std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
-    Session session{small_session()};
-    ModelBuilder builder{session, port};
-};
-
-struct Rig {
-    explicit Rig(const LinkConditions& conditions = {})
-        : at_operator(wire.first(), conditions, 1), at_environment(wire.second(), conditions, 2) {
-        start_operator(1);
-        start_environment(2);
-    }
-
-    void start_operator(std::uint64_t epoch) { near = std::make_unique<Operator>(at_operator, epoch); }
-    void start_environment(std::uint64_t epoch) {
-        far = std::make_unique<Environment>(at_environment, epoch);
-    }
-
-    void run(Nanoseconds span) {
-        for (const Nanoseconds end = now + span; now < end;) {
-            now += period;
-            if (near) {
-                near->tick(now);
-            }
-            if (far) {
-                far->tick(now);
-            }
-        }
-    }
-
-    MemoryLinkPair wire{8192};
-    LinkEmulator at_operator, at_environment;
-    std::unique_ptr<Operator> near;
-    std::unique_ptr<Environment> far;
-    Nanoseconds now = 0;
-};
+using namespace session_test;
+using Rig = ModelRig;
 
 BodyAddition box(const Vec3& position) {
     return body(BoxShape{Vec3(0.05)}, position, Motion::Dynamic, 0.3);
 }
 
-BodyAddition ground() {
+BodyAddition slab() {
     return body(BoxShape{{1.0, 0.05, 1.0}}, {0.0, -0.05, 0.0}, Motion::Static);
 }
 
@@ -161,7 +27,7 @@ TEST(ModelBuilder, BuildsWhatTheFarSideHas) {
     conditions.delay = 20 * ms;
     conditions.loss = 0.3;
     Rig rig(conditions);
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     rig.far->add("Box", box({0.0, 0.05, 0.0}));
     rig.run(3000 * ms);
     EXPECT_EQ(rig.near->builder.objects().size(), 2u);
@@ -173,7 +39,7 @@ TEST(ModelBuilder, BuildsWhatTheFarSideHas) {
 
 TEST(ModelBuilder, WhatMovesThereMovesHere) {
     Rig rig;
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     const SessionHandle handle = rig.far->add("Box", box({0.0, 0.05, 0.0}));
     rig.run(500 * ms);
     rig.far->session.teleport_body(handle, {{0.3, 0.05, 0.2}, {1.0, 0.0, 0.0, 0.0}});
@@ -184,7 +50,7 @@ TEST(ModelBuilder, WhatMovesThereMovesHere) {
 TEST(ModelBuilder, ALateOperatorIsToldWhereThingsAreByNow) {
     Rig rig;
     rig.near.reset();
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     const SessionHandle handle = rig.far->add("Box", box({0.0, 0.05, 0.0}));
     rig.run(200 * ms);
     rig.far->session.teleport_body(handle, {{0.4, 0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
@@ -201,11 +67,11 @@ TEST(ModelBuilder, ALateOperatorIsToldWhereThingsAreByNow) {
 
 TEST(ModelBuilder, AnEnvironmentThatRestartsReplacesTheModel) {
     Rig rig;
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     rig.far->add("Box", box({0.0, 0.05, 0.0}));
     rig.run(500 * ms);
     rig.start_environment(22);
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     rig.far->add("Ball", body(SphereShape{0.05}, {0.2, 0.05, 0.0}, Motion::Dynamic));
     rig.run(500 * ms);
     EXPECT_EQ(rig.near->builder.objects().size(), 2u);
@@ -215,7 +81,7 @@ TEST(ModelBuilder, AnEnvironmentThatRestartsReplacesTheModel) {
 
 TEST(ModelBuilder, WhatIsRemovedThereGoesHere) {
     Rig rig;
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     const SessionHandle handle = rig.far->add("Box", box({0.0, 0.05, 0.0}));
     rig.run(500 * ms);
     rig.far->remove(handle);
@@ -240,7 +106,7 @@ TEST(ModelBuilder, ANumberThatIsGivenAgainIsAnotherObject) {
 
 TEST(ModelBuilder, ANewDescriptionTakesThePlaceOfTheOld) {
     Rig rig;
-    rig.far->add("Ground", ground());
+    rig.far->add("Ground", slab());
     BodyAddition addition = box({0.0, 0.05, 0.0});
     const SessionHandle handle = rig.far->add("Box", addition);
     rig.run(500 * ms);

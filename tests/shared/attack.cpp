@@ -1,7 +1,5 @@
 #include "shared/attack.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "network/plausibility.hpp"
 #include "shared/attack_rig.hpp"
 #include "shared/random_values.hpp"
+#include "support/process.hpp"
 
 namespace tactus::shared {
 namespace {
@@ -298,13 +297,7 @@ private:
 };
 
 double resident_mb() {
-    long pages = 0, resident = 0;
-    if (std::FILE* const file = std::fopen("/proc/self/statm", "r")) {
-        const int read = std::fscanf(file, "%ld %ld", &pages, &resident);
-        std::fclose(file);
-        resident = read == 2 ? resident : 0;
-    }
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6;
+    return 1e-6 * testing::resident_bytes();
 }
 
 // What must stay where it is: the bodies that no packet of the attacker may move.

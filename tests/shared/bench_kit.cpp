@@ -1,8 +1,5 @@
 #include "shared/bench_kit.hpp"
 
-#include <sched.h>
-#include <x86intrin.h>
-
 #include <algorithm>
 #include <atomic>
 #include <charconv>
@@ -11,6 +8,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
+
+#include "support/process.hpp"
 
 namespace tactus::shared {
 
@@ -92,9 +91,9 @@ void Report::set(const std::string& key, double value) {
 bool Report::write_json(const std::filesystem::path& path) const {
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
-    std::FILE* const file = std::fopen(path.c_str(), "w");
+    std::FILE* const file = std::fopen(path.string().c_str(), "w");
     if (!file) {
-        std::perror(path.c_str());
+        std::perror(path.string().c_str());
         return false;
     }
     const char* separator = "{\n";
@@ -110,29 +109,6 @@ std::filesystem::path result_path(std::string_view name) {
     const char* const given = std::getenv("TACTUS_BENCH_JSON");
     return given ? std::filesystem::path(given)
                  : std::filesystem::path("build/bench") / (std::string(name) + ".json");
-}
-
-namespace {
-
-// Those that the program began with.
-const cpu_set_t& processors() {
-    static const cpu_set_t all = [] {
-        cpu_set_t set;
-        CPU_ZERO(&set);
-        sched_getaffinity(0, sizeof set, &set);
-        return set;
-    }();
-    return all;
-}
-
-}  // namespace
-
-bool stay_on_one_processor() {
-    processors();
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(static_cast<std::size_t>(sched_getcpu()), &one);
-    return sched_setaffinity(0, sizeof one, &one) == 0;
 }
 
 SpanClock::SpanClock() {
@@ -152,12 +128,8 @@ SpanClock::SpanClock() {
     cost_ = quantile(empty, 0.5);
 }
 
-// rdtscp waits for what stands before it; the fence keeps what stands after it from starting earlier.
 std::uint64_t SpanClock::now() const {
-    unsigned processor = 0;
-    const std::uint64_t count = __rdtscp(&processor);
-    _mm_lfence();
-    return count;
+    return testing::time_stamp();
 }
 
 double SpanClock::nanoseconds(std::uint64_t from, std::uint64_t to) const {
@@ -186,7 +158,7 @@ void run_on_two_threads(std::size_t count, const std::function<void(std::size_t)
     }
     std::thread other([&work] {
         // A thread begins with its maker's processors: that may be one only.
-        sched_setaffinity(0, sizeof(cpu_set_t), &processors());
+        testing::leave_one_processor();
         work();
     });
     work();

@@ -51,9 +51,6 @@ private:
 // Where a bench writes: the file named by TACTUS_BENCH_JSON, or build/bench/NAME.json.
 std::filesystem::path result_path(std::string_view name);
 
-// Keeps this thread on the processor it runs on. False where the system does not permit it.
-bool stay_on_one_processor();
-
 // The processor's time stamp counter as a clock for spans from ten nanoseconds on.
 class SpanClock {
 public:

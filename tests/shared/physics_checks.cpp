@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "physics/physics_world.hpp"
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "shared/bodies.hpp"
 
 namespace tactus::shared {

@@ -1,7 +1,5 @@
 #include "shared/stress.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +14,7 @@
 #include "shared/stress_judge.hpp"
 #include "shared/stress_scenes.hpp"
 #include "shared/touch_rig.hpp"
+#include "support/process.hpp"
 
 namespace tactus::shared {
 
@@ -26,9 +25,7 @@ constexpr int side_unknown = -12345;
 
 // Of this thread (unit: microseconds).
 double processor_time() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+    return 1e-3 * static_cast<double>(tactus::testing::thread_time());
 }
 
 // A second body that appears where the proxy is, jumps and vanishes.

@@ -1,5 +1,5 @@
 // Proves that a piece of code is fit for the haptic thread: that it allocates nothing, waits for nobody and
-// makes no blocking system call. Link realtime_audit.cpp into the test program; it stands in front of the C
+// makes no blocking system call. What is linked into the test program with it stands in front of the C
 // library's functions.
 //
 //     AuditScope audit;
@@ -10,6 +10,8 @@
 // time per thread. Watched: malloc and its family (what operator new, mmap and brk rest on), free, pthread
 // locks (what std::mutex, std::shared_mutex rest on), condition variables, semaphores, joins, and every
 // system call of the thread, whoever makes it, where the kernel can intercept them (Linux ≥ 5.11 on x86-64).
+// On Windows: what the program itself and the libraries that are linked into it allocate, free and lock; its
+// system calls are not seen.
 // Under the address and the thread sanitizer the same is watched: memory through their hooks, and what they
 // ask of the kernel for themselves does not count.
 #pragma once
@@ -52,6 +54,9 @@ public:
     // What happened, and from where the first offence came: addresses for addr2line. Call it after finish()
     // or as the message of a failed expectation.
     std::string describe() const;
+
+    // Whether that is the number of the call by which a loop sleeps until its next tick.
+    static bool is_sleep(long number);
 
     // Whether this kernel lets system calls be intercepted; where it does not, system_calls() stays 0.
     static bool watches_system_calls();

@@ -8,7 +8,10 @@ import pytest
 from setup import cache
 
 ALLOWED = [
+    ("platform", '"core/thing.hpp"'),
     ("realtime", '"core/thing.hpp"'),
+    ("realtime", '"platform/thing.hpp"'),
+    ("network", '"platform/thing.hpp"'),
     ("physics", '"realtime/thing.hpp"'),
     ("physics", "<Jolt/Jolt.h>"),
     ("devices", '"realtime/thing.hpp"'),
@@ -19,15 +22,18 @@ FORBIDDEN = [
     ("core", '"realtime/thing.hpp"'),
     ("core", '"physics/thing.hpp"'),
     ("core", "<Jolt/Jolt.h>"),
+    ("platform", '"realtime/thing.hpp"'),
     ("realtime", '"physics/thing.hpp"'),
+    ("devices", '"platform/thing.hpp"'),
     ("physics", '"session/thing.hpp"'),
     ("devices", '"network/thing.hpp"'),
     ("network", '"devices/thing.hpp"'),
     ("session", "<Jolt/Jolt.h>"),
     ("session", "<godot_cpp/classes/node.hpp>"),
     ("session", '"nodes/thing.hpp"'),
+    ("session", '"platform/thing.hpp"'),
 ]
-LAYERS = ["core", "realtime", "physics", "devices", "network", "session"]
+LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session"]
 
 
 def _object(number: int, layer: str) -> str:

@@ -16,7 +16,7 @@ def _vectors() -> dict[str, bytes]:
 
 
 VECTORS = _vectors()
-PACKETS = [name for name in VECTORS if name not in ("greeting", "sealed", "description", "description_hash")]
+PACKETS = [name for name in VECTORS if name not in ("greeting", "sealed", "description", "description_hash", "joint")]
 STILL = (0.0, 0.0, 0.0)
 
 
@@ -122,6 +122,22 @@ def test_description_cut_anywhere_is_refused():
     for size in range(len(VECTORS["description"])):
         with pytest.raises(wire.Refused):
             wire.description(VECTORS["description"][:size])
+
+
+def test_joint_is_read():
+    read = wire.joint(VECTORS["joint"])
+    assert (read["joint"] - wire.FIRST_JOINT, read["first"], read["second"], read["kind"]) == (3, 5, 9, "hinge")
+    assert read["frame"] == {"position": (0.25, -1.0, 2.0), "rotation": (0.5, -0.5, 0.5, 0.5)}
+    assert read["second_frame"] == {"position": (1.5, 0.0, -0.125), "rotation": (-0.5, 0.5, 0.5, 0.5)}
+    assert read["linear"] == [(-0.5, 0.75), (0.0, 0.0), (1.0, -1.0)]
+    assert read["angular"] == [(-1.0, 1.5), (1.0, -1.0), (-0.25, 0.0)]
+    assert (read["motor_speed"], read["motor_torque"], read["bodies_collide"]) == (-2.5, 12.5, True)
+
+
+def test_joint_cut_anywhere_is_refused():
+    for size in range(len(VECTORS["joint"])):
+        with pytest.raises(wire.Refused):
+            wire.joint(VECTORS["joint"][:size])
 
 
 @pytest.mark.parametrize("name", PACKETS)

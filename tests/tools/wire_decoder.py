@@ -340,6 +340,25 @@ def packet(data: bytes) -> tuple[Fields, str, Fields]:
 def description(data: bytes) -> Fields:
     r = Reader(data)
     read = {"object": r.object(), "name": _name(r), "touch": _touch(r), "texture": _texture(r)} | _body(r)
+    _require(read["object"] < FIRST_JOINT, "the number of a joint")
+    r.end()
+    return read
+
+
+FIRST_JOINT = 0x80000000
+JOINTS = ("pin", "hinge", "slider", "six axes")
+
+
+def joint(data: bytes) -> Fields:
+    r = Reader(data)
+    read = {"joint": r.object(), "first": r.object(), "second": r.u32()}
+    bodies_are_bodies = read["first"] < FIRST_JOINT and not FIRST_JOINT <= read["second"] < NOBODY
+    _require(read["joint"] >= FIRST_JOINT and bodies_are_bodies and read["first"] != read["second"], "no joint")
+    read |= {"kind": JOINTS[r.choice(len(JOINTS) - 1)], "frame": r.pose(), "second_frame": r.pose()}
+    for name, most in (("linear", MOST_COMPONENT), ("angular", math.pi)):
+        read[name] = [(r.real(-most, most), r.real(-most, most)) for _ in range(3)]
+    read |= {"motor_speed": r.real(-MOST_ANGULAR_SPEED, MOST_ANGULAR_SPEED)}
+    read |= {"motor_torque": r.real(0.0, MOST_COMPONENT), "bodies_collide": r.flag()}
     r.end()
     return read
 

@@ -62,7 +62,7 @@ struct World {
                 [this](std::size_t i) {
                     return WorldLink::Description{"Box" + std::to_string(i), additions[i]};
                 },
-                session.snapshot(), now);
+                joints, session.snapshot(), now);
         }
         for (int i = 0; i < 10; ++i, now += period) {
             session.tick(now);
@@ -77,6 +77,7 @@ struct World {
     Nanoseconds now = 0;
     std::vector<BodyAddition> additions;
     std::vector<WorldLink::Told> told;
+    std::vector<WorldLink::ToldJoint> joints;
 };
 
 void frames(World& a, World& b, int count) {
@@ -119,6 +120,25 @@ TEST(WorldLink, WhatIsToldBecomesTheModelAndGoesAgain) {
     sides.there.told.pop_back();
     frames(sides.here, sides.there, 40);
     EXPECT_EQ(sides.here.link.objects().size(), 1u);
+}
+
+TEST(WorldLink, WhatJoinsIsToldOnceAndGoesAgain) {
+    Sides sides;
+    const SessionHandle body = sides.there.add(Vec3(0.0));
+    JointDescription pin;
+    pin.second_frame = Pose{};
+    const SessionHandle joint = sides.there.session.add_joint(pin, body, no_handle).handle;
+    sides.there.joints.push_back({joint, body, no_handle, &pin, 77, 1});
+    frames(sides.here, sides.there, 80);
+    const auto discovery = [&sides] { return sides.there.link.report().teleop.discovery; };
+    EXPECT_EQ(discovery().known, 2u) << "the body and what holds it";
+    EXPECT_TRUE(sides.here.link.problems().empty());
+    const std::uint64_t pieces = discovery().pieces_sent;
+    frames(sides.here, sides.there, 40);
+    EXPECT_EQ(discovery().pieces_sent, pieces);
+    sides.there.joints.clear();
+    frames(sides.here, sides.there, 40);
+    EXPECT_EQ(discovery().known, 1u);
 }
 
 TEST(WorldLink, AnObjectIsBuiltAsAnExperimentHasIt) {

@@ -56,9 +56,9 @@ def emptied(folder: Path) -> Path:
     return folder
 
 
-def variant(target: str, sanitizers: str = "") -> str:
-    """The folder in build/: what sanitizers watch shares nothing with the rest."""
-    return f"{target}.{sanitizers.replace(',', '_')}" if sanitizers else target
+def variant(target: str, sanitizers: str = "", foreign: str = "") -> str:
+    """The folder in build/: what sanitizers watch, and what another platform runs, share nothing with the rest."""
+    return ".".join(part for part in (target, foreign, sanitizers.replace(",", "_")) if part)
 
 
 def run_tool(script: str, *arguments: str) -> int:

@@ -1,16 +1,15 @@
 """Jolt: its source through cargo, and the part of it that rigid bodies need as a static library in the cache."""
 
-import json
 import os
 import re
 import shlex
-import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import cache
+from . import cache, crates, platforms
+from .platforms import Platform
 
 CRATE = "oxijolt-sys"
 CRATE_SHA256 = "95f28c731530e7ad84db2bc94c787c41fb868089b1fd03b5aaa244bfe3e46b38"
@@ -18,13 +17,8 @@ VERSION = "5.6.0"
 
 # What includes Jolt must be compiled with the same definitions: they change the layout of its classes.
 DEFINES = ["JPH_NO_DEBUG", "JPH_DOUBLE_PRECISION", "JPH_CROSS_PLATFORM_DETERMINISTIC", "JPH_OBJECT_LAYER_BITS=16"]
-FLAGS = [
-    "-std=c++20", "-O3", "-march=x86-64-v3", "-ffp-contract=off", "-fno-exceptions", "-fno-rtti",
-    "-fPIC", "-fvisibility=hidden",
-]  # fmt: skip
 # The same for a bench: Jolt as fast as it can be, with results that differ between machines.
 FAST_DEFINES = [define for define in DEFINES if define != "JPH_CROSS_PLATFORM_DETERMINISTIC"]
-FAST_FLAGS = [flag if flag != "-ffp-contract=off" else "-ffp-contract=fast" for flag in FLAGS]
 CHUNKS = 4  # translation units: headers are read once for each of them
 
 LEFT_OUT = re.compile(
@@ -51,25 +45,27 @@ def installed() -> Jolt | None:
     return jolt
 
 
-def ready(fast: bool = False) -> Jolt | None:
-    own = installed()
+def ready(fast: bool = False, platform: Platform | None = None) -> Jolt | None:
+    platform = platform or platforms.host()
+    own = None if platform.is_foreign else installed()
     if own:
         return None if fast else own
     source = _source_folder()
     if not cache.is_done(source, CRATE_SHA256):
         return None
-    folder = _library_folder(fast)
+    folder = _library_folder(fast, platform)
     return _built(folder, fast) if cache.is_done(folder, folder.name) else None
 
 
-def fetch_and_build(fast: bool = False) -> Jolt:
+def fetch_and_build(fast: bool = False, platform: Platform | None = None) -> Jolt:
+    platform = platform or platforms.host()
     if not cache.is_done(_source_folder(), CRATE_SHA256):
-        _fetch(_source_folder())
-    folder = cache.emptied(_library_folder(fast))
+        crates.fetch(CRATE, CRATE_SHA256, "tools/jolt/Cargo.toml", _source_folder())
+    folder = cache.emptied(_library_folder(fast, platform))
     units = [*_write_chunks(folder), cache.clone() / "tools/jolt/register_types.cpp"]
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        objects = list(pool.map(lambda unit: _compile(unit, folder, fast), units))
-    subprocess.run(["ar", "rcs", folder / "libJolt.a", *objects], check=True)
+        objects = list(pool.map(lambda unit: _compile(unit, folder, fast, platform), units))
+    subprocess.run([platform.tool("ar"), "rcs", folder / "libJolt.a", *objects], check=True)
     for path in objects:
         path.unlink()
     cache.mark_done(folder, folder.name)
@@ -93,45 +89,24 @@ def _built(folder: Path, fast: bool) -> Jolt:
     return Jolt(_jolt_source(), folder / "libJolt.a", FAST_DEFINES if fast else DEFINES)
 
 
-def _fetch(target: Path) -> None:
-    work = cache.emptied(cache.root() / "downloads" / "jolt")
-    shutil.copy(cache.clone() / "tools/jolt/Cargo.toml", work)
-    (work / "lib.rs").touch()
-    _cargo_vendor(work)
-    crate = work / "vendor" / CRATE
-    found = json.loads((crate / ".cargo-checksum.json").read_text())["package"]
-    if found != CRATE_SHA256:
-        raise RuntimeError(f"{CRATE} has the checksum {found} instead of {CRATE_SHA256}")
-    shutil.rmtree(target, ignore_errors=True)
-    crate.rename(target)
-    shutil.rmtree(work)
-    cache.mark_done(target, CRATE_SHA256)
-
-
-def _cargo_vendor(work: Path) -> None:
-    cargo, environment = ["cargo"], dict(os.environ)
-    text = subprocess.run(["cargo", "--version"], check=True, text=True, capture_output=True).stdout
-    found = re.search(r"cargo (\d+)\.(\d+)", text)
-    if found and (int(found[1]), int(found[2])) < (1, 70):
-        # Before 1.70 cargo clones the whole index unless it is asked not to, and only lets a nightly ask.
-        cargo += ["-Z", "sparse-registry"]
-        environment["RUSTC_BOOTSTRAP"] = "1"
-    done = subprocess.run([*cargo, "vendor", "vendor"], cwd=work, env=environment, text=True, capture_output=True)
-    if done.returncode != 0:
-        raise RuntimeError(f"cargo vendor failed:\n{done.stderr[-2000:]}")
-
-
 def _sources() -> list[Path]:
     root = _jolt_source()
     paths = sorted(path.relative_to(root) for path in (root / "Jolt").rglob("*.cpp"))
     return [path for path in paths if not LEFT_OUT.search(str(path))]
 
 
-def _library_folder(fast: bool) -> Path:
-    compiler = subprocess.run(["g++", "--version"], check=True, text=True, capture_output=True).stdout.splitlines()[0]
+def _flags(fast: bool, platform: Platform) -> list[str]:
+    contraction = "-ffp-contract=fast" if fast else "-ffp-contract=off"
+    language = ["-fno-exceptions", "-fno-rtti", *platform.position, "-fvisibility=hidden"]
+    return ["-std=c++20", "-O3", *platform.machine, contraction, *language]
+
+
+def _library_folder(fast: bool, platform: Platform) -> Path:
+    version = subprocess.run([platform.compiler, "--version"], check=True, text=True, capture_output=True).stdout
+    compiler = version.splitlines()[0]
     own = (cache.clone() / "tools/jolt/register_types.cpp").read_text()
-    flags = [*FAST_FLAGS, *FAST_DEFINES] if fast else [*FLAGS, *DEFINES]
-    key = cache.digest(compiler, *flags, own, str(CHUNKS), *map(str, _sources()))
+    defines = FAST_DEFINES if fast else DEFINES
+    key = cache.digest(compiler, *_flags(fast, platform), *defines, own, str(CHUNKS), *map(str, _sources()))
     return cache.root() / f"jolt-{VERSION}-{key}"
 
 
@@ -146,10 +121,11 @@ def _write_chunks(folder: Path) -> list[Path]:
     return units
 
 
-def _compile(unit: Path, folder: Path, fast: bool) -> Path:
+def _compile(unit: Path, folder: Path, fast: bool, platform: Platform) -> Path:
     target = folder / f"{unit.stem}.o"
     defines = [f"-D{define}" for define in (FAST_DEFINES if fast else DEFINES)]
-    command = ["g++", *(FAST_FLAGS if fast else FLAGS), *defines, "-isystem", _jolt_source(), "-c", unit, "-o", target]
+    flags = [*_flags(fast, platform), *defines]
+    command = [platform.compiler, *flags, "-isystem", _jolt_source(), "-c", unit, "-o", target]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:
         raise RuntimeError(f"compiling {unit.name} failed:\n{done.stderr[:3000]}")

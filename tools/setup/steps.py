@@ -8,7 +8,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from . import cache, godot, jolt, python_tools
+from . import cache, cross, godot, jolt, python_tools
+from .platforms import Platform
 
 
 @dataclass
@@ -26,6 +27,21 @@ def dependencies() -> list[Step]:
         steps.append(Step("Godot", godot.is_private_ready, godot.fetch))
     steps.append(Step("Godot's API", _is_api_ready, lambda: godot.dump_api(_godot())))
     steps.append(Step(f"Jolt {jolt.VERSION}", lambda: jolt.ready() is not None, jolt.fetch_and_build, alone=True))
+    return steps
+
+
+def for_platforms(platforms: list[Platform]) -> list[Step]:
+    """What engine-free programs for other platforms need."""
+    steps = [Step("Python tools", python_tools.is_done, python_tools.install)]
+    for one in platforms:
+        steps.append(Step(f"libsodium for {one.name}", lambda one=one: bool(cross.ready(one)), lambda one=one: cross.build(one)))
+        steps.append(
+            Step(
+                f"Jolt {jolt.VERSION} for {one.name}",
+                lambda one=one: jolt.ready(platform=one) is not None,
+                lambda one=one: jolt.fetch_and_build(platform=one),
+            )
+        )
     return steps
 
 

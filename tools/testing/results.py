@@ -7,6 +7,7 @@ from dataclasses import dataclass
 class Result:
     name: str
     why: str = ""  # empty: passed
+    skipped: bool = False  # and said why
 
     @property
     def passed(self) -> bool:

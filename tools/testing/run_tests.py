@@ -1,12 +1,15 @@
-"""./run test [--sanitize=LIST] [FILTER]: builds and runs every test whose name contains FILTER, and ends with their
-count. With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own.
+"""./run test [--sanitize=LIST] [windows|arm64] [FILTER]: builds and runs every test whose name contains FILTER, and ends
+with their count.
+
+With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own. `windows` and
+`arm64`: the C++ tests compiled for Windows, run by Wine, and for Linux on ARM, run by QEMU.
 """
 
 import sys
 import time
 
 import build
-from setup import cache
+from setup import cache, platforms
 from testing import cpp_suite, format_suite, godot_suite, python_suite
 
 SUITES = [format_suite, cpp_suite, godot_suite, python_suite]
@@ -15,17 +18,22 @@ SUITES = [format_suite, cpp_suite, godot_suite, python_suite]
 def main(arguments: list[str]) -> int:
     options = [argument for argument in arguments if argument.startswith("--")]
     filters = [argument for argument in arguments if argument not in options]
+    platform = platforms.tested_by(filters.pop(0)) if filters and platforms.tested_by(filters[0]) else platforms.host()
     if len(filters) > 1 or len(options) > 1 or any(not option.startswith("--sanitize=") for option in options):
-        print("./run test [--sanitize=address,undefined|thread] [FILTER]", file=sys.stderr)
+        print("./run test [--sanitize=address,undefined|thread] [windows|arm64] [FILTER]", file=sys.stderr)
         return 2
     wanted = filters[0] if filters else ""
     sanitizers = options[0].partition("=")[2] if options else ""
     print("Building the C++ tests …", flush=True)
-    build.build("template_debug", "tests", *([f"sanitize={sanitizers}"] if sanitizers else []))
+    watched = [f"sanitize={sanitizers}"] if sanitizers else []
+    build.build("template_debug", "tests", f"platform={platform.name}", *watched)
+    only_cpp = bool(sanitizers) or platform.is_foreign
     results = []
-    for suite in [cpp_suite] if sanitizers else SUITES:
+    for suite in [cpp_suite] if only_cpp else SUITES:
         started = time.monotonic()
-        found = suite.run(wanted, sanitizers) if sanitizers else suite.run(wanted)
+        found = suite.run(wanted, sanitizers, platform) if only_cpp else suite.run(wanted)
+        skipped = sum(result.skipped for result in found)
+        found = [result for result in found if not result.skipped]
         results += found
         for result in found:
             if not result.passed:
@@ -33,7 +41,8 @@ def main(arguments: list[str]) -> int:
         if found:
             passed = sum(result.passed for result in found)
             name = suite.__name__.rpartition(".")[2].removesuffix("_suite")
-            print(f"{name}: {passed} of {len(found)} passed, {time.monotonic() - started:.1f} s", flush=True)
+            not_run = f", {skipped} skipped" if skipped else ""
+            print(f"{name}: {passed} of {len(found)} passed{not_run}, {time.monotonic() - started:.1f} s", flush=True)
     passed = sum(result.passed for result in results)
     print(f"{passed} passed, {len(results) - passed} failed")
     return 0 if results and passed == len(results) else 1

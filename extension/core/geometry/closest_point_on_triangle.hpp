@@ -2,6 +2,8 @@
 // sibling of offset_from_triangles, for the few triangles that are in contact.
 #pragma once
 
+#include <cstdint>
+
 #include "core/math/types.hpp"
 
 namespace tactus {
@@ -11,7 +13,7 @@ enum class TriangleFeature : std::uint8_t { face, edge, corner };
 struct TriangleClosestPoint {
     Vec3 point{0.0};  // in the frame of the triangle (unit: meters)
     TriangleFeature feature = TriangleFeature::face;
-    Vec3 edge_direction{0.0};  // unit vector along the edge where feature is edge
+    std::uint8_t edge = 0;  // where feature is edge: 0 from a to b, 1 from b to c, 2 from c to a
 };
 
 // For a triangle without area the feature is an edge or a corner.

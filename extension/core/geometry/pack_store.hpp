@@ -26,6 +26,9 @@ public:
     TrianglePack operator[](std::size_t index) const {
         return single_ ? widened(single_[index]) : exact_[index];
     }
+    TriangleCorners corners(std::size_t index, std::uint32_t lane) const {
+        return single_ ? corners_of(single_[index], lane) : corners_of(exact_[index], lane);
+    }
     void set(std::size_t index, const TrianglePack& pack) {
         if (single_) {
             single_[index] = {narrowed(pack.a), narrowed(pack.b), narrowed(pack.c)};

@@ -25,23 +25,17 @@ Vec3 normal_at(const TriangleCorners& t, TriangleFeature kind, const Vec3& offse
 
 }  // namespace
 
-TriangleCorners triangle_corners(const TriangleTree& tree, std::uint32_t slot) {
-    const TrianglePack& pack = tree.pack(slot / lane_count);
-    const auto k = static_cast<int>(slot % lane_count);
-    return {lane(pack.a, k), lane(pack.b, k), lane(pack.c, k)};
-}
-
 SurfacePoint surface_point(const TouchPart& part, std::uint32_t triangle, const Vec3& center) {
     if (!part.tree()) {
         const SolidDistance at = distance_to_solid(part.solid(), center);
         return {at.distance, center - at.normal * at.distance, at.normal};
     }
-    const TriangleCorners t = triangle_corners(*part.tree(), triangle);
+    const TriangleCorners t = part.tree()->corners(triangle);
     const TriangleClosestPoint closest = closest_point_on_triangle(center, t.a, t.b, t.c);
     const Vec3 offset = center - closest.point;
     const double distance = glm::length(offset);
     return {distance, closest.point, normal_at(t, closest.feature, offset, distance), closest.feature,
-            closest.edge_direction};
+            closest.edge};
 }
 
 Hit sweep_surface(const TouchPart& part, const SphereWay& way, double limit, WorkBudget& work) {

@@ -15,17 +15,12 @@ struct SurfacePoint {
     Vec3 point{0.0};             // on the surface (unit: meters)
     Vec3 normal{0.0, 1.0, 0.0};  // unit, from the surface to the point asked for
     TriangleFeature kind = TriangleFeature::face;
-    Vec3 edge_direction{0.0};  // unit, along the edge of a triangle where kind is edge
+    std::uint8_t edge = 0;  // of the triangle where kind is edge, see TriangleClosestPoint
 };
 
 SurfacePoint surface_point(const TouchPart& part, std::uint32_t triangle, const Vec3& center);
 
 // The first feature that stops the sphere at t <= limit.
 Hit sweep_surface(const TouchPart& part, const SphereWay& way, double limit, WorkBudget& work);
-
-struct TriangleCorners {
-    Vec3 a, b, c;
-};
-TriangleCorners triangle_corners(const TriangleTree& tree, std::uint32_t slot);
 
 }  // namespace tactus

@@ -21,6 +21,17 @@ struct alignas(32) TrianglePack {
     LanesVec3 a, b, c;
 };
 
+struct TriangleCorners {
+    Vec3 a, b, c;
+};
+
+// Of one triangle, of a pack in either precision.
+template <class Pack>
+TriangleCorners corners_of(const Pack& pack, std::uint32_t lane) {
+    const auto corner = [&](const auto& of) { return Vec3(of.x[lane], of.y[lane], of.z[lane]); };
+    return {corner(pack.a), corner(pack.b), corner(pack.c)};
+}
+
 struct PackOffset {
     LanesVec3 offset;  // from the closest point of each triangle to the point (unit: meters)
     Lanes squared;     // its squared length (unit: square meters)

@@ -106,6 +106,9 @@ public:
     TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
     void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
+    TriangleCorners corners(std::uint32_t slot) const {
+        return packs_.corners(slot / lane_count, slot % lane_count);
+    }
     std::uint32_t triangle_at(std::uint32_t slot) const { return ids_[slot / lane_count][slot % lane_count]; }
     // Which triangles of the mesh stand in the lanes of a pack.
     const PackIds& triangle_ids(std::uint32_t pack) const { return ids_[pack]; }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/geometry/hit.hpp"
@@ -22,8 +23,10 @@ struct FeatureId {
 
 enum class ContactState : std::uint8_t {
     seen,     // as the search found it: good enough to tell which contacts hold the sphere back
-    exact,    // looked at closely: an edge, a corner, or a shape in closed form
     face,     // looked at closely: flat
+    edge,     // likewise: of a triangle
+    corner,   // likewise
+    solid,    // a shape in closed form
     covered,  // an edge or corner for which a nearer or earlier contact stands
 };
 
@@ -32,6 +35,7 @@ struct Contact {
     double gap = 0.0;            // distance still to the resting distance (unit: meters)
     FeatureId feature;
     ContactState state = ContactState::seen;
+    std::uint8_t edge = 0;  // of the triangle where state is edge: from this corner to the next
 };
 
 struct ContactList {
@@ -53,6 +57,14 @@ struct ContactList {
             farthest = contact;
         }
     }
+    // Infinite where there is no contact (unit: meters).
+    double min_gap() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Contact& contact : all()) {
+            least = std::min(least, contact.gap);
+        }
+        return least;
+    }
     // No contact with a larger gap finds room (unit: meters).
     double max_gap() const { return std::ranges::max_element(all(), {}, &Contact::gap)->gap; }
     Contact& operator[](int index) { return items[static_cast<std::size_t>(index)]; }
@@ -64,6 +76,8 @@ struct ContactList {
 // u and cross(normal, u), and where the bent piece of the surface ends.
 struct Curvature {
     static constexpr int max_ends = 32;  // those beyond are left out: the piece then seems to go on
+
+    Curvature() {}  // leaves the ends as they are
 
     Vec3 u{1.0, 0.0, 0.0};                  // unit, perpendicular to the normal, in the world
     double bend_u = 0.0;                    // (unit: 1/meter)

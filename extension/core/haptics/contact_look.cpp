@@ -13,6 +13,16 @@ Vec3 any_perpendicular(const Vec3& n) {
     return glm::normalize(glm::cross(n, other));
 }
 
+ContactState state_of(TriangleFeature feature) {
+    constexpr ContactState states[] = {ContactState::face, ContactState::edge, ContactState::corner};
+    return states[static_cast<std::size_t>(feature)];
+}
+
+Vec3 edge_direction(const TriangleCorners& t, int edge) {
+    const Vec3 way = edge == 0 ? t.b - t.a : edge == 1 ? t.c - t.b : t.a - t.c;
+    return glm::normalize(way);
+}
+
 }  // namespace
 
 SurfacePoint ContactLook::at(const FeatureId& feature) const {
@@ -23,21 +33,23 @@ SurfacePoint ContactLook::at(const FeatureId& feature) const {
 
 Contact ContactLook::exact_contact(const FeatureId& feature) const {
     const SurfacePoint nearest = at(feature);
-    const bool is_face = placed(feature).part->tree() && nearest.kind == TriangleFeature::face;
     return {direction_to_parent(placed(feature).pose, nearest.normal), nearest.distance - rest_, feature,
-            is_face ? ContactState::face : ContactState::exact};
+            placed(feature).part->tree() ? state_of(nearest.kind) : ContactState::solid, nearest.edge};
 }
 
-void ContactLook::look_closely(ContactList& contacts, int index) const {
+bool ContactLook::look_closely(ContactList& contacts, int index, double step) const {
     Contact& contact = contacts[index];
     const SurfacePoint nearest = at(contact.feature);
-    contact.normal = direction_to_parent(placed(contact.feature).pose, nearest.normal);
-    contact.gap = nearest.distance - rest_;
-    if (nearest.kind == TriangleFeature::face) {
-        contact.state = ContactState::face;
-    } else {
-        contact.state = is_covered(contacts, index, nearest) ? ContactState::covered : ContactState::exact;
+    const Vec3 normal = direction_to_parent(placed(contact.feature).pose, nearest.normal);
+    const double gap = nearest.distance - rest_;
+    const bool differs =
+        std::abs(gap - contact.gap) > same_ || glm::distance(normal, contact.normal) * step > same_;
+    contact = {normal, gap, contact.feature, state_of(nearest.kind), nearest.edge};
+    if (is_covered(contacts, index, nearest)) {
+        contact.state = ContactState::covered;
+        return true;
     }
+    return differs;
 }
 
 bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoint& candidate) const {
@@ -55,7 +67,7 @@ bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoin
         if (glm::distance(center_ - other.normal * (other.gap + rest_), point) <= on_it) {
             return true;
         }
-        const TriangleCorners t = triangle_corners(tree, other.feature.triangle);
+        const TriangleCorners t = tree.corners(other.feature.triangle);
         const Vec3 low = glm::min(glm::min(t.a, t.b), t.c) - on_it;
         const Vec3 high = glm::max(glm::max(t.a, t.b), t.c) + on_it;
         return glm::clamp(candidate.point, low, high) == candidate.point &&
@@ -104,49 +116,52 @@ bool ContactLook::is_covered_by_any(const Contact& contact) const {
 
 // An edge ends for a sphere that moves across it where it comes to stand above one of the edge's faces, and a
 // corner where it comes to stand beside one of the corner's edges: whichever triangle is first.
-void ContactLook::add_ends(const ContactList& contacts, const FeatureId& feature, const SurfacePoint& nearest,
-                           Curvature& out) const {
-    const ScenePart& part = placed(feature);
+void ContactLook::add_ends(const ContactList& contacts, const Contact& contact, Curvature& out) const {
+    const ScenePart& part = placed(contact.feature);
     const TriangleTree& tree = *part.part->tree();
-    const Vec3 offset = nearest.normal * nearest.distance;
-    const Vec3 point = to_parent(part.pose, nearest.point);
+    const double distance = contact.gap + rest_;
+    const Vec3 point = center_ - contact.normal * distance;
+    const Vec3 local_point = to_local(part.pose, point);
+    const Vec3 offset = direction_to_local(part.pose, contact.normal) * distance;
+    const bool is_edge = contact.state == ContactState::edge;
+    const Vec3 along =
+        is_edge ? edge_direction(tree.corners(contact.feature.triangle), contact.edge) : Vec3(0.0);
     const double squared_same = same_point * same_point * same_ * same_;
     const auto add = [&](const Vec3& direction) {
         const double room = std::max(0.0, -glm::dot(offset, direction));
         out.add_end({direction_to_parent(part.pose, direction), room});
     };
     for (const Contact& other : contacts.all()) {
-        if (other.feature.part != feature.part ||
-            std::abs(other.gap + rest_ - nearest.distance) > same_point * same_) {
+        if (other.feature.part != contact.feature.part ||
+            std::abs(other.gap - contact.gap) > same_point * same_) {
             continue;
         }
         const Vec3 apart = center_ - other.normal * (other.gap + rest_) - point;
         if (glm::dot(apart, apart) > squared_same) {
             continue;
         }
-        const TriangleCorners t = triangle_corners(tree, other.feature.triangle);
+        const TriangleCorners t = tree.corners(other.feature.triangle);
         Vec3 widest(0.0);  // from the edge to the farthest corner
         for (const Vec3& corner : {t.a, t.b, t.c}) {
-            const Vec3 way = corner - nearest.point;
-            if (nearest.kind == TriangleFeature::edge) {
-                const Vec3& along = nearest.edge_direction;
+            const Vec3 way = corner - local_point;
+            if (is_edge) {
                 const Vec3 off_edge = way - along * glm::dot(along, way);
                 widest = glm::dot(off_edge, off_edge) > glm::dot(widest, widest) ? off_edge : widest;
             } else if (glm::dot(way, way) > squared_same) {
                 add(way);
             }
         }
-        if (nearest.kind == TriangleFeature::edge) {
+        if (is_edge) {
             add(widest);
         }
     }
 }
 
 Curvature ContactLook::curvature_of(const ContactList& contacts, int index) const {
-    const FeatureId& feature = contacts[index].feature;
-    const ScenePart& part = placed(feature);
+    const Contact& contact = contacts[index];
+    const ScenePart& part = placed(contact.feature);
     Curvature result;
-    if (!part.part->tree()) {
+    if (contact.state == ContactState::solid) {
         work_.spend(cost::solid_look);
         const SolidDistance solid = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
         result.u = direction_to_parent(part.pose, solid.u);
@@ -158,22 +173,23 @@ Curvature ContactLook::curvature_of(const ContactList& contacts, int index) cons
         }
         return result;
     }
-    const SurfacePoint nearest = at(feature);
-    const double bend = nearest.distance > 0.0 ? 1.0 / nearest.distance : 0.0;
-    Vec3 u = any_perpendicular(nearest.normal);
-    if (nearest.kind == TriangleFeature::edge) {
+    const double distance = contact.gap + rest_;
+    if (contact.state == ContactState::face || distance <= 0.0) {
+        return result;
+    }
+    result.u = any_perpendicular(contact.normal);
+    result.bend_u = 1.0 / distance;
+    if (contact.state == ContactState::edge) {
         // Normal and edge are perpendicular but for rounding; only a sphere of no size at all has neither.
-        const Vec3 across = glm::cross(nearest.normal, nearest.edge_direction);
+        const TriangleCorners t = part.part->tree()->corners(contact.feature.triangle);
+        const Vec3 across =
+            glm::cross(contact.normal, direction_to_parent(part.pose, edge_direction(t, contact.edge)));
         const double length = glm::length(across);
-        u = length > 0.5 ? across / length : u;
-        result.bend_u = bend;
-    } else if (nearest.kind == TriangleFeature::corner) {
-        result.bend_u = result.bend_v = bend;
+        result.u = length > 0.5 ? across / length : result.u;
+    } else {
+        result.bend_v = result.bend_u;
     }
-    result.u = direction_to_parent(part.pose, u);
-    if (!result.is_flat()) {
-        add_ends(contacts, feature, nearest, result);
-    }
+    add_ends(contacts, contact, result);
     return result;
 }
 
@@ -186,7 +202,7 @@ Touch ContactLook::touch_of(const Contact& contact, double pressure) const {
     touch.body = static_cast<int>(part.body);
     if (part.part->smooth_normals) {
         const std::uint32_t slot = contact.feature.triangle;
-        const TriangleCorners t = triangle_corners(*part.part->tree(), slot);
+        const TriangleCorners t = part.part->tree()->corners(slot);
         const Vec3 smooth = interpolated_normal(
             (*part.part->smooth_normals)[part.part->tree()->triangle_at(slot)], t.a, t.b, t.c,
             to_local(part.pose, touch.point), direction_to_local(part.pose, contact.normal));

@@ -24,10 +24,13 @@ public:
     // and is nearer, the surface there is flat or concave seen from the sphere: that triangle's own contact
     // stands for it. Where several share it equally, the first owns it. Decided from the triangles at hand,
     // it needs no adjacency, and holds for T-junctions and soups, from either side.
-    void look_closely(ContactList& contacts, int index) const;
+    //
+    // False where a step of the given length (unit: meters) that was found with what was seen is right still.
+    bool look_closely(ContactList& contacts, int index, double step) const;
     Contact exact_contact(const FeatureId& feature) const;
     // The same asked of the tree, for a contact whose neighbours may not be among the triangles at hand.
     bool is_covered_by_any(const Contact& contact) const;
+    // Of a contact that has been looked at closely.
     Curvature curvature_of(const ContactList& contacts, int index) const;
     Touch touch_of(const Contact& contact, double pressure) const;
 
@@ -35,8 +38,7 @@ private:
     const ScenePart& placed(const FeatureId& feature) const { return scene_.parts()[feature.part]; }
     SurfacePoint at(const FeatureId& feature) const;
     bool is_covered(ContactList& contacts, int index, const SurfacePoint& candidate) const;
-    void add_ends(const ContactList& contacts, const FeatureId& feature, const SurfacePoint& at,
-                  Curvature& out) const;
+    void add_ends(const ContactList& contacts, const Contact& contact, Curvature& out) const;
 
     const TouchScene& scene_;
     Vec3 center_;

@@ -6,19 +6,10 @@
 
 namespace tactus {
 
-namespace {
-
-// Speed at which the hand goes into the surface, seen from the body (unit: meters per second).
-double approach_speed(const TouchBody& body, const Touch& contact, const Vec3& hand_velocity,
-                      double seconds) {
-    const Vec3 surface_velocity = (contact.point - previous_place(body, contact.point)) / seconds;
-    return -glm::dot(hand_velocity - surface_velocity, contact.normal);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
-                        const Vec3& hand_velocity, double seconds) {
+                        const Vec3& hand_velocity, double seconds, const SafeWalls& safe) {
     HandForce force;
     double all_pressure = 0.0;
     for (const Touch& contact : touching) {
@@ -30,13 +21,18 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         }
         const TouchBody& body = scene.body(contact.body);
         const TouchMaterial& material = body.material;
-        const double spring = material.stiffness * contact.pressure;
-        const double damper = material.damping * approach_speed(body, contact, hand_velocity, seconds);
+        const Wall wall = safe_wall(safe.lag, safe.device_damping, {material.stiffness, material.damping});
+        const Vec3 surface_way = contact.point - previous_place(body, contact.point);
+        const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
+        const double spring = wall.stiffness * contact.pressure;
+        const double damper = wall.damping * approach;
         const Vec3 held = slide * (contact.pressure / all_pressure);
         ContactForce& part = force.contacts[force.contact_count++];
         part.body = contact.body;
         part.point = contact.point;
-        part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * material.stiffness;
+        part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * wall.stiffness;
+        part.wall = wall;
+        force.source += glm::dot(part.on_hand, surface_way);
         force.total += part.on_hand;
     }
     return force;

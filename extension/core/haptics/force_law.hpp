@@ -1,10 +1,12 @@
 // From where proxy and hand are to what the hand feels and what the touched bodies get.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "core/haptics/contact.hpp"
 #include "core/haptics/touch_scene.hpp"
+#include "core/safety/stiffness_limit.hpp"
 
 namespace tactus {
 
@@ -17,6 +19,7 @@ struct ContactForce {
     int body = -1;      // slot in the TouchScene
     Vec3 point{0.0};    // in the world (unit: meters)
     Vec3 on_hand{0.0};  // (unit: newtons); the body gets the opposite
+    Wall wall;          // that has pressed: the material's, or what of it is safe
 };
 
 struct HandForce {
@@ -25,6 +28,13 @@ struct HandForce {
     Vec3 total{0.0};  // on the hand, in the world (unit: newtons)
     ContactForce contacts[most_contacts];
     int contact_count = 0;
+    double source = 0.0;  // energy that bodies on their way give the hand in this tick (unit: joules)
+};
+
+// What of a material's wall a hand may be given.
+struct SafeWalls {
+    LoopLag lag;
+    double device_damping = std::numeric_limits<double>::infinity();  // (unit: newton seconds per meter)
 };
 
 // Each contact presses with its own material's stiffness and damping. What friction holds (`slide`, the pull
@@ -32,7 +42,7 @@ struct HandForce {
 // speed of the hand into the surface, relative to the body, and never pulls. `seconds` is the tick (unit:
 // seconds).
 HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
-                        const Vec3& hand_velocity, double seconds);
+                        const Vec3& hand_velocity, double seconds, const SafeWalls& safe = {});
 
 // Eq. 3.3: the mean of what the hand felt before and what it would feel now. The contacts share the change by
 // how hard each pushes, so that hand and bodies still feel opposite forces.

@@ -54,11 +54,6 @@ bool PassedBodies::pass(int body, PassedBecause reason) {
     return true;
 }
 
-bool PassedBodies::contains(int body) const {
-    const auto end = passed_.begin() + static_cast<std::ptrdiff_t>(count_);
-    return std::find_if(passed_.begin(), end, [&](const Passed& p) { return p.body == body; }) != end;
-}
-
 void PassedBodies::forget(int body) {
     for (std::size_t i = 0; i < count_; ++i) {
         if (passed_[i].body == body) {
@@ -66,11 +61,6 @@ void PassedBodies::forget(int body) {
             return;
         }
     }
-}
-
-bool PassedBodies::any(PassedBecause reason) const {
-    const auto end = passed_.begin() + static_cast<std::ptrdiff_t>(count_);
-    return std::any_of(passed_.begin(), end, [&](const Passed& p) { return p.reason == reason; });
 }
 
 // A surface that broke is whole again once the sphere has been in it and is out, or has drawn back from it:

@@ -4,9 +4,10 @@
 // sphere that overlaps nothing, and without a kick.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
+#include <span>
 
 #include "core/geometry/triangle_tree.hpp"
 #include "core/haptics/touch_scene.hpp"
@@ -40,10 +41,14 @@ public:
 
     // False where there are too many already.
     bool pass(int body, PassedBecause reason);
-    bool contains(int body) const;
+    bool contains(int body) const {
+        return std::ranges::any_of(all(), [&](const Passed& p) { return p.body == body; });
+    }
     bool empty() const { return count_ == 0; }
     std::size_t count() const { return count_; }
-    bool any(PassedBecause reason) const;
+    bool any(PassedBecause reason) const {
+        return std::ranges::any_of(all(), [&](const Passed& p) { return p.reason == reason; });
+    }
 
     // Takes out those that a sphere of that radius around `center` is clear of (unit: meters): by `room`, and
     // outside where it has to be.
@@ -57,6 +62,8 @@ private:
         PassedBecause reason;
         bool entered;  // the sphere has been within its surface since
     };
+
+    std::span<const Passed> all() const { return {passed_.data(), count_}; }
 
     std::array<Passed, capacity> passed_{};
     std::size_t count_ = 0;

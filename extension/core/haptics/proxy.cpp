@@ -1,7 +1,5 @@
 #include "core/haptics/proxy.hpp"
 
-#include "core/haptics/deform_ride.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -10,8 +8,23 @@
 
 namespace tactus {
 
+namespace {
+
+// A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
+// of it, where the hand is as deep as that below the bend's axis. What goes farther has slipped: off an edge
+// that does not hold it, out of static friction, or on from where the work of the last tick had ended.
+constexpr double max_sensitivity = 4.0;
+
+}  // namespace
+
 Proxy::Proxy(std::size_t max_parts, const ProxySettings& settings)
     : settings_(settings), surroundings_(max_parts) {}
+
+void Proxy::put(const Vec3& place) {
+    surroundings_.jumped(glm::distance(place, position_));
+    position_ = place;
+    contacts_hold_ = false;
+}
 
 // A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins
 // without a kick. Until then it is absent and follows the hand. A hand that starts by just touching has room
@@ -22,30 +35,6 @@ bool Proxy::appear() {
                !is_inside_one_sided(*scene_, position_, settings_.mask, surroundings_.work());
     contacts_hold_ = false;
     return present_;
-}
-
-// Whether the force may change although neither hand nor bodies have moved.
-bool Proxy::take_in_jumps() {
-    const bool missed = scene_->ticks() > std::exchange(scene_ticks_, scene_->ticks()) + 1;
-    const bool other_sphere =
-        settings_.radius != settled_.radius || settings_.mask != settled_.mask || missed;
-    const std::uint64_t since = std::exchange(revision_, scene_->revision());
-    const bool other_material =
-        std::exchange(material_changes_, scene_->material_changes()) != scene_->material_changes();
-    settled_ = settings_;
-    if (!other_sphere && since == revision_) {
-        return other_material;
-    }
-    if (present_) {
-        let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(), surroundings_.work()));
-    }
-    return true;
-}
-
-// Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.
-void Proxy::let_go(bool every) {
-    present_ = present_ && every;
-    contacts_hold_ = false;
 }
 
 // Straight on as far as the way is known to be free. A long way over a rough surface mostly ends early, and
@@ -67,87 +56,6 @@ Hit Proxy::advance(const Vec3& motion, FeatureId& stopped_by, int except) {
         surroundings_.travelled(free_share * length);
     }
     return hit;
-}
-
-// The moving body that the proxy rests on most.
-int Proxy::carrier() const {
-    int body = -1;
-    double max_pressure = 0.0;
-    for (const Touch& contact : touching()) {
-        if (contact.pressure > max_pressure && scene_->body(contact.body).moved) {
-            body = contact.body;
-            max_pressure = contact.pressure;
-        }
-    }
-    return body;
-}
-
-// The body's triangles on their way since the last tick, where the body was then. False where they leave the
-// proxy no room.
-bool Proxy::ride_deformation(int index) {
-    const TouchBody& body = scene_->body(index);
-    const bool rests = std::ranges::any_of(touching(), [&](const Touch& c) { return c.body == index; });
-    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
-        const TouchPart& from = body.former->parts[i];
-        const TouchPart& to = body.shape->parts[i];
-        const Pose placed = compose(body.previous, to.pose);
-        const Vec3 local = to_local(placed, position_);
-        if (glm::length(local - to.center) > std::max(from.radius, to.radius) + 1.1 * settings_.radius) {
-            continue;
-        }
-        const DeformSweep sweep(*from.tree(), *to.tree());
-        const auto advanced = [&](const Vec3& motion) {
-            const Vec3 before = position_;
-            FeatureId stopped_by;
-            advance(direction_to_parent(placed, motion), stopped_by, index);
-            return direction_to_local(placed, position_ - before);
-        };
-        if (!ride({sweep, settings_.radius, rests}, local, surroundings_.work(), advanced)) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void Proxy::ride_deformations(ProxyTick& tick) {
-    for (const int index : scene_->deformed_bodies()) {
-        const TouchBody& body = scene_->body(index);
-        PassedBodies& passed = surroundings_.passed();
-        if ((body.layer & settings_.mask) != 0 && !passed.contains(index) &&
-            is_deformation(*body.former, *body.shape) && !ride_deformation(index)) {
-            tick.status |= proxy_squeezed;
-            let_go(passed.pass(index, PassedBecause::squeezes));
-        }
-    }
-}
-
-// A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
-// leads through anything but the body that causes it, which stands at its new place already.
-void Proxy::ride_along(ProxyTick& tick) {
-    ride_deformations(tick);
-    if (scene_->moved_bodies().empty()) {
-        return;
-    }
-    bool free = true;
-    FeatureId stopped_by;
-    const int carried_by = carrier();
-    if (carried_by >= 0) {
-        const TouchBody& body = scene_->body(carried_by);
-        const Vec3 carried = to_parent(body.pose, to_local(body.previous, position_));
-        free = advance(carried - position_, stopped_by, carried_by).is_free();
-    }
-    bool squeezed = !free;
-    Surroundings::Push push;
-    for (std::size_t from = 0; surroundings_.next_push(from, position_, free ? carried_by : -1, push);) {
-        free = advance(push.displacement, stopped_by, push.body).is_free();
-        squeezed = squeezed || !free;
-    }
-    if (squeezed) {
-        tick.status |= proxy_squeezed;
-        const std::size_t before = surroundings_.passed().count();
-        let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work()));
-        tick.jumped = tick.jumped || surroundings_.passed().count() != before;
-    }
 }
 
 // Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
@@ -183,8 +91,7 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
 // Friction has no say in that. False where there is nothing to lift: what a sweep has stopped at is half a
 // skin below rest, and the next step rises by that much on its way.
 bool Proxy::lift() {
-    const auto below_stop = [&](const Contact& contact) { return contact.gap < -0.625 * tolerances().skin; };
-    if (!std::ranges::any_of(contacts_.all(), below_stop)) {
+    if (contacts_.min_gap() >= -0.625 * tolerances().skin) {
         return false;
     }
     const Vec3 motion = lift_to_rest(contacts_, tolerances().same, surroundings_.work());
@@ -236,14 +143,14 @@ bool Proxy::fly(const Vec3& hand) {
 ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     WorkBudget& work = surroundings_.work();
     const ContactLook look = surroundings_.look_from(position_);
+    const double length = glm::length(pull);
     ConstrainedStep step;
     for (bool again = true; again;) {
         step = flat_step(pull, contacts_, tolerances().same, work);
         again = false;
         for (int i = 0; i < step.pressing_count && !work.is_gone(); ++i) {
             if (contacts_[step.pressing[i]].state == ContactState::seen) {
-                look.look_closely(contacts_, step.pressing[i]);
-                again = true;
+                again = look.look_closely(contacts_, step.pressing[i], length) || again;
             }
         }
     }
@@ -260,11 +167,11 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     if (is_flat || step.pressing_count == TouchList::capacity) {
         return step;
     }
-    std::array<Curvature, TouchList::capacity - 1> curvatures;
-    for (int i = 0; i < step.pressing_count; ++i) {
-        curvatures[static_cast<std::size_t>(i)] = look.curvature_of(contacts_, step.pressing[i]);
-    }
-    bend_step(step, pull, contacts_, {curvatures.data(), static_cast<std::size_t>(step.pressing_count)},
+    const auto curvature = [&](int i) {
+        return i < step.pressing_count ? look.curvature_of(contacts_, step.pressing[i]) : Curvature{};
+    };
+    const Curvature curvatures[] = {curvature(0), curvature(1)};
+    bend_step(step, pull, contacts_, {curvatures, static_cast<std::size_t>(step.pressing_count)},
               tolerances().same, descent.trust);
     return step;
 }
@@ -331,11 +238,35 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         }
     }
     sliding_ = sliding_ && descent.slid;
+    overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
     keep_touching(step);
     tick.slide = step.pressing_count > 0 ? step.slide : Vec3(0.0);
     if (tick.residual > tolerances().step) {
         tick.status |= proxy_unfinished;
     }
+}
+
+// Up to the hand, or as near as the surfaces let it. `given_way`: of the hand and of what carries the proxy
+// since the last tick (unit: meters).
+void Proxy::follow(const Vec3& hand, double given_way, ProxyTick& tick) {
+    const Vec3 start = position_;
+    const bool overlapped = std::exchange(overlaps_, false);
+    const bool touched = touching_.count > 0;
+    touching_.clear();
+    if (!fly(hand)) {
+        descend(hand, tick);
+    }
+    const bool touches = touching_.count > 0;
+    const bool slipped = (touched || touches) &&
+                         glm::distance(position_, start) > max_sensitivity * given_way + tolerances().reach;
+    tick.jumped = tick.jumped || slipped || overlapped || overlaps_;
+    const PassedBodies& passed = surroundings_.passed();
+    const bool lets_out_of_squeeze = passed.any(PassedBecause::squeezes);
+    const auto say = [&](ProxyStatus status, bool holds) { tick.status |= holds ? status : 0u; };
+    say(proxy_touching, touches);
+    say(proxy_sliding, sliding_);
+    say(proxy_squeezed, overlaps_ || lets_out_of_squeeze);
+    say(proxy_letting_out, lets_out_of_squeeze || passed.any(PassedBecause::overlaps));
 }
 
 ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
@@ -344,43 +275,32 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     // Devices do send numbers that are none: the hand stays where it was last.
     constexpr double farthest = 1e9;
     const Vec3 size = glm::abs(given_hand);
-    hand_ = size.x <= farthest && size.y <= farthest && size.z <= farthest ? given_hand : hand_;
-    const Vec3 hand = hand_;
+    const bool is_place = size.x <= farthest && size.y <= farthest && size.z <= farthest;
+    const Vec3 hand_before = std::exchange(hand_, is_place ? given_hand : hand_);
     if (!present_) {
-        surroundings_.jumped(glm::distance(hand, position_));
-        position_ = hand;
+        put(hand_);
     }
     const bool changed = surroundings_.begin_tick(scene, position_, settings_.radius, settings_.mask,
                                                   WorkBudget(settings_.max_work, settings_.max_work / 8));
     contacts_hold_ = contacts_hold_ && !changed;
     const bool was_present = present_;
+    const Vec3 before = position_;
     tick.jumped = take_in_jumps();
     if (present_) {
         ride_along(tick);
     }
+    const double given_way = glm::distance(hand_, hand_before) + glm::distance(position_, before);
     if (was_present && !present_) {
-        displace(hand - position_);
+        put(hand_);
         tick.jumped = true;
     }
-    if (!present_ && !appear()) {
+    if (present_ || appear()) {
+        follow(hand_, given_way, tick);
+    } else {
         touching_.clear();
-        tick.position = hand;
         tick.status |= proxy_absent;
-        return tick;
-    }
-    touching_.clear();
-    if (!fly(hand)) {
-        descend(hand, tick);
     }
     tick.position = position_;
-    tick.status |= touching_.count > 0 ? static_cast<std::uint32_t>(proxy_touching) : 0u;
-    tick.status |= sliding_ ? static_cast<std::uint32_t>(proxy_sliding) : 0u;
-    const PassedBodies& passed = surroundings_.passed();
-    if (passed.any(PassedBecause::squeezes)) {
-        tick.status |= static_cast<std::uint32_t>(proxy_squeezed) | proxy_letting_out;
-    } else if (passed.any(PassedBecause::overlaps)) {
-        tick.status |= proxy_letting_out;
-    }
     return tick;
 }
 

@@ -41,8 +41,9 @@ struct ProxyTick {
     double residual = 0.0;  // length of the step that would come next (unit: meters)
     std::uint32_t status = 0;
     int steps = 0;
-    // Something else than the motion of the hand and of bodies has changed what is touched since the last
-    // tick: the force may jump (see FadingForce).
+    // The force may jump (see FadingForce): something else than the motion of the hand and of bodies has
+    // changed what is touched, the proxy has slipped farther than that motion leads it, or it is squeezed and
+    // has no place that follows from where the hand is.
     bool jumped = false;
 };
 
@@ -51,6 +52,7 @@ struct ProxyMemory {
     Vec3 position{0.0};  // in the world (unit: meters)
     bool present = false;
     bool sliding = false;
+    bool overlaps = false;
     Vec3 hand{0.0};  // in the world (unit: meters)
     TouchList touching;
 };
@@ -70,17 +72,14 @@ public:
     const Vec3& position() const { return position_; }
 
     // Moves the proxy by hand, without a sweep: for a correction that carries it along with an object.
-    void displace(const Vec3& offset) {
-        position_ += offset;
-        surroundings_.jumped(glm::length(offset));
-        contacts_hold_ = false;
-    }
+    void displace(const Vec3& offset) { put(position_ + offset); }
     // The proxy as it was, to move it again from there.
-    ProxyMemory memory() const { return {position_, present_, sliding_, hand_, touching_}; }
+    ProxyMemory memory() const { return {position_, present_, sliding_, overlaps_, hand_, touching_}; }
     void recall(const ProxyMemory& memory) {
-        displace(memory.position - position_);
+        put(memory.position);
         present_ = memory.present;
         sliding_ = memory.sliding;
+        overlaps_ = memory.overlaps;
         hand_ = memory.hand;
         touching_ = memory.touching;
     }
@@ -112,7 +111,9 @@ private:
         bool slid = false;
     };
 
+    void put(const Vec3& place);
     bool appear();
+    void follow(const Vec3& hand, double given_way, ProxyTick& tick);
     TouchingSphere sphere() const { return {position_, settings_.radius, settings_.mask, touching()}; }
     bool take_in_jumps();
     void let_go(bool every);
@@ -141,6 +142,7 @@ private:
     Vec3 hand_{0.0};  // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
+    bool overlaps_ = false;       // a surface, since the last move
     // What the last move has seen.
     std::uint64_t scene_ticks_ = 0;
     std::uint64_t revision_ = 0;

@@ -49,14 +49,14 @@ bool Surroundings::counts(std::uint32_t part, double length, int except) const {
 // The memory of a part: its own, or the one that was least recently used.
 std::size_t Surroundings::owner_of(std::uint32_t part) {
     const std::uint32_t stamp = broad_phase_.stamp(part);
-    std::size_t oldest = 0;
     for (std::size_t i = 0; i < max_memories; ++i) {
         if (owners_[i].part == part && owners_[i].stamp == stamp) {
             owners_[i].used_at = ticks_;
             return i;
         }
-        oldest = owners_[i].used_at < owners_[oldest].used_at ? i : oldest;
     }
+    const auto least_recent = std::ranges::min_element(owners_, {}, &Owner::used_at);
+    const auto oldest = static_cast<std::size_t>(least_recent - owners_.begin());
     owners_[oldest] = {part, stamp, ticks_};
     memories_[oldest].clear();
     return oldest;

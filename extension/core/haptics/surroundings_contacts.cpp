@@ -51,7 +51,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, do
         out.add({direction_to_parent(placed.pose, at.normal),
                  at.distance - rest(),
                  {index},
-                 ContactState::exact});
+                 ContactState::solid});
         limit = limit_from(at.distance, rest(), tolerances().reach, limit);
     }
 }

@@ -1,48 +1,109 @@
 // Places that the far side sees only roughly, as a camera does, made steady.
 //
-// What was received is compared with where the model, which began from the last filtered place, expects the
-// body to be at that sample. Chance changes the difference y from one state to the next; what the model gets
-// wrong stays. With the mean squares
+// From one state to the next a body goes a way that its velocities and the model tell well (PoseStep). What
+// is seen besides, e_k, is chance n_k and what the way leaves open, q_k, whose mean square is known:
 //
-//     n = mean of |y_k - y_(k-1)|^2 / 2      chance
-//     s = mean of y_k . y_(k-1)              what stays
+//     e_k = n_k - n_(k-1) + q_k        mean of |e_k|^2 = 2 R + Q        mean of e_k . e_(k-1) = -R
 //
-// the share of a difference that is believed is s / (s + n), at least as much as a mean over what the body
-// has been at rest for. Where n is below what a right model and an honest far side differ by, all is
-// believed, to the last bit.
+// R follows from both, the smaller of the two: one jump of a body makes the first large and leaves the second
+// as it is, a way that is told badly and ever anew makes the second zero. All bodies are seen by the same
+// eyes: what the others have taught counts for a few states of a body's own. Where R is no more than an
+// honest far side and rounding make, all is believed, to the last bit.
+//
+// Else there are two beliefs, both carried along each way and drawn towards what is seen by Kalman's gain
+// (with the variance in units of R, the gain after one state is the variance before the next):
+//     trusting    the model was right at the start: of variance zero there
+//     seeing      nothing was known at the start
+// The first holds until what is seen contradicts it: a correction that chance explains is not made. At rest
+// no way leaves anything open: both gains fall like 1 / k, and the body is estimated at rest.
 #pragma once
 
-#include <cstdint>
-
-#include "core/teleop/body_motion.hpp"
+#include "core/math/pose.hpp"
 
 namespace tactus {
 
 struct PoseFilterSettings {
-    double trusted =
-        1e-4;             // chance below this is none: places are believed as they come (unit: meters), >= 0
-    double memory = 0.2;  // of the mean squares (unit: seconds), > 0
-    double still_speed =
-        2e-3;  // a body that is slower and that nothing pushes rests (unit: meters per second)
-    double still_spin = 0.02;   // (unit: radians per second)
-    double most_at_rest = 200;  // states that are averaged over at rest, >= 1
+    double place = 5e-5;        // a deviation below this is none (unit: meters), > 0
+    double turn = 5e-4;         // (unit: radians), > 0
+    double states = 200;        // over which R is averaged, >= 2
+    double contradicted = 5.0;  // deviations that chance does not explain, > 0
+};
+
+// How a body came from the last state to this one.
+struct PoseStep {
+    Vec3 way{0.0};                  // (unit: meters)
+    Quat turn{1.0, 0.0, 0.0, 0.0};  // about its own origin, in the parent's frame
+    double open_way = 0.0;          // root mean square of what the way leaves open (unit: meters), >= 0
+    double open_turn = 0.0;         // (unit: radians), >= 0
+};
+
+// What e_k were, on average.
+struct Chance {
+    double count = 0.0;    // of e_k
+    double squares = 0.0;  // mean of |e_k|^2
+    double lagged = 0.0;   // mean of e_k . e_(k-1)
+    double open = 0.0;     // Q
+
+    void note(const Vec3& e, const Vec3& before, bool before_known, double left_open, double states);
+    // R, of one axis, and what it is at most after so few states.
+    double variance() const;
+    double variance_at_most() const;
+};
+
+// `own` and what others have taught.
+Chance together(const Chance& own, const Chance& others);
+
+// A vector that is seen roughly.
+class RoughVector {
+public:
+    // The two beliefs, off the newest that was seen.
+    struct Off {
+        Vec3 trusting{0.0}, seeing{0.0};
+    };
+
+    // What is to be believed of the first that is seen, off it.
+    Vec3 begin(const PoseFilterSettings& settings, double none, const Off& off, const Chance& others);
+
+    // `e`: how far off the place to which the step has led the last one; `open`: root mean square of what the
+    // step leaves open. What is to be believed, off the newest.
+    Vec3 see(const PoseFilterSettings& settings, double none, const Vec3& e, const Off& off, double open,
+             Chance& others);
+
+    Off off() const { return {trusting_.off, seeing_.off}; }
+
+private:
+    struct Belief {
+        Vec3 off{0.0};
+        double gain = 0.0;
+    };
+
+    void note(const PoseFilterSettings& settings, const Vec3& e, double open, Chance& others);
+    Vec3 believed(const PoseFilterSettings& settings, const Chance& chance);
+
+    Belief trusting_, seeing_{Vec3(0.0), 1.0};
+    Chance chance_;
+    Vec3 before_{0.0};   // e_(k-1)
+    Vec3 leaning_{0.0};  // mean of what is seen off `trusting`, lately
+    int jumps_ = 0;      // in succession
+};
+
+// What all bodies have taught about the far side's eyes.
+struct FarEyes {
+    Chance place, turn;
 };
 
 class PoseFilter {
 public:
-    // `expected`: by the model at the same sample; `seconds` since the state before. What is to be believed.
-    BodyMotion filter(const PoseFilterSettings& settings, const BodyMotion& received,
-                      const BodyMotion& expected, double seconds);
+    // `model`: where the model has it at the same sample.
+    Pose filter(const PoseFilterSettings& settings, const Pose& seen, const Pose& model, const PoseStep& step,
+                FarEyes& eyes);
 
     void forget() { *this = {}; }
-    double chance() const { return chance_; }  // mean square (unit: square meters)
 
 private:
     bool known_ = false;
-    Vec3 before_{0.0};      // the last difference (unit: meters)
-    double chance_ = 0.0;   // n
-    double stays_ = 0.0;    // s
-    double at_rest_ = 0.0;  // states since the body rests
+    Pose seen_, trusting_, seeing_;
+    RoughVector place_, turn_;
 };
 
 }  // namespace tactus

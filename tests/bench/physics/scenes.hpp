@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "realtime/clock.hpp"
+#include "platform/clock.hpp"
 #include "session/session.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/bodies.hpp"

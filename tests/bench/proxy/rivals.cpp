@@ -1,12 +1,12 @@
 #include "proxy/rivals.hpp"
 
-#include <dlfcn.h>
-
 #include <array>
 #include <cstdio>
 #include <filesystem>
 
+#include "platform/shared_library.hpp"
 #include "proxy/jolt_cast.hpp"
+#include "support/process.hpp"
 
 #if __has_include(<btBulletCollisionCommon.h>)
 #include <btBulletCollisionCommon.h>
@@ -63,15 +63,14 @@ private:
 
 // Built beside this program where that Jolt is there: see tools/bench.py.
 const TactusJoltCast* load_fast_jolt() {
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-    const std::filesystem::path library = program.parent_path() / "libjolt_fast_cast.so";
+    const std::filesystem::path library = testing::program_path().parent_path() / "libjolt_fast_cast.so";
     if (!std::filesystem::exists(library)) {
         return nullptr;
     }
-    void* const loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    void* const function = loaded ? dlsym(loaded, "tactus_jolt_cast") : nullptr;
+    std::string error;
+    void* const function = function_of_library(library, "tactus_jolt_cast", error);
     if (!function) {
-        std::fprintf(stderr, "%s\n", dlerror());
+        std::fprintf(stderr, "%s\n", error.c_str());
         return nullptr;
     }
     return reinterpret_cast<const TactusJoltCast* (*)()>(function)();

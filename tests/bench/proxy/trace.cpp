@@ -13,6 +13,7 @@
 #include "core/haptics/force_law.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/touch_rig.hpp"
+#include "support/process.hpp"
 
 namespace tactus::bench {
 
@@ -85,7 +86,7 @@ int write_trace(const TraceSettings& settings) {
         std::perror(settings.output.c_str());
         return 2;
     }
-    shared::stay_on_one_processor();
+    testing::stay_on_one_processor();
     const shared::SpanClock clock;
     shared::TouchRig rig(settings.radius);
     rig.add(obj.mesh, {},

@@ -40,10 +40,13 @@ TEST(ClosestPointOnTriangle, BeyondACorner) {
     expect_in_every_order({-0.1, 0.5, 4.0}, triangle[2], TriangleFeature::corner);
 }
 
-TEST(ClosestPointOnTriangle, EdgeDirectionIsUnitAndAlongTheEdge) {
-    const TriangleClosestPoint found =
-        closest_point_on_triangle({1.0, 0.5, -1.0}, triangle[0], triangle[1], triangle[2]);
-    EXPECT_NEAR(std::abs(found.edge_direction.x), 1.0, 1e-15);
+TEST(ClosestPointOnTriangle, EdgesAreNumberedByTheirFirstCorner) {
+    const auto edge_beside = [](const Vec3& point) {
+        return closest_point_on_triangle(point, triangle[0], triangle[1], triangle[2]).edge;
+    };
+    EXPECT_EQ(edge_beside({1.0, 0.5, -1.0}), 0);
+    EXPECT_EQ(edge_beside({2.0, 0.5, 2.0}), 1);
+    EXPECT_EQ(edge_beside({-1.0, 0.5, 1.0}), 2);
 }
 
 TEST(ClosestPointOnTriangle, ATriangleWithoutAreaHasNoFace) {

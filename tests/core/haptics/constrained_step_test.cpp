@@ -19,7 +19,7 @@ struct Sample {
 };
 
 Sample flat(const Vec3& normal, double gap = 0.0) {
-    Sample sample{{normal, gap, {}, ContactState::exact}, {}};
+    Sample sample{{normal, gap, {}, ContactState::solid}, {}};
     const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
     sample.curvature.u = glm::normalize(glm::cross(normal, other));
     return sample;

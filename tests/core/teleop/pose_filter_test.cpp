@@ -6,63 +6,144 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "core/teleop/body_motion.hpp"
+
 namespace tactus {
 namespace {
 
-constexpr double between = 0.005;
-
-BodyMotion at(const Vec3& position, const Vec3& velocity = Vec3(0.0)) {
-    BodyMotion made;
-    made.pose.position = position;
-    made.linear_velocity = velocity;
-    return made;
+Pose at(const Vec3& position, const Quat& rotation = {1.0, 0.0, 0.0, 0.0}) {
+    return {position, rotation};
 }
 
+PoseStep step_of(const Vec3& way, double open_way = 0.0) {
+    PoseStep step;
+    step.way = way;
+    step.open_way = open_way;
+    return step;
+}
+
+// Sees poses with normally distributed chance.
+class RoughEyes {
+public:
+    RoughEyes(double of_place, double of_turn, unsigned seed = 3)
+        : of_place_(of_place), of_turn_(of_turn), random_(seed) {}
+
+    Pose see(const Pose& pose) {
+        return {pose.position + of_place_ * vector(),
+                glm::normalize(turn_by(of_turn_ * vector(), 1.0) * pose.rotation)};
+    }
+
+private:
+    Vec3 vector() { return {normal_(random_), normal_(random_), normal_(random_)}; }
+
+    double of_place_, of_turn_;
+    std::mt19937_64 random_;
+    std::normal_distribution<double> normal_{0.0, 1.0};
+};
+
 TEST(PoseFilter, AnHonestFarSideIsBelievedToTheBit) {
-    const PoseFilterSettings settings;
     PoseFilter filter;
+    FarEyes eyes;
+    Vec3 before(0.0);
     for (int i = 0; i < 500; ++i) {
         const Vec3 place(0.001 * i, std::sin(0.1 * i) * 1e-3, 0.0);
-        const BodyMotion received = at(place, {0.2, 0.0, 0.0});
-        EXPECT_EQ(filter.filter(settings, received, at(place + Vec3(2e-5, 0.0, 1e-5)), between).pose.position,
-                  place);
+        const Quat turned = turn_by({0.0, 0.01 * i, 0.0}, 1.0);
+        PoseStep step = step_of(place - before + Vec3(2e-5, 0.0, 1e-5));
+        step.turn = turn_by({0.0, i > 0 ? 0.01 : 0.0, 0.0}, 1.0);
+        const Pose believed =
+            filter.filter({}, at(place, turned), at(place + Vec3(1e-4, 0.0, 0.0)), step, eyes);
+        EXPECT_EQ(believed.position, place);
+        EXPECT_EQ(believed.rotation, turned);
+        before = place;
     }
 }
 
 TEST(PoseFilter, ABodyThatIsReallyElsewhereIsBelievedAtOnce) {
-    const PoseFilterSettings settings;
     PoseFilter filter;
+    FarEyes eyes;
+    RoughEyes rough(1e-3, 0.0);
     for (int i = 0; i < 200; ++i) {
-        filter.filter(settings, at(Vec3(0.0)), at(Vec3(0.0)), between);
+        filter.filter({}, rough.see(at(Vec3(0.0))), at(Vec3(0.0)), {}, eyes);
     }
-    const BodyMotion there = at({0.2, 0.0, 0.0});
-    EXPECT_EQ(filter.filter(settings, there, at(Vec3(0.0)), between).pose.position, there.pose.position);
+    const Pose there = at({0.2, 0.0, 0.0});
+    EXPECT_EQ(filter.filter({}, there, at(Vec3(0.0)), {}, eyes).position, there.position);
 }
 
-// The model begins from the last place that was believed and errs by 0.2 mm a state.
-double error_with_noise(double deviation, const Vec3& velocity) {
-    const PoseFilterSettings settings;
+TEST(PoseFilter, ACorrectionThatChanceExplainsIsNotMade) {
     PoseFilter filter;
-    std::mt19937_64 random(3);
-    std::normal_distribution<double> normal(0.0, deviation);
-    Vec3 truth(0.0), believed(0.0);
-    double sum = 0.0;
+    FarEyes eyes;
+    RoughEyes rough(1e-3, 5e-3);
+    const Pose model = at({0.1, 0.2, 0.3}, turn_by({0.3, 0.0, 0.1}, 1.0));
+    for (int i = 0; i < 1000; ++i) {
+        const Pose believed = filter.filter({}, rough.see(model), model, {}, eyes);
+        if (i > 20) {
+            EXPECT_LT(glm::distance(believed.position, model.position), 1e-12) << i;
+            EXPECT_LT(angle_between(believed.rotation, model.rotation), 1e-12) << i;
+        }
+    }
+}
+
+TEST(PoseFilter, WhatOneBodyHasTaughtCountsForTheNext) {
+    FarEyes eyes;
+    RoughEyes rough(1e-3, 0.0);
+    PoseFilter first, second;
+    for (int i = 0; i < 50; ++i) {
+        first.filter({}, rough.see(at(Vec3(0.0))), at(Vec3(0.0)), {}, eyes);
+    }
+    const Pose model = at({1.0, 0.0, 0.0});
+    EXPECT_LT(glm::distance(second.filter({}, rough.see(model), model, {}, eyes).position, model.position),
+              1e-12);
+}
+
+// Mean distance from the truth of a body that the model has 30 mm elsewhere, and whose way is told `told`
+// times as long as it is.
+double error_with_chance(double deviation, const Vec3& velocity, double told, bool begins_late = false) {
+    constexpr double between = 0.005;
     constexpr int states = 4000;
+    PoseFilter filter;
+    FarEyes eyes;
+    RoughEyes rough(deviation, 0.0), fine(0.0, 0.0);
+    Vec3 truth(0.0);
+    double sum = 0.0;
     for (int i = 0; i < states; ++i) {
         truth += velocity * between;
-        const Vec3 expected = believed + velocity * between * 1.02;
-        const Vec3 seen = truth + Vec3(normal(random), normal(random), normal(random));
-        believed = filter.filter(settings, at(seen, velocity), at(expected), between).pose.position;
-        sum += i > 400 ? glm::distance(believed, truth) : 0.0;
+        const Pose seen = (begins_late && i < 1000 ? fine : rough).see(at(truth));
+        const PoseStep step = step_of(velocity * between * told);
+        const Pose believed = filter.filter({}, seen, at(truth + Vec3(0.03, 0.0, 0.0)), step, eyes);
+        sum += i >= states / 2 ? glm::distance(believed.position, truth) : 0.0;
     }
-    return sum / (states - 400);
+    return sum / (states / 2);
 }
 
-TEST(PoseFilter, ChanceIsTakenOutWhileABodyMovesAndMoreSoAtRest) {
+TEST(PoseFilter, ChanceIsTakenOutOfWhatRestsAndOfWhatMoves) {
     constexpr double deviation = 1e-3;
     const double unfiltered = deviation * std::sqrt(8.0 / 3.14159265358979);
-    EXPECT_LT(error_with_noise(deviation, {0.2, 0.0, 0.0}), 0.4 * unfiltered);
-    EXPECT_LT(error_with_noise(deviation, Vec3(0.0)), 0.15 * unfiltered);
+    EXPECT_LT(error_with_chance(deviation, Vec3(0.0), 1.0), 0.05 * unfiltered);
+    EXPECT_LT(error_with_chance(deviation, {0.2, 0.0, 0.0}, 1.0), 0.05 * unfiltered);
+    EXPECT_LT(error_with_chance(deviation, {0.2, 0.0, 0.0}, 1.0, true), 0.1 * unfiltered);
+}
+
+TEST(PoseFilter, AWayThatIsToldTooLongIsFoundOut) {
+    constexpr double deviation = 1e-3;
+    EXPECT_LT(error_with_chance(deviation, {0.2, 0.0, 0.0}, 1.02), 1.5 * deviation);
+    EXPECT_LT(error_with_chance(deviation, {0.2, 0.0, 0.0}, 1.2), 3.0 * deviation);
+}
+
+TEST(PoseFilter, AWayThatIsOpenIsSeen) {
+    constexpr double between = 0.005;
+    PoseFilter filter;
+    FarEyes eyes;
+    RoughEyes rough(1e-3, 0.0);
+    Vec3 truth(0.0);
+    double sum = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        const double velocity = i % 100 < 50 ? 0.3 : -0.3;
+        truth.x += velocity * between;
+        const Pose believed =
+            filter.filter({}, rough.see(at(truth)), at(truth), step_of(Vec3(0.0), 0.3 * between), eyes);
+        sum += glm::distance(believed.position, truth);
+    }
+    EXPECT_LT(sum / 2000, 2e-3);
 }
 
 }  // namespace

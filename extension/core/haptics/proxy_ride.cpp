@@ -1,0 +1,170 @@
+// What the scene does to the proxy before it follows the hand: bodies that come to stand where it is let it
+// out, those that move carry or push it, those that deform do both.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "core/geometry/deform_sweep.hpp"
+#include "core/haptics/proxy.hpp"
+
+namespace tactus {
+
+namespace {
+
+// A mesh deforms, and takes a sphere along: a surface that runs into it pushes it ahead, one that it rests on
+// carries it. However far the corners have gone, none of the triangles passes its centre.
+//
+// The time between the two forms is walked in steps. In each, no triangle comes nearer to the centre than
+// half of what the nearest one was; then the sphere is lifted off again, each time by less than the distance
+// to the nearest triangle. So no step and no lift leads the centre through a surface.
+struct DeformRide {
+    const DeformSweep& sweep;
+    double radius;  // (unit: meters), > 0
+    bool carried;   // it rests on the mesh
+};
+
+// `center` is the sphere's in the frame of the mesh (unit: meters). `advance(motion)` moves the sphere by as
+// much of the motion as nothing else is in the way of, and returns that. False where the sphere is left no
+// room, or the work does not suffice: it must be let out then.
+template <class Advance>
+bool ride(const DeformRide& given, Vec3 center, WorkBudget& work, Advance&& advance) {
+    constexpr int max_steps = 256;
+    constexpr int max_lifts = 12;
+    const DeformSweep& sweep = given.sweep;
+    const double radius = given.radius;
+    const double least = (1.0 - max_overlap_share) * radius;
+    double t = 0.0;
+    DeformSweep::Nearest at = sweep.nearest(t, center, 1.1 * radius, work);
+    for (int step = 0; t < 1.0; ++step) {
+        if (at.distance < least || step == max_steps || work.is_gone()) {
+            return false;
+        }
+        const bool rests = given.carried && at.distance < 1.1 * radius;
+        const Vec3 motion = rests ? at.motion : Vec3(0.0);
+        const double next = sweep.free_until(t, center, motion, 0.5 * std::min(at.distance, radius), work);
+        if (rests) {
+            center += advance(motion * (next - t));
+        }
+        t = next;
+        at = sweep.nearest(t, center, 1.1 * radius, work);
+        for (int lift = 0; lift < max_lifts && at.distance < (1.0 - 1e-6) * radius; ++lift) {
+            const double way = std::min(radius - at.distance, 0.9 * at.distance);
+            const Vec3 lifted = advance(at.offset * (way / std::max(at.distance, 1e-300)));
+            center += lifted;
+            at = sweep.nearest(t, center, 1.1 * radius, work);
+            if (glm::length(lifted) < 0.5 * way) {
+                break;  // something else is in the way
+            }
+        }
+    }
+    return at.distance >= least;
+}
+
+}  // namespace
+
+// Whether the force may change although neither hand nor bodies have moved.
+bool Proxy::take_in_jumps() {
+    const bool missed = scene_->ticks() > std::exchange(scene_ticks_, scene_->ticks()) + 1;
+    const bool other_sphere =
+        settings_.radius != settled_.radius || settings_.mask != settled_.mask || missed;
+    const std::uint64_t since = std::exchange(revision_, scene_->revision());
+    const bool other_material =
+        std::exchange(material_changes_, scene_->material_changes()) != scene_->material_changes();
+    settled_ = settings_;
+    if (!other_sphere && since == revision_) {
+        return other_material;
+    }
+    if (present_) {
+        let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(), surroundings_.work()));
+    }
+    return true;
+}
+
+// Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.
+void Proxy::let_go(bool every) {
+    present_ = present_ && every;
+    contacts_hold_ = false;
+}
+
+// The moving body that the proxy rests on most.
+int Proxy::carrier() const {
+    int body = -1;
+    double max_pressure = 0.0;
+    for (const Touch& contact : touching()) {
+        if (contact.pressure > max_pressure && scene_->body(contact.body).moved) {
+            body = contact.body;
+            max_pressure = contact.pressure;
+        }
+    }
+    return body;
+}
+
+// The body's triangles on their way since the last tick, where the body was then. False where they leave the
+// proxy no room.
+bool Proxy::ride_deformation(int index) {
+    const TouchBody& body = scene_->body(index);
+    const bool rests = std::ranges::any_of(touching(), [&](const Touch& c) { return c.body == index; });
+    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+        const TouchPart& from = body.former->parts[i];
+        const TouchPart& to = body.shape->parts[i];
+        const Pose placed = compose(body.previous, to.pose);
+        const Vec3 local = to_local(placed, position_);
+        if (glm::length(local - to.center) > std::max(from.radius, to.radius) + 1.1 * settings_.radius) {
+            continue;
+        }
+        const DeformSweep sweep(*from.tree(), *to.tree());
+        const auto advanced = [&](const Vec3& motion) {
+            const Vec3 before = position_;
+            FeatureId stopped_by;
+            advance(direction_to_parent(placed, motion), stopped_by, index);
+            return direction_to_local(placed, position_ - before);
+        };
+        if (!ride({sweep, settings_.radius, rests}, local, surroundings_.work(), advanced)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void Proxy::ride_deformations(ProxyTick& tick) {
+    for (const int index : scene_->deformed_bodies()) {
+        const TouchBody& body = scene_->body(index);
+        PassedBodies& passed = surroundings_.passed();
+        if ((body.layer & settings_.mask) != 0 && !passed.contains(index) &&
+            is_deformation(*body.former, *body.shape) && !ride_deformation(index)) {
+            tick.status |= proxy_squeezed;
+            let_go(passed.pass(index, PassedBecause::squeezes));
+        }
+    }
+}
+
+// A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
+// leads through anything but the body that causes it, which stands at its new place already.
+void Proxy::ride_along(ProxyTick& tick) {
+    ride_deformations(tick);
+    if (scene_->moved_bodies().empty()) {
+        return;
+    }
+    bool free = true;
+    FeatureId stopped_by;
+    const int carried_by = carrier();
+    if (carried_by >= 0) {
+        const TouchBody& body = scene_->body(carried_by);
+        const Vec3 carried = to_parent(body.pose, to_local(body.previous, position_));
+        free = advance(carried - position_, stopped_by, carried_by).is_free();
+    }
+    bool squeezed = !free;
+    Surroundings::Push push;
+    for (std::size_t from = 0; surroundings_.next_push(from, position_, free ? carried_by : -1, push);) {
+        free = advance(push.displacement, stopped_by, push.body).is_free();
+        squeezed = squeezed || !free;
+    }
+    if (squeezed) {
+        tick.status |= proxy_squeezed;
+        const std::size_t before = surroundings_.passed().count();
+        let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work()));
+        tick.jumped = tick.jumped || surroundings_.passed().count() != before;
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,109 @@
+#include "core/safety/hand_safety.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+namespace tactus {
+
+namespace {
+
+bool is_number(const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Farther, or faster, is no hand's: its squares would not be numbers either (units: meters, meters per
+// second).
+constexpr double farthest = 1e6;
+
+bool is_hands(const Vec3& v) {
+    return glm::all(glm::lessThanEqual(glm::abs(v), Vec3(farthest)));
+}
+
+}  // namespace
+
+HandState HandSafety::state_of(const SafetySettings& settings, const SafetySample& sample) const {
+    if (!sample.connected) {
+        return HandState::disconnected;
+    }
+    if (!is_hands(sample.position) || !is_hands(sample.velocity)) {
+        return HandState::no_number;
+    }
+    const double speed = glm::length(sample.velocity);
+    const double way = known_ ? glm::distance(sample.position, position_) : 0.0;
+    if (speed > settings.max_speed || way > settings.max_speed * sample.seconds) {
+        return HandState::jumped;
+    }
+    if (!sample.enabled) {
+        return HandState::disabled;
+    }
+    return settings.dead_man == 0 || (sample.buttons & settings.dead_man) != 0 ? HandState::working
+                                                                               : HandState::released;
+}
+
+SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& sample) {
+    SafeForce safe;
+    safe.state = state_of(settings, sample);
+    known_ = safe.state != HandState::disconnected && safe.state != HandState::no_number;
+    position_ = known_ ? sample.position : position_;
+    if (safe.state != HandState::working) {
+        const bool known = known_;
+        rest();
+        known_ = known;
+        return safe;
+    }
+    Vec3 force = sample.wanted;
+    if (!is_number(force)) {
+        force = Vec3(0.0);
+        safe.limited |= hand_limited_command;
+    }
+    if (ramped_ < settings.ramp) {
+        ramped_ += sample.seconds;
+        force *= std::min(1.0, ramped_ / settings.ramp);
+        safe.state = HandState::ramping;
+    }
+    if (settings.passive) {
+        const Vec3 wanted = force;
+        force = passivity_.pass({sample.position, sample.velocity, settings.damping, settings.max_damping,
+                                 sample.source, sample.seconds},
+                                wanted);
+        safe.limited |= force != wanted ? hand_limited_passivity : 0u;
+    }
+    bool cut = false;
+    safe.force =
+        exit_.leave(settings.limits, force, settings.max_force, sample.velocity, sample.seconds, cut);
+    safe.limited |= cut ? hand_limited_force : 0u;
+    passivity_.given(safe.force);
+    return safe;
+}
+
+void HandSafety::rest() {
+    exit_.rest();
+    passivity_.reset();
+    ramped_ = 0.0;
+    known_ = false;
+}
+
+const char* text_of(HandState state) {
+    switch (state) {
+        case HandState::working:
+            return "force is on";
+        case HandState::ramping:
+            return "the force grows from nothing: wait a moment";
+        case HandState::disabled:
+            return "the force is off: the clutch is held, or the force was switched off";
+        case HandState::released:
+            return "the force is off until the device's button is held (dead_man_buttons)";
+        case HandState::disconnected:
+            return "the device does not answer: check its cable and power; it goes on by itself";
+        case HandState::no_number:
+            return "the device says what is no place: the force is off until it makes sense again";
+        case HandState::jumped:
+            return "the hand has jumped farther than a hand can: the force begins anew";
+    }
+    return "";
+}
+
+}  // namespace tactus

@@ -1,0 +1,88 @@
+// The last place before a device: whatever the loop asks for, what leaves here is safe for a hand.
+//
+//     reading is no number, hand has jumped, nobody holds the button     no force, at once
+//     just begun, reconnected, let go of the clutch                      the force grows from nothing
+//     touch would make energy                                            HandPassivity damps it
+//     larger, faster or more powerful than the device allows             ForceExit cuts it
+//
+// Pure values: no clock, no allocation.
+#pragma once
+
+#include <limits>
+
+#include "core/math/types.hpp"
+#include "core/safety/force_exit.hpp"
+#include "core/safety/hand_passivity.hpp"
+
+namespace tactus {
+
+enum class HandState : std::uint8_t {
+    working,
+    ramping,       // the force grows from nothing
+    disabled,      // by its owner: switched off, or the clutch is held
+    released,      // nobody holds the dead-man button
+    disconnected,  // the device does not answer
+    no_number,     // it has said what is no place
+    jumped,        // it says that it is, or goes, where no hand can come to in a tick
+};
+
+// What was done to the force, as bits.
+enum HandLimited : std::uint32_t {
+    hand_limited_force = 1u << 0,      // by size, slew or power
+    hand_limited_passivity = 1u << 1,  // it would have made energy
+    hand_limited_command = 1u << 2,    // it was no number
+};
+
+struct SafetySettings {
+    static constexpr double none = std::numeric_limits<double>::infinity();
+
+    ForceLimits limits{none, none, none};
+    double max_force = none;     // (unit: newtons)
+    double max_speed = none;     // of a hand; faster ones are no readings (unit: meters per second)
+    double ramp = 0.0;           // until the whole force is given (unit: seconds), >= 0
+    std::uint32_t dead_man = 0;  // buttons, any of which must be held; 0: none
+    bool passive = false;        // observe energy and keep it from being made
+    double damping = 0.0;        // of the device itself (unit: newton seconds per meter), >= 0
+    double max_damping = 0.0;    // that may be added (the same unit), >= 0
+};
+
+struct SafetySample {
+    Vec3 wanted{0.0};    // (unit: newtons)
+    Vec3 position{0.0};  // of the hand, in the device's own measure (unit: meters)
+    Vec3 velocity{0.0};  // (unit: meters per second)
+    std::uint32_t buttons = 0;
+    bool connected = true;
+    bool enabled = true;
+    double source = 0.0;     // see PassivitySample
+    double seconds = 0.001;  // of a tick
+};
+
+struct SafeForce {
+    Vec3 force{0.0};  // (unit: newtons)
+    HandState state = HandState::working;
+    std::uint32_t limited = 0;  // HandLimited
+};
+
+class HandSafety {
+public:
+    SafeForce pass(const SafetySettings& settings, const SafetySample& sample);
+
+    // Ticks stop: what comes next begins at nothing.
+    void rest();
+
+    double energy() const { return passivity_.energy(); }
+
+private:
+    HandState state_of(const SafetySettings& settings, const SafetySample& sample) const;
+
+    ForceExit exit_;
+    HandPassivity passivity_;
+    double ramped_ = 0.0;  // since the hand was last given nothing (unit: seconds)
+    bool known_ = false;   // position_ is where the hand was one tick ago
+    Vec3 position_{0.0};
+};
+
+// For people, with what to do.
+const char* text_of(HandState state);
+
+}  // namespace tactus

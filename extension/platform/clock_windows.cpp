@@ -1,0 +1,35 @@
+#include <windows.h>
+
+#include "platform/clock.hpp"
+
+namespace tactus {
+
+namespace {
+
+// Constant from the start of the system on.
+std::int64_t counts_per_second() {
+    LARGE_INTEGER frequency;
+    QueryPerformanceFrequency(&frequency);
+    return frequency.QuadPart;
+}
+
+}  // namespace
+
+// Whole seconds apart from the rest: the product would overflow after 15 minutes at 10 MHz.
+Nanoseconds monotonic_now() {
+    static const std::int64_t frequency = counts_per_second();
+    LARGE_INTEGER counter;
+    QueryPerformanceCounter(&counter);
+    return counter.QuadPart / frequency * nanoseconds_per_second +
+           counter.QuadPart % frequency * nanoseconds_per_second / frequency;
+}
+
+Nanoseconds wall_clock_now() {
+    constexpr std::int64_t epoch = 116'444'736'000'000'000;  // 1970 in 100 ns since 1601
+    FILETIME time;
+    GetSystemTimePreciseAsFileTime(&time);
+    const std::int64_t steps = static_cast<std::int64_t>(time.dwHighDateTime) << 32 | time.dwLowDateTime;
+    return (steps - epoch) * 100;
+}
+
+}  // namespace tactus

@@ -1,0 +1,16 @@
+#include <dlfcn.h>
+
+#include "platform/shared_library.hpp"
+
+namespace tactus {
+
+void* function_of_library(const std::filesystem::path& library, const char* name, std::string& error) {
+    void* const loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const function = loaded != nullptr ? dlsym(loaded, name) : nullptr;
+    if (function == nullptr) {
+        error = dlerror();
+    }
+    return function;
+}
+
+}  // namespace tactus

@@ -1,0 +1,23 @@
+#include "platform/this_thread.hpp"
+
+#include <windows.h>
+
+#include "platform/wide_text_windows.hpp"
+
+namespace tactus {
+
+// Asked for by name: Windows before 10 (1607) has no names of threads.
+void name_this_thread(const char* name) {
+    using SetDescription = HRESULT(WINAPI*)(HANDLE, PCWSTR);
+    const FARPROC found = GetProcAddress(GetModuleHandleW(L"kernel32.dll"), "SetThreadDescription");
+    if (found != nullptr) {
+        reinterpret_cast<SetDescription>(reinterpret_cast<void*>(found))(GetCurrentThread(),
+                                                                         windows::to_wide(name).c_str());
+    }
+}
+
+void work_in_background() {
+    SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_BELOW_NORMAL);
+}
+
+}  // namespace tactus

@@ -1,0 +1,28 @@
+#include <pthread.h>
+
+#include "platform/thread_slot.hpp"
+
+namespace tactus {
+
+namespace {
+
+pthread_key_t make_key() {
+    pthread_key_t key{};
+    pthread_key_create(&key, nullptr);
+    return key;
+}
+
+// When the library is loaded: the first keys of a process have their room in every thread.
+const pthread_key_t key = make_key();
+
+}  // namespace
+
+void* thread_slot() {
+    return pthread_getspecific(key);
+}
+
+void set_thread_slot(void* value) {
+    pthread_setspecific(key, value);
+}
+
+}  // namespace tactus

@@ -1,0 +1,156 @@
+#include "core/safety/hand_safety.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/safety/force_watch.hpp"
+#include "core/safety/stiffness_limit.hpp"
+#include "shared/safety_figures.hpp"
+
+namespace tactus {
+namespace {
+
+SafetySample pushed(double newtons) {
+    SafetySample sample;
+    sample.wanted = {0.0, newtons, 0.0};
+    return sample;
+}
+
+TEST(HandSafety, WithoutLimitsAForceLeavesAsItIs) {
+    HandSafety safety;
+    const SafeForce safe = safety.pass({}, pushed(1e6));
+    EXPECT_EQ(safe.force, Vec3(0.0, 1e6, 0.0));
+    EXPECT_EQ(safe.state, HandState::working);
+    EXPECT_EQ(safe.limited, 0u);
+}
+
+TEST(HandSafety, TheForceGrowsFromNothingAfterEveryPause) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.ramp = 0.1;
+    const auto grows = [&] {
+        for (int tick = 1; tick <= 100; ++tick) {
+            EXPECT_NEAR(safety.pass(settings, pushed(2.0)).force.y, 0.02 * tick, 1e-12);
+        }
+        EXPECT_EQ(safety.pass(settings, pushed(2.0)).state, HandState::working);
+    };
+    grows();
+    SafetySample held = pushed(2.0);
+    held.enabled = false;
+    EXPECT_EQ(safety.pass(settings, held).state, HandState::disabled);
+    grows();
+    SafetySample gone = pushed(2.0);
+    gone.connected = false;
+    EXPECT_EQ(safety.pass(settings, gone).state, HandState::disconnected);
+    grows();
+    safety.rest();
+    grows();
+}
+
+TEST(HandSafety, WithoutTheButtonThereIsNoForceAtOnce) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.dead_man = 0b110;
+    settings.limits.slew = 100.0;
+    SafetySample sample = pushed(1.0);
+    EXPECT_EQ(safety.pass(settings, sample).state, HandState::released);
+    sample.buttons = 0b100;
+    for (int tick = 0; tick < 20; ++tick) {
+        safety.pass(settings, sample);
+    }
+    EXPECT_EQ(safety.pass(settings, sample).force.y, 1.0);
+    sample.buttons = 0b001;
+    EXPECT_EQ(safety.pass(settings, sample).force, Vec3(0.0));
+}
+
+TEST(HandSafety, ReadingsThatMakeNoSenseLetTheHandGo) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.max_speed = 5.0;
+    SafetySample sample = pushed(1.0);
+    EXPECT_EQ(safety.pass(settings, sample).force.y, 1.0);
+    sample.position.x = 0.006;
+    SafeForce safe = safety.pass(settings, sample);
+    EXPECT_EQ(safe.state, HandState::jumped);
+    EXPECT_EQ(safe.force, Vec3(0.0));
+    EXPECT_EQ(safety.pass(settings, sample).force.y, 1.0);
+    sample.velocity.z = std::nan("");
+    safe = safety.pass(settings, sample);
+    EXPECT_EQ(safe.state, HandState::no_number);
+    EXPECT_EQ(safe.force, Vec3(0.0));
+    sample.velocity.z = 0.0;
+    sample.wanted.y = std::nan("");
+    safe = safety.pass(settings, sample);
+    EXPECT_EQ(safe.force, Vec3(0.0));
+    EXPECT_EQ(safe.limited, hand_limited_command);
+}
+
+TEST(HandSafety, NoRandomInputBreaksALimit) {
+    const shared::SafetyFigures figures = shared::play_random_hand(1, 200'000);
+    EXPECT_EQ(figures.violations, 0);
+    EXPECT_GT(figures.working, 50'000);
+}
+
+// What is not pushed back is not stopped: a hand that a force drives on is braked until it has paid.
+TEST(HandSafety, AForceThatMakesEnergyIsTakenBack) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.passive = true;
+    settings.max_damping = 50.0;
+    SafetySample sample;
+    double given = 0.0;
+    Vec3 force(0.0);
+    for (int tick = 0; tick < 1000; ++tick) {
+        sample.velocity = {0.0, 0.2, 0.0};
+        sample.position += sample.velocity * sample.seconds;
+        given += glm::dot(force, sample.velocity) * sample.seconds;
+        sample.wanted = {0.0, 3.0, 0.0};
+        force = safety.pass(settings, sample).force;
+    }
+    EXPECT_LE(given, 1e-12);
+}
+
+TEST(SafeWall, IsWhatTheDampingBears) {
+    const Wall stiff{3000.0, 0.0};
+    EXPECT_NEAR(safe_wall({0.001, 0.0}, 1.5, stiff).stiffness, 3000.0, 1e-9);
+    EXPECT_NEAR(safe_wall({0.001, 0.001}, 4.5, stiff).stiffness, 3000.0, 1e-9);
+    EXPECT_NEAR(safe_wall({0.001, 0.040}, 8.505, {800.0, 0.0}).stiffness, 210.0, 1e-9);
+    const double none = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(safe_wall({0.001, 0.040}, none, {1e9, 1e5}).stiffness, 1e9);
+    EXPECT_EQ(safe_wall({0.001, 0.040}, none, {1e9, 1e5}).damping, 1e5);
+    EXPECT_EQ(safe_wall({0.001, 0.0}, 0.0, stiff).stiffness, 0.0);
+}
+
+TEST(SafeWall, IsExplained) {
+    EXPECT_EQ(explain_stiffness(800.0, 210.3, {0.001, 0.040}), "800 N/m is unsafe at 40 ms: 210 N/m used");
+    EXPECT_EQ(explain_stiffness(800.0, 800.0, {0.001, 0.040}), "");
+}
+
+TEST(SafeWall, MakesNoEnergyAndComesToRestWhereAStifferOneDoesNot) {
+    for (const double delay : {0.0, 0.005, 0.05}) {
+        for (const double stiffness : {200.0, 20'000.0}) {
+            const shared::ContactCase contact{{stiffness, 0.0}, {0.001, delay}};
+            const shared::ContactFigures figures = shared::play_contact(contact);
+            EXPECT_LE(figures.energy_created, 1e-6) << stiffness << " N/m, " << delay << " s";
+            EXPECT_TRUE(figures.stable) << stiffness << " N/m, " << delay << " s";
+        }
+    }
+    shared::ContactCase free{{20'000.0, 0.0}, {0.001, 0.005}};
+    free.limited = free.passive = false;
+    const shared::ContactFigures figures = shared::play_contact(free);
+    EXPECT_FALSE(figures.stable);
+    EXPECT_GT(figures.largest_created, 1e-3);
+}
+
+TEST(ForceWatch, AForceDiesWithItsLoop) {
+    const ForceCommand command{{1.0, 0.0, 0.0}, 5'000'000};
+    EXPECT_EQ(living_force(command, 5'000'000), command.force);
+    EXPECT_EQ(living_force(command, 5'000'000 + force_lifetime), command.force);
+    EXPECT_EQ(living_force(command, 5'000'001 + force_lifetime), Vec3(0.0));
+    EXPECT_EQ(living_force({}, 0), Vec3(0.0));
+}
+
+}  // namespace
+}  // namespace tactus

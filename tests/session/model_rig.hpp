@@ -1,0 +1,149 @@
+// An environment and an operator whose model is what that describes, joined by two emulated ways and ticked
+// in virtual time.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "network/link_emulator.hpp"
+#include "network/memory_link.hpp"
+#include "session/environment_teller.hpp"
+#include "session/model_builder.hpp"
+#include "session/operator_side.hpp"
+#include "session/teleoperator_side.hpp"
+#include "session_rig.hpp"
+
+namespace tactus::session_test {
+
+constexpr Nanoseconds ms = 1'000'000;
+
+inline SessionSettings small_session() {
+    SessionSettings settings;
+    settings.most_bodies = 64;
+    settings.most_parts = 128;
+    return settings;
+}
+
+inline EndpointSettings endpoint(Side side, std::uint64_t epoch) {
+    EndpointSettings settings;
+    settings.side = side;
+    settings.epoch = epoch;
+    return settings;
+}
+
+// A hand and a pointer, on each side.
+inline void add_pointer(Session& session, HeldDevice& device) {
+    device.position = {0.0, 0.5, 0.0};
+    ProxyDescription description;
+    description.device = session.add_device(device, {}).handle;
+    session.add_proxy(description);
+}
+
+struct Environment {
+    Environment(Link& link, std::uint64_t epoch) {
+        session.attach(std::make_unique<TeleoperatorSide>(small_session(), TeleopSettings{}, link, port,
+                                                          endpoint(Side::teleoperator_side, epoch)));
+        add_pointer(session, device);
+    }
+
+    SessionHandle add(const std::string& name, const BodyAddition& addition) {
+        const AddResult added = session.add_body(addition);
+        EXPECT_EQ(added.error, "");
+        EXPECT_EQ(teller.tell(added.handle, name, addition), "");
+        return added.handle;
+    }
+
+    void remove(SessionHandle handle) {
+        teller.forget(handle);
+        session.remove_body(handle);
+    }
+
+    void tick(Nanoseconds now) {
+        session.tick(now);
+        session.collect();
+        session.refresh();
+        port->statistics.refresh();
+        teller.update(session.snapshot(), port->statistics.front().link.peer_epoch);
+    }
+
+    HeldDevice device;
+    std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
+    Session session{small_session()};
+    EnvironmentTeller teller{port};
+};
+
+struct Operator {
+    Operator(Link& link, std::uint64_t epoch) {
+        OperatorRoom room;
+        room.replays = false;
+        session.attach(std::make_unique<OperatorSide>(small_session(), room, TeleopSettings{}, link, port,
+                                                      endpoint(Side::operator_side, epoch)));
+        add_pointer(session, device);
+    }
+
+    void tick(Nanoseconds now) {
+        session.tick(now);
+        session.collect();
+        session.refresh();
+        port->statistics.refresh();
+        builder.update(now, port->statistics.front().link);
+    }
+
+    const ModelObject* find(const std::string& name) const {
+        const auto found = std::ranges::find(builder.objects(), name, &ModelObject::name);
+        return found == builder.objects().end() ? nullptr : &*found;
+    }
+
+    // Where the model has what is called `name`, of what can move.
+    Pose pose(const std::string& name) const {
+        const ModelObject* const object = find(name);
+        const SessionSnapshot& snapshot = session.snapshot();
+        for (std::size_t i = 0; object != nullptr && i < snapshot.body_count; ++i) {
+            if (snapshot.bodies[i].handle == object->body) {
+                return snapshot.bodies[i].pose;
+            }
+        }
+        return {Vec3(-99.0), {}};
+    }
+
+    HeldDevice device;
+    std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
+    Session session{small_session()};
+    ModelBuilder builder{session, port};
+};
+
+struct ModelRig {
+    explicit ModelRig(const LinkConditions& conditions = {})
+        : at_operator(wire.first(), conditions, 1), at_environment(wire.second(), conditions, 2) {
+        start_operator(1);
+        start_environment(2);
+    }
+
+    void start_operator(std::uint64_t epoch) { near = std::make_unique<Operator>(at_operator, epoch); }
+    void start_environment(std::uint64_t epoch) {
+        far = std::make_unique<Environment>(at_environment, epoch);
+    }
+
+    void run(Nanoseconds span) {
+        for (const Nanoseconds end = now + span; now < end;) {
+            now += period;
+            if (near) {
+                near->tick(now);
+            }
+            if (far) {
+                far->tick(now);
+            }
+        }
+    }
+
+    MemoryLinkPair wire{8192};
+    LinkEmulator at_operator, at_environment;
+    std::unique_ptr<Operator> near;
+    std::unique_ptr<Environment> far;
+    Nanoseconds now = 0;
+};
+
+}  // namespace tactus::session_test

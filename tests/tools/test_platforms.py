@@ -1,0 +1,71 @@
+"""Which sources are for which platform, and that no other file asks for one."""
+
+import re
+import sys
+
+import pytest
+from setup import cache, platforms
+
+sys.path.insert(0, str(cache.clone() / "site_scons"))
+import layers  # noqa: E402
+
+SYSTEM_HEADERS = re.compile(
+    r"#\s*include <(sys/|arpa/|netinet/|linux/|mach/|unistd|pthread|sched|poll|fcntl|dlfcn|signal|windows|winsock)"
+)
+ASKS_FOR_A_SYSTEM = re.compile(r"#\s*(if|elif|ifdef|ifndef).*(_WIN32|__linux__|__APPLE__|__unix__|__MINGW)")
+
+
+@pytest.mark.parametrize(
+    ("name", "system", "architecture", "expected"),
+    [
+        ("clock.cpp", "linux", "x86_64", True),
+        ("clock_posix.cpp", "linux", "arm64", True),
+        ("clock_posix.cpp", "macos", "arm64", True),
+        ("clock_posix.cpp", "windows", "x86_64", False),
+        ("clock_windows.cpp", "windows", "x86_64", True),
+        ("clock_windows.cpp", "linux", "x86_64", False),
+        ("clock_linux_test.cpp", "linux", "x86_64", True),
+        ("clock_linux_test.cpp", "windows", "x86_64", False),
+        ("processor_arm64.cpp", "linux", "x86_64", False),
+        ("processor_arm64.cpp", "linux", "arm64", True),
+    ],
+)
+def test_the_end_of_its_name_says_what_a_source_is_for(name, system, architecture, expected):
+    assert layers.is_for(name, system, architecture) == expected
+
+
+def test_every_question_has_an_answer_on_every_system():
+    folder = cache.clone() / "extension/platform"
+    headers = {path.stem for path in folder.glob("*.hpp")}
+    for one in [platforms.host(), *platforms.FOREIGN]:
+        for header in (path for path in folder.glob("*.hpp") if layers.is_for(path, one.system, one.architecture)):
+            sources = [path for path in folder.glob(f"{header.stem}*.cpp")]
+            if sources:
+                chosen = [path for path in sources if layers.is_for(path, one.system, one.architecture)]
+                assert chosen, f"{header.name} has no source for {one.name}"
+    assert "clock" in headers
+
+
+def test_only_one_folder_speaks_to_the_system():
+    extension = cache.clone() / "extension"
+    allowed = [extension / "platform", extension / "binding"]
+    offenders = [
+        str(path)
+        for path in extension.rglob("*.[hc]pp")
+        if not any(folder in path.parents for folder in allowed)
+        and (SYSTEM_HEADERS.search(path.read_text()) or ASKS_FOR_A_SYSTEM.search(path.read_text()))
+    ]
+    assert offenders == []
+
+
+def test_a_platform_that_is_not_known_is_told_which_are():
+    with pytest.raises(RuntimeError, match="platform=amiga: choose from linux, windows, linux_arm64"):
+        platforms.named("amiga")
+
+
+def test_the_words_of_the_command_line_are_understood():
+    assert platforms.tested_by("windows").name == "windows"
+    assert platforms.tested_by("arm64").name == "linux_arm64"
+    assert platforms.tested_by("cpp.core") is None
+    assert [one.name for one in platforms.named_in(["--platform=windows,linux_arm64"])] == ["windows", "linux_arm64"]
+    assert platforms.named_in(["--platform=linux"]) == []
