@@ -187,15 +187,16 @@ TEST(BodyTwin, IsShownOnceAndNotBeforeWhatWasSentHasTakenEffect) {
     BodyPlan plan = box_plan();
     plan.place.linear_velocity = {1.0, 0.0, 0.0};
     ASSERT_TRUE(scene.add(twin, plan));
-    scene.tick();
+    scene.tick(3);
+    const auto shown_tick = [&scene] { return scene.session.snapshot().tick; };
     const BodyState first = *scene.state_of(twin);
-    EXPECT_TRUE(twin.takes(first, scene.ticks));
-    EXPECT_FALSE(twin.takes(first, scene.ticks)) << "it is shown already";
-    twin.set_pose(scene.session, Pose{}, 0.01, scene.ticks + 2);
+    EXPECT_TRUE(twin.takes(first, shown_tick()));
+    EXPECT_FALSE(twin.takes(first, shown_tick())) << "it is shown already";
+    twin.set_pose(scene.session, Pose{}, 0.01, shown_tick() + 2);
     scene.tick();
-    EXPECT_FALSE(twin.takes(*scene.state_of(twin), scene.ticks)) << "a tick may not have heard of it yet";
+    EXPECT_FALSE(twin.takes(*scene.state_of(twin), shown_tick())) << "a tick may not have heard of it yet";
     scene.tick();
-    EXPECT_TRUE(twin.takes(*scene.state_of(twin), scene.ticks));
+    EXPECT_TRUE(twin.takes(*scene.state_of(twin), shown_tick()));
 }
 
 TEST(BodyTwin, OneThatFindsNoPlaceSaysSo) {
