@@ -60,7 +60,7 @@ public:
     }
     ProxyDescription description(SessionHandle device) const;
     // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
-    using BodyIds = std::array<std::uint64_t, HandForce::most_contacts>;
+    using BodyIds = std::array<std::uint64_t, HandForce::max_contacts>;
     void take_state(const ProxyState& state, const BodyIds& bodies);
     void clear_state();
     // Its hand began inside a body.

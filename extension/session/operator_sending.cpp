@@ -1,7 +1,7 @@
 // What the operator's side tells the far side.
 #include <algorithm>
 
-#include "core/haptics/nearest_surface.hpp"
+#include "core/geometry/surface_query.hpp"
 #include "session/operator_side.hpp"
 
 namespace tactus {
@@ -60,12 +60,13 @@ void OperatorSide::find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot&
         if (!body || body->motion == Motion::Static || object_of_body_[handle] == no_object) {
             continue;
         }
-        const NearestSurface nearest =
-            nearest_surface(loop.scene(), body->slot, slot.proxy->position(), near);
-        if (nearest.distance < near) {
+        const TouchBody& touched = loop.scene().body(body->slot);
+        const SurfaceHit nearest =
+            nearest_surface(*touched.shape, touched.pose, slot.proxy->position(), near);
+        if (nearest.hit) {
             near = nearest.distance;
             sample.nearest_object = object_of_body_[handle];
-            sample.position_in_object = to_local(loop.scene().body(body->slot).pose, slot.hand);
+            sample.position_in_object = to_local(touched.pose, slot.hand);
         }
     }
 }

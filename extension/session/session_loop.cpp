@@ -6,7 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
-#include "core/haptics/nearest_surface.hpp"
+#include "core/geometry/surface_query.hpp"
 #include "physics/limits.hpp"
 #include "realtime/thread_role.hpp"
 
@@ -306,7 +306,7 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
         if ((surface.layer & proxy.mask) == 0) {
             continue;
         }
-        const NearestSurface nearest = nearest_surface(scene_, magnet.slot, slot.proxy->position(), far);
+        const SurfaceHit nearest = nearest_surface(*surface.shape, surface.pose, slot.proxy->position(), far);
         const double strength = magnet_pull(surface.material, nearest.distance - proxy.radius);
         const Vec3 on_hand = nearest.normal * -strength;
         pull += on_hand;
@@ -362,7 +362,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     state.status = tick.status;
     state.contact_count = 0;
     for (const Touch& contact : slot.proxy->touching()) {
-        if (state.contact_count == HandForce::most_contacts) {
+        if (state.contact_count == HandForce::max_contacts) {
             break;
         }
         const auto i = static_cast<std::size_t>(state.contact_count++);

@@ -96,9 +96,9 @@ struct ProxyState {
     double residual = 0.0;     // see ProxyTick
     std::uint32_t status = 0;  // ProxyStatus
     int contact_count = 0;
-    std::array<SessionHandle, HandForce::most_contacts> bodies{no_handle, no_handle, no_handle};
-    std::array<Vec3, HandForce::most_contacts> points{};
-    std::array<Vec3, HandForce::most_contacts> normals{};
+    std::array<SessionHandle, HandForce::max_contacts> bodies{no_handle, no_handle, no_handle};
+    std::array<Vec3, HandForce::max_contacts> points{};
+    std::array<Vec3, HandForce::max_contacts> normals{};
 };
 
 struct DeviceState {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/geometry/triangle_tree.hpp"
 
@@ -11,46 +12,52 @@ namespace tactus {
 namespace {
 
 // In the frame of the part.
-SurfaceHit nearest_in(const TouchPart& part, const Vec3& point, double max_distance) {
-    const TriangleTree* tree = part.tree();
-    if (tree == nullptr) {
-        const SolidDistance solid = distance_to_solid(part.solid(), point);
-        return {solid.distance < max_distance, point - solid.distance * solid.normal, solid.normal,
-                solid.distance};
+SurfaceHit nearest_in(const TouchPart& part, const Vec3& point, double max_distance, WorkBudget& work) {
+    if (!part.tree()) {
+        const SolidDistance at = distance_to_solid(part.solid(), point);
+        return {at.distance < max_distance, true, point - at.distance * at.normal, at.normal, at.distance};
     }
-    const NearestTriangle nearest = tree->nearest(point, max_distance);
+    const NearestTriangle nearest = part.tree()->nearest(point, max_distance, work);
     if (!(nearest.distance < max_distance)) {
-        return {};
+        return {.complete = nearest.complete};
     }
-    const PackOffset offset =
-        offset_from_triangles(tree->pack(nearest.pack), {splat(point.x), splat(point.y), splat(point.z)});
-    int lane = 0;
+    const PackOffset offset = offset_from_triangles(part.tree()->pack(nearest.pack), splat(point));
+    int best = 0;
     for (int i = 1; i < lane_count; ++i) {
-        lane = offset.squared[i] < offset.squared[lane] ? i : lane;
+        best = offset.squared[i] < offset.squared[best] ? i : best;
     }
-    const Vec3 away(offset.offset.x[lane], offset.offset.y[lane], offset.offset.z[lane]);
-    const double distance = std::sqrt(offset.squared[lane]);
-    return {true, point - away, distance > 0.0 ? away / distance : Vec3(0.0, 1.0, 0.0), distance};
+    const Vec3 away = lane(offset.offset, best);
+    const double distance = std::sqrt(offset.squared[best]);
+    return {true, nearest.complete, point - away, distance > 0.0 ? away / distance : Vec3(0.0, 1.0, 0.0),
+            distance};
 }
 
 }  // namespace
 
-SurfaceHit nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point,
-                           double max_distance) {
-    SurfaceHit best;
-    best.distance = max_distance;
+SurfaceHit nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point, double max_distance,
+                           WorkBudget& work) {
+    SurfaceHit best{.distance = max_distance};
+    const Vec3 in_body = to_local(body, point);
     for (const TouchPart& part : shape.parts) {
-        const Vec3 in_part = to_local(part.pose, to_local(body, point));
+        const Vec3 in_part = to_local(part.pose, in_body);
         if (glm::length(in_part - part.center) - part.radius >= best.distance) {
             continue;
         }
-        const SurfaceHit found = nearest_in(part, in_part, best.distance);
-        if (found.hit && found.distance < best.distance) {
-            best = {true, to_parent(body, to_parent(part.pose, found.point)),
-                    body.rotation * (part.pose.rotation * found.normal), found.distance};
+        const SurfaceHit found = nearest_in(part, in_part, best.distance, work);
+        const bool complete = best.complete && found.complete;
+        if (found.hit) {
+            best = {true, complete, to_parent(body, to_parent(part.pose, found.point)),
+                    direction_to_parent(body, direction_to_parent(part.pose, found.normal)), found.distance};
         }
+        best.complete = complete;
     }
-    return best.hit ? best : SurfaceHit{};
+    return best;
+}
+
+SurfaceHit nearest_surface(const TouchShape& shape, const Pose& body, const Vec3& point,
+                           double max_distance) {
+    WorkBudget unlimited(std::numeric_limits<std::int64_t>::max());
+    return nearest_surface(shape, body, point, max_distance, unlimited);
 }
 
 // The ray's point nearest to the middle of each part's ball is farther from it than the ball reaches.

@@ -16,7 +16,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         all_pressure += contact.pressure;
     }
     for (const Touch& contact : touching) {
-        if (force.contact_count == HandForce::most_contacts) {
+        if (force.contact_count == HandForce::max_contacts) {
             break;
         }
         const TouchBody& body = scene.body(contact.body);

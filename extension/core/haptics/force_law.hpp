@@ -23,10 +23,10 @@ struct ContactForce {
 };
 
 struct HandForce {
-    static constexpr int most_contacts = 3;
+    static constexpr int max_contacts = 3;
 
     Vec3 total{0.0};  // on the hand, in the world (unit: newtons)
-    ContactForce contacts[most_contacts];
+    ContactForce contacts[max_contacts];
     int contact_count = 0;
     double source = 0.0;  // energy that bodies on their way give the hand in this tick (unit: joules)
 };

@@ -58,23 +58,6 @@ Hit Proxy::advance(const Vec3& motion, FeatureId& stopped_by, int except) {
     return hit;
 }
 
-// Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
-// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts. What the proxy is
-// still above does not hold it, unless it has only just slid off it: a surface that bends away is `dropped`
-// below after a step along it.
-double Proxy::friction_limit(const ConstrainedStep& step, double dropped) const {
-    double limit = 0.0;
-    for (int i = 0; i < step.pressing_count; ++i) {
-        const Contact& contact = contacts_[step.pressing[i]];
-        const ScenePart& placed = scene_->parts()[contact.feature.part];
-        const TouchMaterial& material = scene_->body(static_cast<int>(placed.body)).material;
-        const bool at_rest = contact.gap <= 4.0 * tolerances().skin + dropped;
-        const double coefficient = sliding_ ? material.dynamic_friction : material.static_friction;
-        limit += at_rest ? coefficient * step.pressure[i] : 0.0;
-    }
-    return limit;
-}
-
 void Proxy::keep_touching(const ConstrainedStep& step) {
     touching_.clear();
     const ContactLook look = surroundings_.look_from(position_);
@@ -89,9 +72,10 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
 
 // Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
 // Friction has no say in that. False where there is nothing to lift: what a sweep has stopped at is half a
-// skin below rest, and the next step rises by that much on its way.
-bool Proxy::lift() {
-    if (contacts_.min_gap() >= -0.625 * tolerances().skin) {
+// skin below rest, and the next step rises by that much on its way. Unless it was stopped at once: a long
+// step strays from a far surface by more, and needs all of the skin.
+bool Proxy::lift(bool stopped_at_once) {
+    if (contacts_.min_gap() >= (stopped_at_once ? -0.125 : -0.625) * tolerances().skin) {
         return false;
     }
     const Vec3 motion = lift_to_rest(contacts_, tolerances().same, surroundings_.work());
@@ -102,21 +86,6 @@ bool Proxy::lift() {
     FeatureId stopped_by;
     advance(motion, stopped_by);
     return position_ != before;
-}
-
-// What friction leaves of a step. It has no say in how far down the surface is.
-void Proxy::brake(ConstrainedStep& step, double dropped) {
-    const double limit = friction_limit(step, dropped);
-    const double slide = glm::length(step.slide);
-    if (limit <= 0.0 || slide <= 0.0) {
-        return;
-    }
-    double left = std::max(0.0, slide - limit);
-    if (left > tolerances().step && !sliding_) {
-        sliding_ = true;  // static friction has given way: what is left is held by the dynamic one
-        left = std::max(0.0, slide - friction_limit(step, dropped));
-    }
-    step.motion = step.drop + (step.motion - step.drop) * (left / slide);
 }
 
 // How far a step of that length along a surface may end above it: no surface bends more than the sphere
@@ -138,57 +107,6 @@ bool Proxy::fly(const Vec3& hand) {
     return true;
 }
 
-// The step towards the hand over what is known of the contacts. Those that hold it back are looked at closely
-// first; what that changes may let others press.
-ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
-    WorkBudget& work = surroundings_.work();
-    const ContactLook look = surroundings_.look_from(position_);
-    const double length = glm::length(pull);
-    ConstrainedStep step;
-    for (bool again = true; again;) {
-        step = flat_step(pull, contacts_, tolerances().same, work);
-        again = false;
-        for (int i = 0; i < step.pressing_count && !work.is_gone(); ++i) {
-            if (contacts_[step.pressing[i]].state == ContactState::seen) {
-                again = look.look_closely(contacts_, step.pressing[i], length) || again;
-            }
-        }
-    }
-    bool is_flat = true;
-    for (int i = 0; i < step.pressing_count; ++i) {
-        const Contact& contact = contacts_[step.pressing[i]];
-        surroundings_.keep_in_mind(contact.feature);
-        is_flat = is_flat && contact.state == ContactState::face;
-    }
-    if (step.pressing_count == 0) {
-        return step;
-    }
-    doubt(step, pull, descent);
-    if (is_flat || step.pressing_count == TouchList::capacity) {
-        return step;
-    }
-    const auto curvature = [&](int i) {
-        return i < step.pressing_count ? look.curvature_of(contacts_, step.pressing[i]) : Curvature{};
-    };
-    const Curvature curvatures[] = {curvature(0), curvature(1)};
-    bend_step(step, pull, contacts_, {curvatures, static_cast<std::size_t>(step.pressing_count)},
-              tolerances().same, descent.trust);
-    return step;
-}
-
-// Flat steps never lead away from the hand, bent ones may, and several may lead around in a circle. What
-// counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a step has
-// won nothing, bent ones are trusted half as far as it went, and twice as far again where one has.
-void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
-    const double distance = glm::distance(pull, step.drop);
-    if (distance < descent.nearest - tolerances().same) {
-        descent.nearest = distance;
-        descent.trust *= 2.0;
-    } else if (descent.last_bent > 0.0) {
-        descent.trust = 0.5 * descent.last_bent;
-    }
-}
-
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     Descent descent;
     ConstrainedStep step;
@@ -202,7 +120,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             surroundings_.find_contacts(position_, contacts_, descent.beyond);
             contacts_hold_ = true;
         }
-        if (!is_last && lift()) {
+        if (lift(descent.stopped_at_once)) {
             contacts_hold_ = false;
             continue;
         }
@@ -218,6 +136,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         FeatureId stopped_by;
         const Hit hit = advance(step.motion, stopped_by);
         contacts_hold_ = false;
+        descent.stopped_at_once = hit.found && position_ == before;
         if (hit.found) {
             surroundings_.keep_in_mind(stopped_by);
         } else {
@@ -233,7 +152,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             break;
         }
         // Stopped at once by something that is no contact: it is one now.
-        if (hit.found && position_ == before && !surroundings_.insist_on(stopped_by, position_)) {
+        if (descent.stopped_at_once && !surroundings_.insist_on(stopped_by, position_)) {
             break;
         }
     }

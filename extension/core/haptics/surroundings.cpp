@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/surface.hpp"
-#include "core/haptics/nearest_surface.hpp"
+#include "core/geometry/surface_query.hpp"
 
 namespace tactus {
 
@@ -185,8 +185,8 @@ bool Surroundings::has_room(const Vec3& center, double room) {
         if (broad_phase_.is_clear(part, room)) {
             return true;
         }
-        const auto body = static_cast<int>(scene_->parts()[part].body);
-        const NearestSurface nearest = nearest_surface(*scene_, body, center, room, work_);
+        const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
+        const SurfaceHit nearest = nearest_surface(*body.shape, body.pose, center, room, work_);
         return nearest.complete && nearest.distance >= room;
     });
 }

@@ -23,10 +23,10 @@ bool same_pose(const Pose& p, const Pose& q) {
 
 }  // namespace
 
-TouchScene::TouchScene(std::size_t most_bodies, std::size_t most_parts)
-    : bodies_(most_bodies), parts_(most_parts) {
-    moved_.reserve(most_bodies);
-    deformed_.reserve(most_bodies);
+TouchScene::TouchScene(std::size_t max_bodies, std::size_t max_parts)
+    : bodies_(max_bodies), parts_(max_parts) {
+    moved_.reserve(max_bodies);
+    deformed_.reserve(max_bodies);
 }
 
 // First fit: removed bodies leave gaps that later ones fill.

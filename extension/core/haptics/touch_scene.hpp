@@ -39,7 +39,7 @@ struct ScenePart {
 
 class TouchScene {
 public:
-    TouchScene(std::size_t most_bodies, std::size_t most_parts);
+    TouchScene(std::size_t max_bodies, std::size_t max_parts);
 
     // Returns the body's slot, or -1 where the scene is full.
     int add(const TouchShape& shape, const Pose& pose, const TouchMaterial& material, std::uint32_t layer);

@@ -5,6 +5,10 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "shared/meshes.hpp"
+#include "shared/random_values.hpp"
+#include "shared/slow_distance.hpp"
+
 namespace tactus {
 
 namespace {
@@ -55,6 +59,43 @@ TEST(SurfaceQuery, TheNearestPointOfASolidAndOfItsMeshIsTheBoxs) {
             EXPECT_NEAR(glm::length(found.normal), 1.0, 1e-9);
         }
     }
+}
+
+TEST(SurfaceQuery, DistanceAndDirectionOnAMeshAreThoseOfBruteForce) {
+    shared::RandomValues random(151);
+    const TriangleMesh mesh = shared::soup(80, 1.0, 3);
+    const PlacedShape placed{MeshShape{std::make_shared<const TriangleMesh>(mesh)}, {}};
+    const TouchShapeResult made = make_touch_shape({&placed, 1});
+    const Pose pose{Vec3(0.3, -0.2, 0.5), random.rotation()};
+    for (int i = 0; i < 500; ++i) {
+        const Vec3 p = random.in_ball(2.0);
+        const auto distance = static_cast<double>(shared::slow_distance(to_local(pose, p), mesh));
+        const SurfaceHit found = nearest_surface(*made.shape, pose, p, 10.0);
+        ASSERT_NEAR(found.distance, distance, 1e-12);
+        ASSERT_NEAR(glm::length(found.normal), 1.0, 1e-12);
+        // Following the direction back leads onto the surface.
+        const Vec3 foot = to_local(pose, p - found.normal * found.distance);
+        ASSERT_LT(static_cast<double>(shared::slow_distance(foot, mesh)), 1e-9);
+    }
+}
+
+TEST(SurfaceQuery, OfSeveralPartsTheNearestCounts) {
+    const PlacedShape parts[] = {{SphereShape{0.5}, {Vec3(-1.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}},
+                                 {BoxShape{Vec3(0.5)}, {Vec3(1.0, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}}};
+    const TouchShapeResult made = make_touch_shape(parts);
+    ASSERT_TRUE(made.shape);
+    EXPECT_NEAR(nearest_surface(*made.shape, {}, {-1.0, 0.8, 0.0}, 10.0).distance, 0.3, 1e-12);
+    const SurfaceHit beside = nearest_surface(*made.shape, {}, {1.0, 0.9, 0.2}, 10.0);
+    EXPECT_NEAR(beside.distance, 0.4, 1e-12);
+    EXPECT_LT(glm::distance(beside.normal, Vec3(0.0, 1.0, 0.0)), 1e-12);
+}
+
+TEST(SurfaceQuery, ASearchThatEndsEarlySaysSo) {
+    const PlacedShape placed{MeshShape{std::make_shared<const TriangleMesh>(shared::soup(500, 1.0, 3))}, {}};
+    const TouchShapeResult made = make_touch_shape({&placed, 1});
+    WorkBudget little(1);
+    EXPECT_FALSE(nearest_surface(*made.shape, {}, {0.1, 0.2, 0.0}, 10.0, little).complete);
+    EXPECT_TRUE(nearest_surface(*made.shape, {}, {0.1, 0.2, 0.0}, 10.0).complete);
 }
 
 TEST(SurfaceQuery, WhatIsFartherThanAskedForIsNotFound) {

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "shared/meshes.hpp"
+#include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus {
@@ -49,6 +50,31 @@ TEST(ProxyMagnitude, OneFarSampleIsForgotten) {
         rig.tick({1e-4 * (i % 10), 0.02, 0.0});
     }
     EXPECT_NEAR(rig.proxy.position().y, radius, 2e-9);
+}
+
+// A step of hundreds of radii strays from the face by more than the half skin at which a sweep stops.
+TEST(ProxyMagnitude, LongStepsFarFromTheOriginAreFinished) {
+    constexpr double small = 0.002;
+    shared::RandomValues random(77);
+    for (int i = 0; i < 300; ++i) {
+        const Pose pose{1e4 * random.direction(), random.rotation()};
+        TriangleMesh mesh = shared::box(Vec3(1.5));
+        for (Vec3& v : mesh.vertices) {
+            v = to_parent(pose, v);
+        }
+        TouchRig rig(small);
+        rig.add(mesh);
+        const auto above = [&](double x, double z, double height) {
+            return to_parent(pose, {x, 1.5 + small + height, z});
+        };
+        rig.tick(above(0.0, 0.0, 0.01));
+        rig.tick(above(0.0, 0.0, -small));
+        for (int tick = 0; tick < 4; ++tick) {
+            const Vec3 hand = above(random.between(-1.0, 1.0), random.between(-1.0, 1.0),
+                                    -small * random.magnitude(0.1, 100.0));
+            ASSERT_EQ(rig.tick(hand).status & proxy_unfinished, 0u) << i;
+        }
+    }
 }
 
 TEST(ProxyMagnitude, AMeshFarAwayDoesNotBlurWhatIsNear) {

@@ -1,0 +1,93 @@
+// One step of the proxy: where it may go next, and how far to believe in that.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <span>
+
+#include "core/haptics/proxy.hpp"
+
+namespace tactus {
+
+// The step towards the hand over what is known of the contacts. Those that hold it back are looked at closely
+// first; what that changes may let others press.
+ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
+    WorkBudget& work = surroundings_.work();
+    const ContactLook look = surroundings_.look_from(position_);
+    const double length = glm::length(pull);
+    ConstrainedStep step;
+    for (bool again = true; again;) {
+        step = flat_step(pull, contacts_, tolerances().same, work);
+        again = false;
+        for (int i = 0; i < step.pressing_count && !work.is_gone(); ++i) {
+            if (contacts_[step.pressing[i]].state == ContactState::seen) {
+                again = look.look_closely(contacts_, step.pressing[i], length) || again;
+            }
+        }
+    }
+    bool is_flat = true;
+    for (int i = 0; i < step.pressing_count; ++i) {
+        const Contact& contact = contacts_[step.pressing[i]];
+        surroundings_.keep_in_mind(contact.feature);
+        is_flat = is_flat && contact.state == ContactState::face;
+    }
+    if (step.pressing_count == 0) {
+        return step;
+    }
+    doubt(step, pull, descent);
+    if (is_flat || step.pressing_count == TouchList::capacity) {
+        return step;
+    }
+    const auto curvature = [&](int i) {
+        return i < step.pressing_count ? look.curvature_of(contacts_, step.pressing[i]) : Curvature{};
+    };
+    const Curvature curvatures[] = {curvature(0), curvature(1)};
+    bend_step(step, pull, contacts_, {curvatures, static_cast<std::size_t>(step.pressing_count)},
+              tolerances().same, descent.trust);
+    return step;
+}
+
+// Flat steps never lead away from the hand, bent ones may, and several may lead around in a circle. What
+// counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a step has
+// won nothing, bent ones are trusted half as far as it went, and twice as far again where one has.
+void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
+    const double distance = glm::distance(pull, step.drop);
+    if (distance < descent.nearest - tolerances().same) {
+        descent.nearest = distance;
+        descent.trust *= 2.0;
+    } else if (descent.last_bent > 0.0) {
+        descent.trust = 0.5 * descent.last_bent;
+    }
+}
+
+// Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
+// across (unit: meters, as all forces over the stiffness). Every wall of a groove counts. What the proxy is
+// still above does not hold it, unless it has only just slid off it: a surface that bends away is `dropped`
+// below after a step along it.
+double Proxy::friction_limit(const ConstrainedStep& step, double dropped) const {
+    double limit = 0.0;
+    for (int i = 0; i < step.pressing_count; ++i) {
+        const Contact& contact = contacts_[step.pressing[i]];
+        const ScenePart& placed = scene_->parts()[contact.feature.part];
+        const TouchMaterial& material = scene_->body(static_cast<int>(placed.body)).material;
+        const bool at_rest = contact.gap <= 4.0 * tolerances().skin + dropped;
+        const double coefficient = sliding_ ? material.dynamic_friction : material.static_friction;
+        limit += at_rest ? coefficient * step.pressure[i] : 0.0;
+    }
+    return limit;
+}
+
+// What friction leaves of a step. It has no say in how far down the surface is.
+void Proxy::brake(ConstrainedStep& step, double dropped) {
+    const double limit = friction_limit(step, dropped);
+    const double slide = glm::length(step.slide);
+    if (limit <= 0.0 || slide <= 0.0) {
+        return;
+    }
+    double left = std::max(0.0, slide - limit);
+    if (left > tolerances().step && !sliding_) {
+        sliding_ = true;  // static friction has given way: what is left is held by the dynamic one
+        left = std::max(0.0, slide - friction_limit(step, dropped));
+    }
+    step.motion = step.drop + (step.motion - step.drop) * (left / slide);
+}
+
+}  // namespace tactus
