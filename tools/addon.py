@@ -42,7 +42,7 @@ def pack(others: list[Platform] | None = None) -> Path:
     content = contents(others or [])
     missing = [name for name in _libraries(content["tactus.gdextension"].decode()) if name not in content]
     if missing:
-        raise RuntimeError(f"{FOLDER} has no {', '.join(missing)}: ./run setup builds them")
+        raise RuntimeError(f"not built yet: {', '.join(missing)}. ./run setup builds this machine's, ./run addon --platform=NAME others")
     cache.emptied(STAGE)
     partial = archive().with_suffix(".partial")
     with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as file:

@@ -8,6 +8,7 @@ from setup import cache, platforms
 
 sys.path.insert(0, str(cache.clone() / "site_scons"))
 import layers  # noqa: E402
+import manifest  # noqa: E402
 
 SYSTEM_HEADERS = re.compile(
     r"#\s*include <(sys/|arpa/|netinet/|linux/|mach/|unistd|pthread|sched|poll|fcntl|dlfcn|signal|windows|winsock)"
@@ -69,3 +70,13 @@ def test_the_words_of_the_command_line_are_understood():
     assert platforms.tested_by("cpp.core") is None
     assert [one.name for one in platforms.named_in(["--platform=windows,linux_arm64"])] == ["windows", "linux_arm64"]
     assert platforms.named_in(["--platform=linux"]) == []
+
+
+def test_godot_finds_each_platforms_library_by_its_tags():
+    text = manifest.text("4.6", "single", [platforms.host(), *platforms.FOREIGN])
+    for line in (
+        'windows.debug.single.x86_64 = "bin/libtactus.windows.template_debug.x86_64.dll"',
+        'windows.release.single.x86_64 = "bin/libtactus.windows.template_release.x86_64.dll"',
+        'linux.release.single.arm64 = "bin/libtactus.linux.template_release.arm64.so"',
+    ):
+        assert line in text.splitlines()
