@@ -219,6 +219,13 @@ Workspace HapticDevice::workspace() const {
             static_cast<std::uint32_t>(dead_man_buttons_)};
 }
 
+Vec3 HapticDevice::start() const {
+    const Workspace mapping = workspace();
+    const bool is_followed = follows_path() && path_.is_valid() && path_problem_.is_empty();
+    const Vec3 hand = is_followed ? sample_path(path_->hand_path(), 0).position : Vec3(0.0);
+    return tactus::to_parent(mapping.pose, mapping.scale * hand);
+}
+
 void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change) {
     if (!screen_position.is_finite() || !std::isfinite(depth_change)) {
         refuse(*this, "aim_mouse", screen_position, "a place of the screen, and a finite way to it");

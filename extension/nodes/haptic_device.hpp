@@ -45,6 +45,8 @@ public:
     // Null where the driver has nothing to work with; another one after a change of driver or path.
     std::shared_ptr<Device> port();
     Workspace workspace() const;
+    // Where its hand begins, in the scene.
+    Vec3 start() const;
     void take_state(const DeviceState& state);
     void clear_state() { take_state({}); }
 
