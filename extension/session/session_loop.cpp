@@ -508,7 +508,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.safe.state,
                                                slot.safe.limited,
                                                slot.wanted.stiffness,
-                                               slot.used.stiffness};
+                                               slot.used.stiffness,
+                                               {seconds_, slot.capabilities.delay}};
         }
     }
     snapshots_.publish();
