@@ -31,7 +31,12 @@ WRAPPED = [
     "malloc", "calloc", "realloc", "free", "_aligned_malloc", "_aligned_free", "pthread_mutex_lock",
     "pthread_mutex_trylock", "pthread_cond_wait", "pthread_cond_timedwait", "pthread_join",
 ]  # fmt: skip
-LINK_AUDIT = {"linux": [], "windows": [f"-Wl,--wrap={name}" for name in WRAPPED], "macos": []}
+# The file that stands there is taken from its archive also where only the compiler's own libraries ask for it.
+LINK_AUDIT = {
+    "linux": [],
+    "windows": [*(f"-Wl,--wrap={name}" for name in WRAPPED), "-Wl,-u,__wrap_malloc"],
+    "macos": [],
+}
 
 
 # Which may stand together: address with undefined.

@@ -125,23 +125,31 @@ class ClassTable:
         if group := member.get("group"):
             title, _, prefix = group.partition(":")
             lines.append(f"ADD_GROUP({quoted(title)}, {quoted(prefix)});")
+        setter, getter = member.get("setter"), member.get("getter")
+        set_by = get_by = None
         if member.get("field"):
-            macro, setter, getter, last = "ADD_PROPERTYI", "_set_value", "_get_value", f", {index}"
-        else:
-            macro, setter, getter, last = "ADD_PROPERTY", member.get("setter"), member.get("getter"), ""
+            # Typed ones, of which a typed script learns what the property is.
+            setter, getter = setter or f"set_{name}", getter or f"get_{name}"
+            row = f"<{index}, {self.value_type(member)}>"
+            set_by, get_by = f"&{self.name}::set_row{row}", f"&{self.name}::get_row{row}"
         if member.get("follows"):
             function = member.get("changed") or self.root.get("changed")
             lines.append(f'ClassDB::bind_method(D_METHOD("_{name}_changed"), &{self.name}::{function});')
         param = member.get("param") or name
-        for function, arguments in ((setter, f', "{param}"'), (getter, "")):
+        for function, arguments, by in ((setter, f', "{param}"', set_by), (getter, "", get_by)):
             if function and function not in bound:
                 bound.add(function)
-                if last:
-                    arguments = ', "index"' + (', "value"' if arguments else "")
-                call = function.removeprefix("_") if last else function
-                lines.append(f'ClassDB::bind_method(D_METHOD("{function}"{arguments}), &{self.name}::{call});')
-        lines.append(f'{macro}({self.property_info(member)}, "{setter}", "{getter}"{last});')
+                by = by or f"&{self.name}::{function}"
+                lines.append(f'ClassDB::bind_method(D_METHOD("{function}"{arguments}), {by});')
+        lines.append(f'ADD_PROPERTY({self.property_info(member)}, "{setter}", "{getter}");')
         return lines
+
+    @staticmethod
+    def value_type(member):
+        kind = member.get("type")
+        if kind not in VARIANT_TYPES:
+            return f"Ref<{kind}>"
+        return {"int": "int64_t", "float": "double"}.get(kind, kind)
 
     def property_info(self, element):
         kind, name = element.get("type"), quoted(element.get("name"))
@@ -252,8 +260,8 @@ class ClassTable:
             if limits := self.limits(member, " to "):
                 member.text = member.text.rstrip() + f"\n\t\t\t[b]Range:[/b] {limits}.\n\t\t"
             if member.get("field"):
-                member.set("setter", "")
-                member.set("getter", "")
+                member.set("setter", member.get("setter") or f"set_{member.get('name')}")
+                member.set("getter", member.get("getter") or f"get_{member.get('name')}")
         for kind, attributes in OWN_ATTRIBUTES.items():
             for element in root.iter(kind):
                 for attribute in attributes:

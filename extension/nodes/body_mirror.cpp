@@ -4,36 +4,12 @@
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/core/object.hpp>
 
-#include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
-#include "nodes/shape_reading.hpp"
 
 namespace tactus {
 
 using namespace godot;
-
-namespace {
-
-// Building a tree over so many takes about a millisecond.
-constexpr std::size_t most_triangles_at_once = 2000;
-
-bool operator==(const SurfaceMaterial& a, const SurfaceMaterial& b) {
-    return a.friction == b.friction && a.restitution == b.restitution && a.rough == b.rough &&
-           a.absorbent == b.absorbent;
-}
-
-bool operator==(const CollisionLayers& a, const CollisionLayers& b) {
-    return a.layer == b.layer && a.mask == b.mask;
-}
-
-// Unlike any that another body has had: handles are given again.
-std::uint64_t next_revision() {
-    static std::uint64_t last = 0;
-    return ++last;
-}
-
-}  // namespace
 
 CollisionObject3D* BodyMirror::body() const {
     return Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(id_));
@@ -56,16 +32,13 @@ void BodyMirror::remember_place(CollisionObject3D& body) {
     }
 }
 
-void BodyMirror::remove(Session& session) {
-    if (handle_ != no_handle) {
-        session.remove_body(handle_);
-        handle_ = no_handle;
-        shown_change_ = 0;
-    }
+BodyPlace BodyMirror::remembered() const {
+    return {pose_of(place_), from_godot(linear_velocity_), from_godot(angular_velocity_)};
 }
 
 // Godot tells of changes of what it is made of from now on.
-void BodyMirror::listen(CollisionObject3D& node, const MirrorContext& context) {
+void BodyMirror::listen(CollisionObject3D& node, const Ref<PhysicsMaterial>& material,
+                        const MirrorContext& context) {
     if (ObjectDB::get_instance(watch_) == nullptr) {
         watch_ = BodyWatch::put_into(node, context.news);
     }
@@ -73,7 +46,8 @@ void BodyMirror::listen(CollisionObject3D& node, const MirrorContext& context) {
     for (const Ref<Shape3D>& shape : shapes_of(node)) {
         resources.push_back(shape);
     }
-    if (const Ref<PhysicsMaterial> material = material_of(node); material.is_valid()) {
+    material_ = material.is_valid() ? material->get_instance_id() : 0;
+    if (material.is_valid()) {
         resources.push_back(material);
     }
     BodyWatch::listen_to(watch_, resources);
@@ -85,181 +59,69 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     tried_ = true;
     place_problem_.clear();
     was_nowhere_ = !problem_of_place(node.get_global_transform()).empty();
-    key_ = shape_key(node);
+    key_ = shape_key(node, node.get_global_transform());
     mesh_changes_ = HapticMesh::changes();
-    makings_ = read_makings(node);
-    listen(node, context);
-    shapes_ = read_shapes(node);
-    if (handle_ == no_handle) {
+    const Ref<PhysicsMaterial> material = material_of(node);
+    listen(node, material, context);
+    if (handle() == no_handle) {
         remember_place(node);
     }
-    auto job = std::make_shared<Job>();
-    job->plan = {shapes_,          read_values(node, context.defaults),
-                 makings_,         place_,
-                 linear_velocity_, angular_velocity_,
-                 is_rigid(node)};
-    job_ = job;
-    if (shapes_.touchable) {
+    BodyForm form = read_form(node);
+    if (form.touchable) {
         hold_still_in_godot(node);
     }
-    if (triangle_count(shapes_) <= most_triangles_at_once) {
-        job->built = build_body(job->plan, run_serially);
-        job->done = true;
-        take_ready(session, context);
-    } else {
-        context.workers->add([job, run = context.workers->runner()] {
-            // Nobody else holds it: nobody waits for it any more.
-            if (job.use_count() > 1) {
-                job->built = build_body(job->plan, run);
-            }
-            job->done.store(true, std::memory_order_release);
-        });
-    }
+    twin_.plan({std::move(form), read_values(node, material, context.defaults), read_makings(node),
+                remembered(), is_rigid(node)},
+               *context.workers);
+    take_ready(session, context);
 }
 
 void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
-    if (job_ == nullptr || !job_->done.load(std::memory_order_acquire) || body() == nullptr) {
-        return;
-    }
-    const std::shared_ptr<Job> job = std::move(job_);
-    job_.reset();
-    problems_ = std::move(job->built.problems);
-    if (deform(session, *job)) {
-        return;
-    }
-    remove(session);
-    if (!job->built.buildable) {
-        return;
-    }
-    AddResult added = session.add_body(std::move(job->built.body));
-    handle_ = added.handle;
-    if (handle_ == no_handle) {
-        problems_.push_back(std::move(added.error));
-        return;
-    }
-    shown_from_ = context.takes_effect;
-    values_ = job->plan.values;
-    addition_ = std::move(job->built.addition);
-    made_of_ = job->plan.makings;
-    revision_ = next_revision();
-    catch_up(session, job->plan);
-}
-
-// Where only corners of its meshes have moved, the twin stays and takes the new form: whoever touches it is
-// taken along.
-bool BodyMirror::deform(Session& session, Job& job) {
-    const BodyAddition& now = job.built.addition;
-    if (handle_ == no_handle || !job.built.buildable || !job.built.body.error.empty() ||
-        !(job.plan.makings == made_of_) || !is_deformation(*addition_.touch, *now.touch)) {
-        return false;
-    }
-    session.deform_body(handle_, std::move(job.built.body));
-    addition_ = std::move(job.built.addition);
-    revision_ = next_revision();
-    return true;
-}
-
-// What has changed while the twin was built.
-void BodyMirror::catch_up(Session& session, const BodyPlan& plan) {
-    CollisionObject3D& node = *body();
-    hold_still_in_godot(node);
-    remember_place(node);
-    if (plan.values.constant_force != Vector3() || plan.values.constant_torque != Vector3()) {
-        session.set_body_push(handle_, from_godot(plan.values.constant_force),
-                              from_godot(plan.values.constant_torque));
-    }
-    if (!(place_ == plan.place)) {
-        session.teleport_body(handle_, pose_of(place_));
-    }
-    if (!(linear_velocity_ == plan.linear_velocity) || !(angular_velocity_ == plan.angular_velocity)) {
-        session.set_body_velocity(handle_, from_godot(linear_velocity_), from_godot(angular_velocity_));
+    CollisionObject3D* node = body();
+    if (node != nullptr && twin_.take_ready(session, context.takes_effect)) {
+        hold_still_in_godot(*node);
+        remember_place(*node);
+        twin_.stand_at(session, remembered());
     }
 }
 
-bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, bool shapes_changed) {
-    const bool is_back = was_nowhere_ && problem_of_place(node.get_global_transform()).empty();
-    if (!tried_ || is_back || !(read_makings(node) == makings_) || !(shape_key(node) == key_)) {
+bool BodyMirror::needs_a_new_twin(CollisionObject3D& node, const Transform3D& place, bool shapes_changed) {
+    const bool is_back = was_nowhere_ && problem_of_place(place).empty();
+    if (!tried_ || is_back || !(read_makings(node) == twin_.planned().makings) ||
+        !(shape_key(node, place) == key_)) {
         return true;
     }
     if (!shapes_changed && mesh_changes_ == HapticMesh::changes()) {
         return false;
     }
     mesh_changes_ = HapticMesh::changes();
-    return !same_shapes(read_shapes(node), shapes_);
-}
-
-void BodyMirror::send_values(CollisionObject3D& node, Session& session, const MirrorContext& context) {
-    const BodyValues before = values_;
-    values_ = read_values(node, context.defaults);
-    if (values_.material != before.material) {
-        listen(node, context);
-    }
-    bool described_anew = false;
-    const auto changes = [&described_anew](bool differs) {
-        described_anew = described_anew || differs;
-        return differs;
-    };
-    if (changes(!same_values(values_.touch, before.touch) || values_.texture != before.texture)) {
-        session.set_touch_material(handle_, values_.touch, values_.texture);
-    }
-    if (changes(!(values_.surface == before.surface))) {
-        session.set_body_surface(handle_, values_.surface);
-    }
-    if (changes(!(values_.layers == before.layers))) {
-        session.set_body_layers(handle_, values_.layers);
-    }
-    if (changes(values_.motion != before.motion)) {
-        session.set_body_motion(handle_, values_.motion);
-    }
-    if (changes(values_.gravity_scale != before.gravity_scale)) {
-        session.set_body_gravity_scale(handle_, values_.gravity_scale);
-    }
-    if (values_.constant_force != before.constant_force ||
-        values_.constant_torque != before.constant_torque) {
-        session.set_body_push(handle_, from_godot(values_.constant_force),
-                              from_godot(values_.constant_torque));
-    }
-    if (changes(values_.linear_damping != before.linear_damping ||
-                values_.angular_damping != before.angular_damping)) {
-        session.set_body_damping(handle_, values_.linear_damping, values_.angular_damping);
-    }
-    if (described_anew) {
-        revision_ = next_revision();
-    }
-}
-
-BodyAddition BodyMirror::addition() const {
-    BodyAddition now = addition_;
-    put_into(now, values_);
-    now.description.pose = pose_of(place_);
-    now.description.linear_velocity = from_godot(linear_velocity_);
-    now.description.angular_velocity = from_godot(angular_velocity_);
-    return now;
+    return !same_form(read_form(node), twin_.planned().form);
 }
 
 std::vector<std::string> BodyMirror::problems() const {
-    std::vector<std::string> all = problems_;
+    std::vector<std::string> all = twin_.problems();
     if (!place_problem_.empty()) {
         all.push_back(place_problem_);
     }
     return all;
 }
 
-void BodyMirror::send_motion(CollisionObject3D& node, Session& session, double seconds,
-                             std::uint64_t takes_effect) {
-    const Transform3D place = node.get_global_transform();
-    place_problem_ = problem_of_place(place);
-    if (!(place == place_) && place_problem_.empty()) {
-        place_ = place;
-        if (values_.motion == Motion::Dynamic) {
-            session.teleport_body(handle_, pose_of(place_));
-            shown_from_ = takes_effect;
-        } else {
-            session.move_body(handle_, pose_of(place_), seconds);
-        }
+void BodyMirror::send_place(const Transform3D& place, Session& session, double seconds,
+                            std::uint64_t takes_effect) {
+    if (place == place_) {
+        place_problem_.clear();
+        return;
     }
+    place_problem_ = problem_of_place(place);
+    if (place_problem_.empty()) {
+        place_ = place;
+        twin_.set_pose(session, pose_of(place_), seconds, takes_effect);
+    }
+}
+
+void BodyMirror::send_speed(const CollisionObject3D& node, Session& session, std::uint64_t takes_effect) {
     const auto* rigid = Object::cast_to<RigidBody3D>(&node);
-    if (rigid == nullptr || values_.motion != Motion::Dynamic) {
+    if (rigid == nullptr || twin_.values().motion != Motion::Dynamic) {
         return;
     }
     const Vector3 linear = rigid->get_linear_velocity();
@@ -267,8 +129,7 @@ void BodyMirror::send_motion(CollisionObject3D& node, Session& session, double s
     if (!(linear == linear_velocity_) || !(angular == angular_velocity_)) {
         linear_velocity_ = linear;
         angular_velocity_ = angular;
-        session.set_body_velocity(handle_, from_godot(linear), from_godot(angular));
-        shown_from_ = takes_effect;
+        twin_.set_velocity(session, from_godot(linear), from_godot(angular), takes_effect);
     }
 }
 
@@ -277,38 +138,46 @@ void BodyMirror::synchronise(Session& session, const MirrorContext& context, dou
     if (node == nullptr) {
         return;
     }
-    if (needs_a_new_twin(*node, context.shapes_changed)) {
+    const Transform3D place = node->get_global_transform();
+    if (needs_a_new_twin(*node, place, context.shapes_changed)) {
         plan(session, context);
     } else {
         take_ready(session, context);
     }
-    if (handle_ != no_handle) {
+    if (handle() != no_handle) {
         hold_still_in_godot(*node);
-        send_values(*node, session, context);
-        send_motion(*node, session, seconds, context.takes_effect);
+        const Ref<PhysicsMaterial> material = material_of(*node);
+        twin_.set_values(session, read_values(*node, material, context.defaults));
+        if (material_ != (material.is_valid() ? material->get_instance_id() : 0)) {
+            listen(*node, material, context);
+        }
+        send_place(place, session, seconds, context.takes_effect);
+        send_speed(*node, session, context.takes_effect);
     }
 }
 
 bool BodyMirror::follow(Session& session, const MirrorContext& context, double seconds) {
-    CollisionObject3D* node = handle_ != no_handle ? body() : nullptr;
+    CollisionObject3D* node = handle() != no_handle ? body() : nullptr;
     if (node == nullptr) {
         return false;
     }
-    send_motion(*node, session, seconds, context.takes_effect);
+    send_place(node->get_global_transform(), session, seconds, context.takes_effect);
+    send_speed(*node, session, context.takes_effect);
     return !place_problem_.empty();
+}
+
+void BodyMirror::follow_speed(Session& session, const MirrorContext& context) {
+    if (const CollisionObject3D* node = handle() != no_handle ? body() : nullptr) {
+        send_speed(*node, session, context.takes_effect);
+    }
 }
 
 // Moving the node may call a script, which may let it go.
 void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
-    if (!place_problem_.empty() || state.changed_at == shown_change_ || values_.motion != Motion::Dynamic ||
-        tick < shown_from_) {
+    auto* rigid = place_problem_.empty() ? Object::cast_to<RigidBody3D>(body()) : nullptr;
+    if (rigid == nullptr || !twin_.takes(state, tick)) {
         return;
     }
-    auto* rigid = Object::cast_to<RigidBody3D>(body());
-    if (rigid == nullptr) {
-        return;
-    }
-    shown_change_ = state.changed_at;
     const Transform3D pose = to_godot(state.pose);
     rigid->set_linear_velocity(to_godot(state.linear_velocity));
     rigid->set_angular_velocity(to_godot(state.angular_velocity));
@@ -319,8 +188,7 @@ void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
 }
 
 void BodyMirror::release(Session& session) {
-    remove(session);
-    job_.reset();
+    twin_.remove(session);
     tried_ = false;
     BodyWatch::take_out(std::exchange(watch_, 0));
     if (auto* rigid = Object::cast_to<RigidBody3D>(body())) {

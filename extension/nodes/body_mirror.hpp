@@ -2,17 +2,15 @@
 // moves is shown on Godot's side. Main thread only.
 #pragma once
 
-#include <atomic>
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "nodes/body_building.hpp"
+#include "nodes/body_reading.hpp"
 #include "nodes/body_watch.hpp"
 #include "nodes/conversions.hpp"
-#include "realtime/workers.hpp"
-#include "session/session.hpp"
+#include "world/body_twin.hpp"
 
 namespace tactus {
 
@@ -30,7 +28,8 @@ public:
     explicit BodyMirror(godot::CollisionObject3D& body) : id_(body.get_instance_id()) {}
 
     std::uint64_t id() const { return id_; }
-    SessionHandle handle() const { return handle_; }
+    SessionHandle handle() const { return twin_.handle(); }
+    const BodyTwin& twin() const { return twin_; }
     godot::CollisionObject3D* body() const;  // null when the node is gone
 
     // Brings the session up to date. What moved on Godot's side since the last call took `seconds` for it.
@@ -38,24 +37,12 @@ public:
 
     // Its place and speed alone. Whether problems() may be other ones now.
     bool follow(Session& session, const MirrorContext& context, double seconds);
+    // Its speed alone, which Godot tells nobody of.
+    void follow_speed(Session& session, const MirrorContext& context);
     // Whether its speed is the physics'.
-    bool is_thrown() const { return handle_ != no_handle && values_.motion == Motion::Dynamic; }
-    // What is touched, and where it stands; null where it is not in the session.
-    const TouchShape* touch() const { return handle_ != no_handle ? addition_.touch.get() : nullptr; }
-    Pose pose() const { return pose_of(place_); }
-    // Its size about its own place, 0 where it is not in the session (unit: meters).
-    double reach() const { return addition_.touch != nullptr ? addition_.touch->reach : 0.0; }
-    std::uint32_t layers() const { return values_.layers.layer; }
-    bool has_haptic_mesh() const { return !shapes_.touched.empty(); }
+    bool is_thrown() const { return handle() != no_handle && twin_.values().motion == Motion::Dynamic; }
+    bool has_haptic_mesh() const { return !twin_.planned().form.touched.empty(); }
 
-    // Another one whenever the session's body is to be described anew (see addition()).
-    std::uint64_t revision() const { return revision_; }
-    // The session's body as it is now: what one like it is made from.
-    BodyAddition addition() const;
-
-    // A twin of many triangles is built beside the loop; until it is ready the body is as it was before, or
-    // absent.
-    bool is_building() const { return job_ != nullptr; }
     // Hands over a twin that has become ready.
     void take_ready(Session& session, const MirrorContext& context);
 
@@ -69,45 +56,29 @@ public:
     std::vector<std::string> problems() const;
 
 private:
-    // What is built, and what came of it. Shared with the thread that builds it.
-    struct Job {
-        BodyPlan plan;
-        BuiltBody built;
-        std::atomic<bool> done{false};
-    };
-
     void plan(Session& session, const MirrorContext& context);
-    void remove(Session& session);
-    bool deform(Session& session, Job& job);
-    void catch_up(Session& session, const BodyPlan& plan);
-    bool needs_a_new_twin(godot::CollisionObject3D& body, bool shapes_changed);
-    void listen(godot::CollisionObject3D& node, const MirrorContext& context);
-    void send_values(godot::CollisionObject3D& node, Session& session, const MirrorContext& context);
-    void send_motion(godot::CollisionObject3D& node, Session& session, double seconds,
-                     std::uint64_t takes_effect);
+    bool needs_a_new_twin(godot::CollisionObject3D& body, const godot::Transform3D& place,
+                          bool shapes_changed);
+    void listen(godot::CollisionObject3D& node, const godot::Ref<godot::PhysicsMaterial>& material,
+                const MirrorContext& context);
+    void send_place(const godot::Transform3D& place, Session& session, double seconds,
+                    std::uint64_t takes_effect);
+    void send_speed(const godot::CollisionObject3D& node, Session& session, std::uint64_t takes_effect);
     void hold_still_in_godot(godot::CollisionObject3D& body) const;
     void remember_place(godot::CollisionObject3D& body);
+    BodyPlace remembered() const;
 
     std::uint64_t id_;
     std::uint64_t watch_ = 0;  // id of the BodyWatch in it
-    SessionHandle handle_ = no_handle;
-    BodyAddition addition_;  // that the twin was made from
-    std::uint64_t revision_ = 0;
+    BodyTwin twin_;
+    std::uint64_t material_ = 0;  // id of the PhysicsMaterial that it listens to; 0: none
     ShapeKey key_;
     std::uint64_t mesh_changes_ = 0;
-    BodyMakings makings_;
-    BodyMakings made_of_;  // the makings of the session's body
-    BodyValues values_;
-    BodyReading shapes_;        // as they were when the newest twin was planned
-    std::shared_ptr<Job> job_;  // null: nothing is being built
     godot::Transform3D place_;  // of Godot's body, when we last saw or set it
     godot::Vector3 linear_velocity_;
     godot::Vector3 angular_velocity_;
-    std::uint64_t shown_change_ = 0;  // BodyState::changed_at that Godot's side shows
-    std::uint64_t shown_from_ = 0;    // earlier ticks do not know yet what was sent last
     bool tried_ = false;
-    bool was_nowhere_ = false;  // when the newest twin was planned: there could be none
-    std::vector<std::string> problems_;
+    bool was_nowhere_ = false;   // when the newest twin was planned: there could be none
     std::string place_problem_;  // of where it is now; the twin stays where it was
 };
 

@@ -45,9 +45,9 @@ void collect(const Node& node, std::vector<CollisionObject3D*>& bodies, std::vec
 BodyMirrors::BodyMirrors(std::size_t max_bodies, bool in_turn) : in_turn_(in_turn), by_handle_(max_bodies) {}
 
 // A shape or mesh that comes or goes changes the body above it.
-void BodyMirrors::note_node(const Node& node) {
+void BodyMirrors::scene_changed(const Node& node) {
     const bool is_mirrored = is_solid_body(&node) || Object::cast_to<Joint3D>(&node) != nullptr;
-    scene_changed_ |= is_mirrored;
+    tree_changed_ |= is_mirrored;
     if (!is_mirrored) {
         others_.push_back(node.get_instance_id());
     }
@@ -129,8 +129,8 @@ void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
             by_handle_[mirror.handle()] = &mirror;
         }
     }
-    mirror.is_building() ? static_cast<void>(building_.insert(&mirror))
-                         : static_cast<void>(building_.erase(&mirror));
+    mirror.twin().is_building() ? static_cast<void>(building_.insert(&mirror))
+                                : static_cast<void>(building_.erase(&mirror));
 }
 
 void BodyMirrors::say_problems(const BodyMirror& mirror, Complaints& complaints) {
@@ -202,7 +202,7 @@ void BodyMirrors::look_at_bodies(Session& session, const MirrorContext& context,
     for (std::size_t i = turns(bodies_.size(), frames_a_round_of_speeds); i > 0; --i) {
         next_rigid_ = next_rigid_ + 1 < bodies_.size() ? next_rigid_ + 1 : 0;
         if (bodies_[next_rigid_]->is_thrown()) {
-            look_at_motion(*bodies_[next_rigid_], session, context, seconds, complaints);
+            bodies_[next_rigid_]->follow_speed(session, context);
         }
     }
 }
@@ -232,7 +232,7 @@ void BodyMirrors::synchronise(const Node& root, Session& session, const MirrorCo
             say_kind(*other, complaints);
         }
     }
-    if (std::exchange(scene_changed_, false)) {
+    if (std::exchange(tree_changed_, false)) {
         find(root, session, complaints);
     }
     look_at_bodies(session, with_news, seconds, complaints);
@@ -254,27 +254,41 @@ void BodyMirrors::take_ready(Session& session, const MirrorContext& context, Com
     }
 }
 
-void BodyMirrors::apply(const BodyState& state, std::uint64_t tick) {
+SessionHandle BodyMirrors::body_of(std::uint64_t node) const {
+    const BodyMirror* mirror = of(node);
+    return mirror != nullptr ? mirror->handle() : no_handle;
+}
+
+std::uint64_t BodyMirrors::node_of(SessionHandle body) const {
+    const BodyMirror* mirror = of_handle(body);
+    return mirror != nullptr ? mirror->id() : 0;
+}
+
+void BodyMirrors::show(const BodyState& state, std::uint64_t tick) {
     if (BodyMirror* mirror = of_handle(state.handle)) {
         mirror->apply(state, tick);
     }
 }
 
 SceneFacts BodyMirrors::facts() const {
-    constexpr double endless = 1e6;  // (unit: meters)
     SceneFacts facts;
     for (const auto& mirror : bodies_) {
-        if (mirror->handle() == no_handle) {
-            continue;
-        }
-        ++facts.bodies;
-        facts.layers |= mirror->layers();
-        if (const double reach = mirror->reach(); reach < endless) {
-            facts.smallest = facts.largest > 0.0 ? std::min(facts.smallest, reach) : reach;
-            facts.largest = std::max(facts.largest, reach);
+        if (mirror->handle() != no_handle) {
+            facts.add(mirror->twin().values().layers.layer, mirror->twin().reach());
         }
     }
     return facts;
+}
+
+std::vector<QueriedBody> BodyMirrors::touchable(std::uint32_t mask) const {
+    std::vector<QueriedBody> touchable;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const BodyTwin& twin = bodies_[i]->twin();
+        if (twin.touch() != nullptr && (twin.values().layers.layer & mask) != 0) {
+            touchable.push_back({twin.touch(), twin.pose(), i});
+        }
+    }
+    return touchable;
 }
 
 void BodyMirrors::release(Session& session) {

@@ -13,34 +13,27 @@
 #include <unordered_set>
 #include <vector>
 
-#include "core/geometry/surface_query.hpp"
 #include "nodes/body_mirror.hpp"
 #include "nodes/body_watch.hpp"
 #include "nodes/joint_mirror.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/scene_view.hpp"
+#include "world/body_queries.hpp"
+#include "world/scene_facts.hpp"
 
 namespace tactus {
 
-// What there is to touch, all in all.
-struct SceneFacts {
-    std::size_t bodies = 0;
-    std::uint32_t layers = 0;  // that any of them is in
-    double smallest = 0.0;     // reach of a body (unit: meters); planes are left out
-    double largest = 0.0;
-};
-
-struct BodyPoint {
-    godot::CollisionObject3D* body = nullptr;  // null: nothing is met
-    SurfaceHit at;
-};
-
-class BodyMirrors {
+class BodyMirrors final : public SceneView {
 public:
     // `in_turn`: as real time has it; else all are looked at each time.
     BodyMirrors(std::size_t max_bodies, bool in_turn);
 
-    // It has come or is about to go.
-    void note_node(const godot::Node& node);
+    void scene_changed(const godot::Node& node) override;
+    SessionHandle body_of(std::uint64_t node) const override;
+    std::uint64_t node_of(SessionHandle body) const override;
+    std::size_t body_count() const override { return bodies_.size(); }
+    void show(const BodyState& state, std::uint64_t tick) override;
+    void release(Session& session) override;
     // Look at it in the next frame: it may be made of something else now.
     void note_change(std::uint64_t body) { news_->changed.push_back(body); }
     void note_all_changed() { all_changed_ = true; }
@@ -48,23 +41,16 @@ public:
     // Brings the session up to date with all that stands below `root`.
     void synchronise(const godot::Node& root, Session& session, const MirrorContext& context, double seconds,
                      Complaints& complaints);
-    void apply(const BodyState& state, std::uint64_t tick);
     // Bodies that a hand touches now.
     void touched(const std::vector<std::uint64_t>& bodies) { touched_ = bodies; }
-    // Gives all back to Godot's own physics.
-    void release(Session& session);
 
     const std::vector<std::unique_ptr<BodyMirror>>& bodies() const { return bodies_; }
     const std::vector<std::unique_ptr<JointMirror>>& joints() const { return joints_; }
     BodyMirror* of(std::uint64_t node) const;
     BodyMirror* of_handle(SessionHandle handle) const;
     SceneFacts facts() const;
-    // In the world (unit: meters), among bodies of these layers.
-    BodyPoint nearest(const Vec3& point, double max_distance, std::uint32_t mask) const;
-    // The first surface from one point to another; `at.distance` is that from the first.
-    BodyPoint first_on_way(const Vec3& from, const Vec3& to, std::uint32_t mask) const;
-    std::vector<godot::CollisionObject3D*> within(const Vec3& center, double radius,
-                                                  std::uint32_t mask) const;
+    // What can be touched, of these layers; `index` is that in bodies().
+    std::vector<QueriedBody> touchable(std::uint32_t mask) const;
     std::size_t building() const { return building_.size(); }
 
 private:
@@ -82,10 +68,6 @@ private:
     void look_at_motion(BodyMirror& mirror, Session& session, const MirrorContext& context, double seconds,
                         Complaints& complaints);
     void take_handle(BodyMirror& mirror, SessionHandle before);
-    template <class Use>
-    void for_each_touchable(std::uint32_t mask, Use&& use) const;
-    static BodyPoint nearest_of(const std::vector<const BodyMirror*>& bodies, const Vec3& point,
-                                double max_distance);
     static void say_kind(const godot::Node& node, Complaints& complaints);
     static void say_problems(const BodyMirror& mirror, Complaints& complaints);
 
@@ -99,7 +81,7 @@ private:
     std::vector<std::uint64_t> touched_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
     bool is_first_look_ = true;
-    bool scene_changed_ = true;
+    bool tree_changed_ = true;
     bool all_changed_ = true;
     bool handles_changed_ = false;
     std::uint64_t mesh_changes_ = 0;

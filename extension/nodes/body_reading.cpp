@@ -143,9 +143,9 @@ HapticMesh* haptic_mesh_of(const CollisionObject3D& body) {
     return nullptr;
 }
 
-ShapeKey shape_key(CollisionObject3D& body) {
+ShapeKey shape_key(CollisionObject3D& body, const Transform3D& body_place) {
     ShapeKey key;
-    key.scaling = without_rounding(scaling_of(body.get_global_transform().basis));
+    key.scaling = without_rounding(scaling_of(body_place.basis));
     for_each_shape(body, [&key](const Ref<Shape3D>& shape, const Transform3D& place, Object*) {
         key.shapes.push_back({shape->get_instance_id(), place});
     });
@@ -159,14 +159,14 @@ std::vector<Ref<Shape3D>> shapes_of(CollisionObject3D& body) {
     return shapes;
 }
 
-BodyReading read_shapes(CollisionObject3D& body) {
-    BodyReading reading;
+BodyForm read_form(CollisionObject3D& body) {
+    BodyForm reading;
     const Transform3D transform = body.get_global_transform();
     if (std::string problem = problem_of_place(transform); !problem.empty()) {
         reading.problems.push_back(std::move(problem));
         return reading;
     }
-    const Basis scaling = shape_key(body).scaling;
+    const Basis scaling = without_rounding(scaling_of(transform.basis));
     for_each_shape(body, [&](const Ref<Shape3D>& shape, const Transform3D& place, Object* owner) {
         ShapeReading one = read_shape(shape, Transform3D(scaling, Vector3()) * place);
         if (!one.error.empty()) {
@@ -200,32 +200,9 @@ BodyReading read_shapes(CollisionObject3D& body) {
     return reading;
 }
 
-bool same_shapes(const BodyReading& a, const BodyReading& b) {
-    return a.problems == b.problems && same_shapes(a.shapes, b.shapes) && same_meshes(a.meshes, b.meshes) &&
-           same_meshes(a.touched, b.touched);
-}
-
-std::string problem_of(const MeshDraft& draft) {
-    const std::string& error = draft.source->triangles().error;
-    return error.empty() ? error : draft.owner + error;
-}
-
-std::vector<std::string> problems_of(const BodyReading& reading) {
-    std::vector<std::string> problems = reading.problems;
-    for (const std::vector<MeshDraft>* drafts : {&reading.meshes, &reading.touched}) {
-        for (const MeshDraft& draft : *drafts) {
-            if (std::string problem = problem_of(draft); !problem.empty()) {
-                problems.push_back(std::move(problem));
-            }
-        }
-    }
-    return problems;
-}
-
-BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaults) {
+BodyValues read_values(const CollisionObject3D& body, const Ref<PhysicsMaterial>& material,
+                       const BodyDefaults& defaults) {
     BodyValues values;
-    const Ref<PhysicsMaterial> material = material_of(body);
-    values.material = material.is_valid() ? material->get_instance_id() : 0;
     values.motion = motion_of(body);
     read_touch(material, defaults, values);
     if (material.is_valid()) {
@@ -237,8 +214,8 @@ BodyValues read_values(const CollisionObject3D& body, const BodyDefaults& defaul
                      static_cast<std::uint32_t>(body.get_collision_mask())};
     if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
         values.gravity_scale = rigid->get_gravity_scale();
-        values.constant_force = rigid->get_constant_force();
-        values.constant_torque = rigid->get_constant_torque();
+        values.constant_force = from_godot(rigid->get_constant_force());
+        values.constant_torque = from_godot(rigid->get_constant_torque());
         values.linear_damping =
             damping_of(rigid->get_linear_damp_mode(), rigid->get_linear_damp(), defaults.linear_damping);
         values.angular_damping =
@@ -260,7 +237,7 @@ BodyMakings read_makings(const CollisionObject3D& body) {
                 mesh->library_mass(without_rounding(scaling_of(body.get_global_transform().basis)));
             makings.solid_of_mesh = true;
         }
-        makings.inertia = rigid->get_inertia();
+        makings.inertia = from_godot(rigid->get_inertia());
         if (rigid->get_center_of_mass_mode() == RigidBody3D::CENTER_OF_MASS_MODE_CUSTOM) {
             makings.center_of_mass = from_godot(rigid->get_center_of_mass());
         }
@@ -269,31 +246,6 @@ BodyMakings read_makings(const CollisionObject3D& body) {
         makings.locks |= rigid->is_lock_rotation_enabled() ? all_turns : 0u;
     }
     return makings;
-}
-
-void put_into(BodyDescription& description, const BodyMakings& makings) {
-    description.mass = makings.mass;
-    description.center_of_mass = makings.center_of_mass;
-    const Vec3 inertia = from_godot(makings.inertia);
-    description.inertia = inertia == Vec3(0.0) ? std::nullopt : std::optional<Vec3>(inertia);
-    description.continuous = makings.continuous;
-    description.can_sleep = makings.can_sleep;
-    for (int i = 0; i < 3; ++i) {
-        description.lock_linear[i] = (makings.locks >> i & 1u) != 0;
-        description.lock_angular[i] = (makings.locks >> (i + 3) & 1u) != 0;
-    }
-}
-
-void put_into(BodyAddition& addition, const BodyValues& values) {
-    addition.touch_material = values.touch;
-    addition.texture = values.texture;
-    BodyDescription& description = addition.description;
-    description.motion = values.motion;
-    description.material = values.surface;
-    description.collision = values.layers;
-    description.gravity_scale = values.gravity_scale;
-    description.linear_damping = values.linear_damping;
-    description.angular_damping = values.angular_damping;
 }
 
 }  // namespace tactus

@@ -11,7 +11,7 @@
 
 #include "core/haptics/touch_material.hpp"
 #include "nodes/shape_reading.hpp"
-#include "session/session.hpp"
+#include "world/body_form.hpp"
 
 namespace tactus {
 
@@ -53,56 +53,18 @@ Motion motion_of(const godot::CollisionObject3D& body);
 
 HapticMesh* haptic_mesh_of(const godot::CollisionObject3D& body);
 
-ShapeKey shape_key(godot::CollisionObject3D& body);
+// `body_place`: in the world.
+ShapeKey shape_key(godot::CollisionObject3D& body, const godot::Transform3D& body_place);
 std::vector<godot::Ref<godot::Shape3D>> shapes_of(godot::CollisionObject3D& body);
 
-struct BodyReading {
-    std::vector<PlacedShape> shapes;    // that collide; touched, too, where there is no HapticMesh
-    std::vector<MeshDraft> meshes;      // likewise
-    std::vector<MeshDraft> touched;     // instead of these
-    std::vector<std::string> problems;  // of single shapes; the rest of the body can still be touched
-    bool touchable = false;             // false: nothing is left to touch, the problems say why
-};
-
-// Everything but the values below, which are cheap enough to ask for in every frame. The triangles of meshes
-// are taken as they are; problems_of() looks at them, too.
-BodyReading read_shapes(godot::CollisionObject3D& body);
-bool same_shapes(const BodyReading& a, const BodyReading& b);
-std::vector<std::string> problems_of(const BodyReading& reading);
-std::string problem_of(const MeshDraft& draft);  // empty where the triangles are sound
-
-// What a running body can take over as it is, without being made anew.
-struct BodyValues {
-    std::uint64_t material = 0;  // instance id of its PhysicsMaterial; 0: none
-    Motion motion = Motion::Static;
-    TouchMaterial touch;
-    std::shared_ptr<const HeightImage> texture;  // null: none
-    SurfaceMaterial surface;
-    CollisionLayers layers;
-    double gravity_scale = 1.0;
-    double linear_damping = 0.0;
-    double angular_damping = 0.0;
-    godot::Vector3 constant_force;   // at the centre of mass, in the world (unit: newtons)
-    godot::Vector3 constant_torque;  // in the world (unit: newton meters)
-};
+// Everything but the values and makings, which are cheap enough to ask for in every frame. The triangles of
+// meshes are taken as they are; problems_of() looks at them, too.
+BodyForm read_form(godot::CollisionObject3D& body);
 // Of any of the bodies that can have one.
 godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& body);
-BodyValues read_values(const godot::CollisionObject3D& body, const BodyDefaults& defaults);
+BodyValues read_values(const godot::CollisionObject3D& body,
+                       const godot::Ref<godot::PhysicsMaterial>& material, const BodyDefaults& defaults);
 
-// What a body is made from: a change makes it anew.
-struct BodyMakings {
-    double mass = 1.0;
-    bool solid_of_mesh = false;  // what is not given below is that of the touched mesh, filled evenly
-    godot::Vector3 inertia;      // zero: that of the shapes
-    std::optional<Vec3> center_of_mass;
-    bool continuous = false;
-    bool can_sleep = true;
-    std::uint32_t locks = 0;  // bit i: axis i of x, y, z, and of the turns about x, y, z
-    bool operator==(const BodyMakings&) const = default;
-};
 BodyMakings read_makings(const godot::CollisionObject3D& body);
-
-void put_into(BodyDescription& description, const BodyMakings& makings);
-void put_into(BodyAddition& addition, const BodyValues& values);
 
 }  // namespace tactus

@@ -46,6 +46,11 @@ inline godot::Basis scaling_of(const godot::Basis& basis) {
     return godot::Basis(basis.get_rotation_quaternion()).transposed() * basis;
 }
 
+inline Mat3 matrix_of(const godot::Basis& basis) {
+    return Mat3(from_godot(basis.get_column(0)), from_godot(basis.get_column(1)),
+                from_godot(basis.get_column(2)));
+}
+
 // A frame that turns has its scaling rounded anew each time; none at all stays none.
 inline godot::Basis without_rounding(const godot::Basis& scaling) {
     return scaling.is_equal_approx(godot::Basis()) ? godot::Basis() : scaling;

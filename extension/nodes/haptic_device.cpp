@@ -114,7 +114,15 @@ String HapticDevice::get_state_text() const {
     if (HapticWorld::of(this) == nullptr) {
         return "no HapticWorld is running: put one into the scene, best above this node";
     }
-    return state_.connected ? "connected" : "waiting for the first tick";
+    if (!state_.connected) {
+        return "waiting for the first tick";
+    }
+    const std::string too_stiff =
+        explain_stiffness(state_.stiffness_wanted, state_.stiffness_used, state_.lag);
+    const String safety = state_.safety == HandState::working ? String() : String(text_of(state_.safety));
+    const String wall = too_stiff.empty() ? String() : to_godot(too_stiff);
+    return "connected" + (safety.is_empty() ? String() : "; " + safety) +
+           (wall.is_empty() ? String() : "; " + wall);
 }
 
 String HapticDevice::problem_of_mouse() const {
@@ -192,6 +200,9 @@ void HapticDevice::take_state(const DeviceState& state) {
     if (before.connected != state.connected) {
         post_signal(*this, state.connected ? "connected" : "disconnected");
     }
+    if (before.limited == 0 && state.limited != 0) {
+        post_signal(*this, "force_limited");
+    }
     const std::uint32_t changed = before.buttons ^ state.buttons;
     for (int64_t button = 0; changed >> button != 0; ++button) {
         if ((changed >> button & 1u) != 0) {
@@ -204,7 +215,15 @@ void HapticDevice::take_state(const DeviceState& state) {
 Workspace HapticDevice::workspace() const {
     const Transform3D transform = get_global_transform();
     const double volume = std::abs(static_cast<double>(transform.basis.determinant()));
-    return {pose_of(transform), std::cbrt(volume), force_limit_, clutch_};
+    return {pose_of(transform), std::cbrt(volume), force_limit_, clutch_,
+            static_cast<std::uint32_t>(dead_man_buttons_)};
+}
+
+Vec3 HapticDevice::start() const {
+    const Workspace mapping = workspace();
+    const bool is_followed = follows_path() && path_.is_valid() && path_problem_.is_empty();
+    const Vec3 hand = is_followed ? sample_path(path_->hand_path(), 0).position : Vec3(0.0);
+    return tactus::to_parent(mapping.pose, mapping.scale * hand);
 }
 
 void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change) {

@@ -45,6 +45,8 @@ public:
     // Null where the driver has nothing to work with; another one after a change of driver or path.
     std::shared_ptr<Device> port();
     Workspace workspace() const;
+    // Where its hand begins, in the scene.
+    Vec3 start() const;
     void take_state(const DeviceState& state);
     void clear_state() { take_state({}); }
 
@@ -70,6 +72,7 @@ private:
     ArmSettings arm_settings_;
     double force_limit_ = 8.0;
     bool clutch_ = false;
+    int dead_man_buttons_ = 0;
 
     std::shared_ptr<Device> port_;
     std::shared_ptr<MouseDevice> mouse_;  // the same as port_ where the driver is the mouse

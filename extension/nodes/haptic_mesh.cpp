@@ -4,10 +4,14 @@
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <unordered_map>
 
+#include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_library.hpp"
+#include "nodes/mesh_source.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "realtime/workers.hpp"
 
 namespace tactus {
@@ -65,13 +69,13 @@ double HapticMesh::library_mass(const Basis& body_scale) const {
 }
 
 // Each mesh is read by the first node that asks; when it changes, by the first that asks again.
-std::shared_ptr<MeshSource> HapticMesh::source() const {
-    static std::unordered_map<std::uint64_t, std::weak_ptr<MeshSource>> by_mesh;
-    static std::unordered_map<std::string, std::weak_ptr<MeshSource>> by_name;
+std::shared_ptr<TriangleSource> HapticMesh::source() const {
+    static std::unordered_map<std::uint64_t, std::weak_ptr<TriangleSource>> by_mesh;
+    static std::unordered_map<std::string, std::weak_ptr<TriangleSource>> by_name;
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
-    std::weak_ptr<MeshSource>& known =
+    std::weak_ptr<TriangleSource>& known =
         mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[from_godot(library_mesh_)];
     source_ = known.lock();
     if (source_ != nullptr && source_ != former_) {
@@ -79,11 +83,11 @@ std::shared_ptr<MeshSource> HapticMesh::source() const {
         return source_;
     }
     if (mesh_.is_valid()) {
-        source_ = std::make_shared<MeshSource>(mesh_);
+        source_ = source_of(mesh_);
     } else {
         LibraryMesh loaded = load_library_mesh(library_mesh_);
-        source_ = std::make_shared<MeshSource>(
-            MeshSource::Checked{std::move(loaded.mesh), std::move(loaded.error)});
+        source_ = std::make_shared<TriangleSource>(
+            TriangleSource::Checked{std::move(loaded.mesh), std::move(loaded.error)});
     }
     if (former_ != nullptr) {
         source_->succeed(*former_);
@@ -96,7 +100,7 @@ std::shared_ptr<MeshSource> HapticMesh::source() const {
 
 ShapeReading HapticMesh::read(const Basis& body_scale) const {
     ShapeReading reading;
-    const std::shared_ptr<MeshSource> triangles = source();
+    const std::shared_ptr<TriangleSource> triangles = source();
     if (triangles == nullptr) {
         reading.error = "it has no mesh: set 'mesh', or 'library_mesh' to one of " +
                         from_godot(String(", ").join(mesh_library_names()));
@@ -109,7 +113,7 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
         reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
     } else {
         reading.meshes.push_back({triangles,
-                                  without_rounding(scaling_of(local.basis)),
+                                  matrix_of(without_rounding(scaling_of(local.basis))),
                                   pose_of(local),
                                   smoothing_angle_,
                                   one_sided_,
@@ -138,15 +142,22 @@ Ref<Mesh> HapticMesh::create_library_mesh(const String& name) {
         UtilityFunctions::push_error("HapticMesh: ", to_godot(loaded.error), ".");
         return Ref<Mesh>();
     }
-    return drawn_mesh(*loaded.mesh);
+    return drawn_mesh({*loaded.mesh});
+}
+
+String HapticMesh::problem() const {
+    if (!is_solid_body(get_parent())) {
+        return "it belongs to no body: make it a child of a StaticBody3D, AnimatableBody3D or RigidBody3D";
+    }
+    return is_inside_tree() && HapticWorld::above(this) == nullptr
+               ? String("its body stands outside of every HapticWorld: put the body below one")
+               : String();
 }
 
 PackedStringArray HapticMesh::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    if (Object::cast_to<CollisionObject3D>(get_parent()) == nullptr) {
-        warnings.push_back(
-            "This HapticMesh touches nothing: make it a child of a StaticBody3D, AnimatableBody3D or "
-            "RigidBody3D.");
+    if (const String wrong = problem(); !wrong.is_empty()) {
+        warnings.push_back("This HapticMesh is not felt: " + wrong + ".");
     }
     const ShapeReading reading = read(Basis());
     const std::string error =
@@ -166,6 +177,7 @@ PackedStringArray HapticMesh::_get_configuration_warnings() const {
 void HapticMesh::_notification(int what) {
     if (what == NOTIFICATION_ENTER_TREE) {
         set_notify_local_transform(true);
+        watch_warnings(*this);
         ++change_count;
     } else if (what == NOTIFICATION_EXIT_TREE || what == NOTIFICATION_LOCAL_TRANSFORM_CHANGED) {
         ++change_count;

@@ -28,6 +28,8 @@ public:
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
+    // Why nobody touches it, whatever its triangles are; empty where somebody can.
+    godot::String problem() const;
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
     // out. Whether its triangles are sound shows when they are built.
     ShapeReading read(const godot::Basis& body_scale) const;
@@ -47,7 +49,7 @@ protected:
 
 private:
     // Null where nothing is named; a source with an error where it cannot be read.
-    std::shared_ptr<MeshSource> source() const;
+    std::shared_ptr<TriangleSource> source() const;
     double known_mass() const;
     void mesh_changed();
     void library_changed();
@@ -59,9 +61,9 @@ private:
     double smoothing_angle_ = 0.0;  // (unit: radians)
     bool one_sided_ = false;
     bool use_library_mass_ = false;
-    mutable std::optional<double> known_mass_;    // of the library's mesh, looked up once
-    mutable std::shared_ptr<MeshSource> source_;  // read once, when somebody asks
-    mutable std::shared_ptr<MeshSource> former_;  // until then: the one before the mesh changed
+    mutable std::optional<double> known_mass_;        // of the library's mesh, looked up once
+    mutable std::shared_ptr<TriangleSource> source_;  // read once, when somebody asks
+    mutable std::shared_ptr<TriangleSource> former_;  // until then: the one before the mesh changed
 };
 
 }  // namespace tactus

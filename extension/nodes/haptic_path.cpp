@@ -79,7 +79,7 @@ Ref<ArrayMesh> HapticPath::create_line_mesh(double thickness) const {
                 sample_path(path, duration * i / (closed ? line_steps : line_steps - 1)).position);
         }
     }
-    return tube_mesh(points, thickness, closed);
+    return drawn_mesh(tube(points, thickness, closed));
 }
 
 void HapticPath::_validate_property(PropertyInfo& property) const {

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <cstdio>
 #include <godot_cpp/classes/node.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "nodes/properties.hpp"
-#include "realtime/recorder_ring.hpp"
-#include "realtime/tick_trace.hpp"
-#include "session/session_types.hpp"
+#include "world/recording.hpp"
 
 namespace tactus {
 
@@ -29,9 +24,9 @@ public:
 
     bool start();
     void stop();
-    bool is_recording() const { return ring_ != nullptr; }
-    int64_t get_rows() const { return rows_; }
-    int64_t get_lost_rows() const { return lost_; }
+    bool is_recording() const { return recording_ != nullptr; }
+    int64_t get_rows() const;
+    int64_t get_lost_rows() const;
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
@@ -40,26 +35,15 @@ public:
     bool wants_trace() const { return !trace_path_.is_empty(); }
     const ProxyPointer* proxy_node() const;
     const godot::Node* object_node() const;
-    godot::String problem() const;  // empty where there is none
-    std::shared_ptr<RecorderRing<SessionRecord>> ring() const { return ring_; }
-    // `epoch`: the zero of the session's clock, on the clock whose microseconds the file shows.
-    void drain(Nanoseconds epoch);
-    void drain_trace(TickTrace& trace);
+    godot::String problem() const;                  // empty where there is none
+    Recording& recording() { return *recording_; }  // while it records
 
 protected:
     static void _bind_methods();
     void _notification(int what);
 
 private:
-    struct FileCloser {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    using File = std::unique_ptr<std::FILE, FileCloser>;
-
     bool has_file() const { return !(csv_path_.is_empty() && trace_path_.is_empty()); }
-    File open(const godot::String& path);
-    void write_trace();
-    void fail(const godot::String& what);
 
     godot::NodePath proxy_;
     godot::NodePath object_;
@@ -68,13 +52,8 @@ private:
     double trace_seconds_ = 15.0;
     bool autostart_ = true;
 
-    std::shared_ptr<RecorderRing<SessionRecord>> ring_;  // null while nothing is recorded
-    File csv_;
-    File trace_file_;
-    std::string text_;
-    std::vector<TickRecord> ticks_;
-    int64_t rows_ = 0;
-    int64_t lost_ = 0;
+    std::unique_ptr<Recording> recording_;  // null while nothing is recorded
+    std::uint64_t rows_ = 0, lost_ = 0;     // of the last one
 };
 
 }  // namespace tactus

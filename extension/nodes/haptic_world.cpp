@@ -69,7 +69,7 @@ void find_problems(const Node& node, PackedStringArray& problems) {
         Node* child = node.get_child(i);
         if (is_solid_body(child)) {
             for (const std::string& problem :
-                 problems_of(read_shapes(*Object::cast_to<CollisionObject3D>(child)))) {
+                 problems_of(read_form(*Object::cast_to<CollisionObject3D>(child)))) {
                 problems.push_back("'" + String(child->get_name()) +
                                    "' cannot be touched as it should be: " + to_godot(problem) + ".");
             }
@@ -192,11 +192,19 @@ void HapticWorld::stop() {
     }
     Roll<HapticWorld>::leave(this);
     run_->end();
+    let_go_of_former();
     Workers::discard([run = std::move(run_)]() mutable { run.reset(); });
     post_signal(*this, "stopped");
 }
 
-// The old run goes when the new one stands: trees and meshes that both need are built once.
+// Of millions of triangles, that takes longer than a frame has.
+void HapticWorld::let_go_of_former() {
+    if (former_ != nullptr) {
+        Workers::discard([run = std::move(former_)]() mutable { run.reset(); });
+    }
+}
+
+// The old run goes when the new one has built what it needs: trees and meshes of both are built once.
 void HapticWorld::catch_up() {
     const Change what = std::exchange(change_, Change::none);
     if (run_ == nullptr || what == Change::none) {
@@ -209,6 +217,7 @@ void HapticWorld::catch_up() {
     }
     const std::shared_ptr<WorldRun> before = run_;
     stop();
+    former_ = before;
     start();
 }
 
@@ -296,6 +305,9 @@ void HapticWorld::_process(double seconds) {
         return;
     }
     run->synchronise(std::max(seconds, shortest_way));
+    if (run->trees_building() == 0) {
+        let_go_of_former();
+    }
     report_status(seconds);
     run->show();
 }
@@ -319,6 +331,7 @@ int64_t HapticWorld::advance(double seconds) {
     const auto ticks = static_cast<int64_t>(owed_seconds_ * tick_rate_ + rounding);
     owed_seconds_ -= static_cast<double>(ticks) / tick_rate_;
     run->synchronise(std::max(seconds, 1.0 / tick_rate_));
+    let_go_of_former();
     run->advance(ticks);
     report_status(seconds);
     run->show();
@@ -332,7 +345,7 @@ void HapticWorld::report_status(double seconds) {
         return;
     }
     since_report_ = 0.0;
-    if (const TickStatus status = run_->take_status(); status != 0) {
+    if (const TickStatus status = run_->loop().take_status(); status != 0) {
         post_signal(*this, "status_reported", {static_cast<int64_t>(status), to_godot(status_words(status))});
     }
 }
@@ -341,30 +354,30 @@ void HapticWorld::report_status(double seconds) {
 // ---------------------------------------------------------------------------------------------------
 
 int64_t HapticWorld::get_ticks() const {
-    return run_ != nullptr ? static_cast<int64_t>(run_->ticks()) : 0;
+    return run_ != nullptr ? static_cast<int64_t>(run_->loop().ticks()) : 0;
 }
 
 double HapticWorld::get_time() const {
-    return run_ != nullptr ? to_seconds(run_->now()) : 0.0;
+    return run_ != nullptr ? to_seconds(run_->loop().now()) : 0.0;
 }
 
 void HapticWorld::reset_statistics() {
     if (run_ == nullptr) {
         return;
     }
-    run_->loop().statistics().request_clear();
-    if (BaselineLoop* baseline = run_->baseline()) {
+    run_->loop().loop().statistics().request_clear();
+    if (BaselineLoop* baseline = run_->loop().baseline()) {
         baseline->statistics().request_clear();
     }
 }
 
 Dictionary HapticWorld::get_period_distribution() const {
-    return run_ != nullptr ? distribution(run_->loop().statistics().periods()) : Dictionary();
+    return run_ != nullptr ? distribution(run_->loop().loop().statistics().periods()) : Dictionary();
 }
 
 Dictionary HapticWorld::get_baseline_period_distribution() const {
-    const bool measured = run_ != nullptr && run_->baseline() != nullptr;
-    return measured ? distribution(run_->baseline()->statistics().periods()) : Dictionary();
+    const bool measured = run_ != nullptr && run_->loop().baseline() != nullptr;
+    return measured ? distribution(run_->loop().baseline()->statistics().periods()) : Dictionary();
 }
 
 PackedStringArray HapticWorld::get_problems() const {
@@ -385,6 +398,9 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
         return warnings;
     }
     find_problems(*this, warnings);
+    if (const String outside = is_inside_tree() ? problem_of_outside(*this) : String(); !outside.is_empty()) {
+        warnings.push_back(outside + ".");
+    }
     if (!has_body(*this)) {
         warnings.push_back("This HapticWorld is empty: " + problem_of_emptiness(*this) + ".");
     }

@@ -12,6 +12,7 @@
 #include "nodes/haptic_material.hpp"
 #include "nodes/properties.hpp"
 #include "realtime/tick_loop.hpp"
+#include "world/body_queries.hpp"
 
 namespace tactus {
 
@@ -87,6 +88,7 @@ private:
 
     bool can_push(const char* method, const Body* body, const godot::Vector3& with,
                   const godot::Vector3& at = {}) const;
+    std::vector<QueriedBody> touchable(int64_t mask) const;
     bool can_ask(const char* method, const godot::Vector3& where, double size) const;
     void start();
     void stop();
@@ -94,6 +96,7 @@ private:
     void loop_changed() { change_ = std::max(change_, Change::loop); }
     void gravity_changed();
     void catch_up();
+    void let_go_of_former();
     void start_loop();
     TickLoopSettings loop_settings() const;
     void node_added(godot::Node* node);
@@ -112,6 +115,7 @@ private:
 
     // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
     std::shared_ptr<WorldRun> run_;
+    std::shared_ptr<WorldRun> former_;  // before it started anew, until its trees are in the new one
     Change change_ = Change::none;
     double owed_seconds_ = 0.0;  // of stepped time, less than a tick
     double since_report_ = 0.0;  // (unit: seconds)

@@ -13,10 +13,10 @@ using namespace godot;
 
 namespace {
 
-Dictionary dictionary_of(const BodyPoint& found) {
+Dictionary dictionary_of(const BodyPoint& found, const BodyMirrors& mirrors) {
     Dictionary result;
-    if (found.body != nullptr) {
-        result["body"] = found.body;
+    if (found.at.hit) {
+        result["body"] = mirrors.bodies()[found.index]->body();
         result["position"] = to_godot(found.at.point);
         result["normal"] = to_godot(found.at.normal);
         result["distance"] = found.at.distance;
@@ -105,27 +105,30 @@ bool HapticWorld::can_ask(const char* method, const Vector3& where, double size)
     return run_ != nullptr;
 }
 
+std::vector<QueriedBody> HapticWorld::touchable(int64_t mask) const {
+    return run_->bodies().touchable(static_cast<std::uint32_t>(mask));
+}
+
 Dictionary HapticWorld::get_nearest_surface(const Vector3& point, double max_distance, int64_t mask) const {
-    return can_ask("get_nearest_surface", point, max_distance)
-               ? dictionary_of(run_->bodies().nearest(from_godot(point), max_distance,
-                                                      static_cast<std::uint32_t>(mask)))
-               : Dictionary();
+    if (!can_ask("get_nearest_surface", point, max_distance)) {
+        return Dictionary();
+    }
+    return dictionary_of(nearest_of(touchable(mask), from_godot(point), max_distance), run_->bodies());
 }
 
 Dictionary HapticWorld::intersect_ray(const Vector3& from, const Vector3& to, int64_t mask) const {
-    return can_ask("intersect_ray", from, static_cast<double>(to.length()))
-               ? dictionary_of(run_->bodies().first_on_way(from_godot(from), from_godot(to),
-                                                           static_cast<std::uint32_t>(mask)))
-               : Dictionary();
+    if (!can_ask("intersect_ray", from, static_cast<double>(to.length()))) {
+        return Dictionary();
+    }
+    return dictionary_of(first_on_way(touchable(mask), from_godot(from), from_godot(to)), run_->bodies());
 }
 
 TypedArray<CollisionObject3D> HapticWorld::intersect_sphere(const Vector3& center, double radius,
                                                             int64_t mask) const {
     TypedArray<CollisionObject3D> bodies;
     if (can_ask("intersect_sphere", center, radius)) {
-        for (CollisionObject3D* body :
-             run_->bodies().within(from_godot(center), radius, static_cast<std::uint32_t>(mask))) {
-            bodies.push_back(body);
+        for (const std::size_t index : within(touchable(mask), from_godot(center), radius)) {
+            bodies.push_back(run_->bodies().bodies()[index]->body());
         }
     }
     return bodies;

@@ -6,18 +6,12 @@
 #include <godot_cpp/classes/ref.hpp>
 #include <godot_cpp/classes/standard_material3d.hpp>
 #include <godot_cpp/variant/color.hpp>
-#include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
-#include "core/math/types.hpp"
+#include "world/drawn_shape.hpp"
 
 namespace tactus {
 
-// The same triangles with flat shading.
-godot::Ref<godot::ArrayMesh> drawn_mesh(const TriangleMesh& mesh);
-
-// A round tube along the points, for lines that stay visible from anywhere (unit of thickness: meters).
-godot::Ref<godot::ArrayMesh> tube_mesh(const std::vector<Vec3>& points, double thickness, bool closed);
+godot::Ref<godot::ArrayMesh> drawn_mesh(const Drawing& drawing);
 
 // Lit like everything else; or bright, and seen through whatever stands before it.
 godot::Ref<godot::StandardMaterial3D> lit_material(const godot::Color& color);

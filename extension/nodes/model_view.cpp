@@ -1,16 +1,10 @@
 #include "nodes/model_view.hpp"
 
-#include <godot_cpp/classes/box_mesh.hpp>
-#include <godot_cpp/classes/capsule_mesh.hpp>
-#include <godot_cpp/classes/cylinder_mesh.hpp>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/physics_server3d.hpp>
-#include <godot_cpp/classes/plane_mesh.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
-#include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
-#include "core/geometry/touch_shape.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
@@ -22,65 +16,7 @@ using namespace godot;
 
 namespace {
 
-// A plane without end is drawn so wide (unit: meters).
-constexpr real_t drawn_plane = 20.0F;
-
 const Color picture_color(0.55F, 0.62F, 0.7F);
-
-// (1 + cos, sin axis) is twice the half angle's (cos, sin axis), but for a turn by pi.
-Quat turn_from_up(const Vec3& normal) {
-    const Vec3 up(0.0, 1.0, 0.0);
-    const double cosine = glm::dot(up, normal);
-    return cosine < -0.999999 ? Quat(0.0, 1.0, 0.0, 0.0)
-                              : glm::normalize(Quat(1.0 + cosine, glm::cross(up, normal)));
-}
-
-struct Drawing {
-    Ref<Mesh> mesh;
-    Pose pose;  // of the mesh in the shape
-};
-
-struct Draw {
-    Drawing operator()(const SphereShape& shape) const {
-        Ref<SphereMesh> mesh;
-        mesh.instantiate();
-        mesh->set_radius(static_cast<float>(shape.radius));
-        mesh->set_height(static_cast<float>(2.0 * shape.radius));
-        return {mesh, {}};
-    }
-    Drawing operator()(const BoxShape& shape) const {
-        Ref<BoxMesh> mesh;
-        mesh.instantiate();
-        mesh->set_size(to_godot(2.0 * shape.half_extents));
-        return {mesh, {}};
-    }
-    Drawing operator()(const CapsuleShape& shape) const {
-        Ref<CapsuleMesh> mesh;
-        mesh.instantiate();
-        mesh->set_radius(static_cast<float>(shape.radius));
-        mesh->set_height(static_cast<float>(2.0 * (shape.radius + shape.half_segment)));
-        return {mesh, {}};
-    }
-    Drawing operator()(const CylinderShape& shape) const {
-        Ref<CylinderMesh> mesh;
-        mesh.instantiate();
-        mesh->set_top_radius(static_cast<float>(shape.radius));
-        mesh->set_bottom_radius(static_cast<float>(shape.radius));
-        mesh->set_height(static_cast<float>(2.0 * shape.half_height));
-        return {mesh, {}};
-    }
-    Drawing operator()(const PlaneShape& shape) const {
-        Ref<PlaneMesh> mesh;
-        mesh.instantiate();
-        mesh->set_size(Vector2(drawn_plane, drawn_plane));
-        return {mesh, {shape.offset * shape.normal, turn_from_up(shape.normal)}};
-    }
-    Drawing operator()(const ConvexHullShape& shape) const { return {drawn_mesh(*shape.hull), {}}; }
-    Drawing operator()(const MeshShape& shape) const { return {drawn_mesh(*shape.mesh), {}}; }
-    Drawing operator()(const HeightFieldShape& shape) const {
-        return {drawn_mesh(height_field_mesh(shape)), {}};
-    }
-};
 
 }  // namespace
 
@@ -127,11 +63,10 @@ Node3D* ModelView::make_picture(const std::string& name, const Description& desc
     auto* picture = memnew(Node3D);
     picture->set_name(to_godot(name).get_file().validate_node_name());
     for (const PlacedShape& placed : description.touched) {
-        const Drawing drawing = std::visit(Draw{}, placed.shape);
         auto* part = memnew(MeshInstance3D);
-        part->set_mesh(drawing.mesh);
+        part->set_mesh(drawn_mesh(drawn_shape(placed.shape)));
         part->set_material_override(lit_material(picture_color));
-        part->set_transform(to_godot(placed.pose) * to_godot(drawing.pose));
+        part->set_transform(to_godot(placed.pose));
         picture->add_child(part);
     }
     world_.add_child(picture, true);
@@ -207,7 +142,7 @@ std::vector<ModelNews> ModelView::update(const std::vector<ModelObject>& objects
     return news;
 }
 
-void ModelView::apply(const BodyState& state) {
+void ModelView::show(const BodyState& state, std::uint64_t) {
     const auto object = object_of_body_.find(state.handle);
     if (object == object_of_body_.end()) {
         return;
@@ -238,7 +173,7 @@ SessionHandle ModelView::body_of(std::uint64_t node) const {
     return no_handle;
 }
 
-void ModelView::release() {
+void ModelView::release(Session&) {
     for (const auto& [id, shown] : shown_) {
         hide(shown);
     }

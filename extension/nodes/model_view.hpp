@@ -10,6 +10,7 @@
 
 #include "core/geometry/shape.hpp"
 #include "network/messages.hpp"
+#include "nodes/scene_view.hpp"
 #include "session/model_builder.hpp"
 
 namespace tactus {
@@ -24,29 +25,25 @@ struct ModelNews {
     godot::String why;       // it was refused
 };
 
-class ModelView {
+class ModelView final : public SceneView {
 public:
     explicit ModelView(HapticWorld& world) : world_(world) {}
 
     // The bodies of this scene. They stay where they are until the far side says where they should be.
     void hold_still();
-    // A node has come or gone.
-    void scene_changed(const godot::Node& node);
+    void scene_changed(const godot::Node& node) override;
+    SessionHandle body_of(std::uint64_t node) const override;
+    std::uint64_t node_of(SessionHandle body) const override;
+    std::size_t body_count() const override { return shown_.size(); }
+    void show(const BodyState& state, std::uint64_t tick) override;
+    // Takes the pictures away, too.
+    void release(Session& session) override;
 
     // Described just now, before it is built.
     void note(const ObjectDescription& description);
 
     // Brings nodes and bodies together; says what has become of which.
     std::vector<ModelNews> update(const std::vector<ModelObject>& objects);
-
-    void apply(const BodyState& state);
-
-    // 0 and no_handle where there is none.
-    std::uint64_t node_of(SessionHandle body) const;
-    SessionHandle body_of(std::uint64_t node) const;
-
-    // Gives the scene's bodies back to Godot's own physics and takes the pictures away.
-    void release();
 
 private:
     struct Description {

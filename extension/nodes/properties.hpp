@@ -129,11 +129,14 @@ const char* new_name_of(const godot::String& old) {
 
 }  // namespace tactus
 
-#define TACTUS_PROPERTIES(Class)                                  \
-    static std::span<const tactus::Property<Class>> properties(); \
-    void set_value(int64_t index, const godot::Variant& value) {  \
-        tactus::set_property(*this, index, value);                \
-    }                                                             \
-    godot::Variant get_value(int64_t index) const {               \
-        return tactus::get_property(*this, index);                \
+// By the number of its row: what is bound is typed as the property is, and a typed script knows it by that.
+#define TACTUS_PROPERTIES(Class)                                                               \
+    static std::span<const tactus::Property<Class>> properties();                              \
+    template <int64_t row, class Value>                                                        \
+    void set_row(std::conditional_t<std::is_arithmetic_v<Value>, Value, const Value&> value) { \
+        tactus::set_property(*this, row, tactus::stored(value));                               \
+    }                                                                                          \
+    template <int64_t row, class Value>                                                        \
+    Value get_row() const {                                                                    \
+        return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row));            \
     }

@@ -160,26 +160,6 @@ String ProxyPointer::problem() const {
                       : String();
 }
 
-String ProxyPointer::hindrance(const SceneFacts& facts) const {
-    // Of the largest and the smallest body: beyond these no touch is meant.
-    constexpr double too_large = 1.0;
-    constexpr double too_small = 1e-4;
-    if (facts.bodies == 0 || mask_ == 0) {
-        return String();
-    }
-    if ((mask_ & facts.layers) == 0) {
-        return "its 'collision_mask' has no layer that a body of its world is in, so it touches nothing: set "
-               "one of theirs";
-    }
-    const bool has_sizes = facts.largest > 0.0;
-    if (has_sizes && (radius_ > too_large * facts.largest || radius_ < too_small * facts.smallest)) {
-        return "the fingertip's radius of " + String::num(radius_) +
-               " m does not fit bodies that reach from " + String::num(facts.smallest, 4) + " m to " +
-               String::num(facts.largest, 4) + " m: set 'radius' to about a tenth of what is touched";
-    }
-    return String();
-}
-
 String ProxyPointer::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
@@ -204,11 +184,12 @@ String ProxyPointer::get_state_text() const {
 
 PackedStringArray ProxyPointer::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    if (is_inside_tree() && !problem().is_empty()) {
-        warnings.push_back("This ProxyPointer cannot touch: " + problem() + ".");
-    }
-    if (const String lost = is_inside_tree() ? problem_without_world(*this) : String(); !lost.is_empty()) {
-        warnings.push_back("This ProxyPointer cannot touch: " + lost + ".");
+    if (is_inside_tree()) {
+        for (const String& wrong : {problem(), problem_without_world(*this), problem_of_scene()}) {
+            if (!wrong.is_empty()) {
+                warnings.push_back("This ProxyPointer cannot touch: " + wrong + ".");
+            }
+        }
     }
     if (radius_was_refused_) {
         warnings.push_back("'" + String(get_name()) +
@@ -216,6 +197,24 @@ PackedStringArray ProxyPointer::_get_configuration_warnings() const {
                            " m: set 'radius' anew.");
     }
     return warnings;
+}
+
+// With the scene as it stands, whether it runs or not.
+String ProxyPointer::problem_of_scene() const {
+    const HapticDevice* device = device_node();
+    const HapticWorld* world = HapticWorld::above(this);
+    if (device == nullptr || world == nullptr || mask_ == 0) {
+        return String();
+    }
+    const Vec3 start = device->start();
+    const SceneReading scene = read_scene(*world, start, radius_);
+    if (const String wrong = hindrance(scene.facts); !wrong.is_empty()) {
+        return wrong;
+    }
+    return scene.around_hand == nullptr
+               ? String()
+               : "its hand begins inside '" + String(scene.around_hand->get_name()) +
+                     "' and is not felt until it has been outside once: move the device, or the body";
 }
 
 ProxyDescription ProxyPointer::description(SessionHandle device) const {

@@ -10,11 +10,11 @@
 
 #include "nodes/properties.hpp"
 #include "session/session_types.hpp"
+#include "world/scene_facts.hpp"
 
 namespace tactus {
 
 class HapticDevice;
-struct SceneFacts;
 
 // The fingertip that never enters a surface. Its place follows the proxy.
 class ProxyPointer : public godot::Node3D {
@@ -55,7 +55,9 @@ public:
     // Why it cannot touch anything, and what to do; empty where nothing is wrong with it.
     godot::String problem() const;
     // Why it will not touch what there is; empty where it can.
-    godot::String hindrance(const SceneFacts& facts) const;
+    godot::String hindrance(const SceneFacts& facts) const {
+        return to_godot(problem_of_fingertip(radius_, mask_, facts));
+    }
     ProxyDescription description(SessionHandle device) const;
     // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
     using BodyIds = std::array<std::uint64_t, HandForce::max_contacts>;
@@ -70,6 +72,7 @@ protected:
     void _notification(int what);
 
 private:
+    godot::String problem_of_scene() const;
     void emit_changes(const std::vector<std::uint64_t>& touched);
     void make_pictures();
     void place_pictures();

@@ -11,6 +11,8 @@
 #include <unordered_map>
 
 #include "nodes/body_reading.hpp"
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
@@ -60,7 +62,11 @@ void look_in_game(Node& node, Watched& memory) {
         }
         return;
     }
-    const String problem = memory.is_told ? String() : problem_without_world(node);
+    const auto* mesh = Object::cast_to<HapticMesh>(&node);
+    const String problem = memory.is_told    ? String()
+                           : mesh != nullptr ? mesh->problem()
+                                             : problem_without_world(node);
+    memory.is_told = memory.is_told || mesh != nullptr;  // of many meshes, each is looked at once
     if (!problem.is_empty()) {
         memory.is_told = true;
         UtilityFunctions::push_warning(name_of(node), ": ", problem, ".");
@@ -86,18 +92,56 @@ void look_at_all() {
     }
 }
 
-const Node* body_outside(const Node& node) {
+// Every one, or only those that have a material for touch.
+enum class Outside { any, made_to_be_felt };
+
+const Node* body_outside(const Node& node, Outside which) {
     if (is_solid_body(&node)) {
-        return &node;
+        const auto& body = *Object::cast_to<CollisionObject3D>(&node);
+        if (which == Outside::any || Object::cast_to<HapticMaterial>(material_of(body).ptr()) != nullptr) {
+            return &node;
+        }
     }
     for (int i = 0; i < node.get_child_count(); ++i) {
         const Node* child = node.get_child(i);
-        const Node* found = Object::cast_to<HapticWorld>(child) != nullptr ? nullptr : body_outside(*child);
+        const bool is_world = Object::cast_to<HapticWorld>(child) != nullptr;
+        const Node* found = is_world ? nullptr : body_outside(*child, which);
         if (found != nullptr) {
             return found;
         }
     }
     return nullptr;
+}
+
+// Of the scene that the world is part of.
+const Node& top_of(const HapticWorld& world) {
+    if (Engine::get_singleton()->is_editor_hint()) {
+        const Node* scene = world.get_tree()->get_edited_scene_root();
+        return scene != nullptr ? *scene : world;
+    }
+    const Node* top = &world;
+    while (top->get_parent() != nullptr && Object::cast_to<Window>(top->get_parent()) == nullptr) {
+        top = top->get_parent();
+    }
+    return *top;
+}
+
+void add_bodies(const Node& node, const Vec3& hand, double radius, SceneReading& scene) {
+    for (int i = 0; i < node.get_child_count(); ++i) {
+        Node* child = node.get_child(i);
+        if (is_solid_body(child)) {
+            auto& body = *Object::cast_to<CollisionObject3D>(child);
+            const BodyForm form = read_form(body);
+            if (form.touchable) {
+                scene.facts.add(static_cast<std::uint32_t>(body.get_collision_layer()), reach_of(form));
+            }
+            if (form.touchable && scene.around_hand == nullptr &&
+                is_inside(form, pose_of(body.get_global_transform()), hand, radius)) {
+                scene.around_hand = child;
+            }
+        }
+        add_bodies(*child, hand, radius, scene);
+    }
 }
 
 bool has_world(const Node& node) {
@@ -126,12 +170,22 @@ String problem_without_world(const Node& node) {
                           "below it");
 }
 
+String problem_of_outside(const HapticWorld& world) {
+    const Node* outside = body_outside(top_of(world), Outside::made_to_be_felt);
+    return outside == nullptr ? String()
+                              : "'" + String(outside->get_name()) +
+                                    "' has a HapticMaterial and is not felt, because it stands outside of "
+                                    "every HapticWorld: put it below one";
+}
+
+SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radius) {
+    SceneReading scene;
+    add_bodies(world, hand, radius, scene);
+    return scene;
+}
+
 String problem_of_emptiness(const HapticWorld& world) {
-    const Node* top = &world;
-    while (top->get_parent() != nullptr && Object::cast_to<Window>(top->get_parent()) == nullptr) {
-        top = top->get_parent();
-    }
-    const Node* outside = body_outside(*top);
+    const Node* outside = body_outside(top_of(world), Outside::any);
     return String("nothing in it can be touched: put bodies with collision shapes below this node") +
            (outside != nullptr
                 ? "; '" + String(outside->get_name()) + "' stands outside of it and is not felt"

@@ -4,6 +4,8 @@
 #include <godot_cpp/classes/node.hpp>
 #include <godot_cpp/variant/string.hpp>
 
+#include "world/scene_facts.hpp"
+
 namespace tactus {
 
 class HapticWorld;
@@ -13,6 +15,16 @@ godot::String problem_without_world(const godot::Node& node);
 
 // Of a world without bodies below it: what to do.
 godot::String problem_of_emptiness(const HapticWorld& world);
+
+// Why a body that is made to be felt is not, as it stands outside of every world; empty where none does.
+godot::String problem_of_outside(const HapticWorld& world);
+
+// The bodies below a world as they stand, whether it runs or not.
+struct SceneReading {
+    SceneFacts facts;
+    const godot::Node* around_hand = nullptr;  // a body that holds the ball that was asked for
+};
+SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radius);
 
 // In the editor: the node's warnings are asked for every half second, and shown anew when they are other
 // ones. In the game: says once, when the first frames have passed, that there is no world.

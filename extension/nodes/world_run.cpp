@@ -11,18 +11,12 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "platform/clock.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
 namespace {
-
-// Ticks between two drains of the recorder's rings in stepped time: well below what the rings hold.
-constexpr std::int64_t ticks_at_once = 1000;
-
-constexpr std::size_t trace_capacity = 4096;  // ticks between two drains: four seconds at 1 kHz
 
 double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
@@ -58,13 +52,13 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     : world_(world),
       settings_(settings),
       session_(settings.session),
-      epoch_of_monotonic_clock_(wall_clock_now() - monotonic_now()),
+      loop_(session_, settings.real_time),
       bodies_(settings.session.most_bodies, settings.real_time) {
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     start_links();
     // At the far side the hand is the operator's: what is plugged in here has no part in it.
-    const bool stands_in = !links_.empty() && view_ == nullptr;
+    const bool stands_in = !links_.empty() && model_ == nullptr;
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
@@ -81,13 +75,10 @@ void WorldRun::end() {
         link.link->leave();
     }
     if (!links_.empty()) {
-        tick(next_time_);
+        loop_.tick_once();
     }
     session_.rest();
-    bodies_.release(session_);
-    if (view_ != nullptr) {
-        view_->release();
-    }
+    view().release(session_);
     for (const OwnLink& link : links_) {
         link.link->end();
         if (link.node != nullptr) {
@@ -100,21 +91,7 @@ void WorldRun::end() {
 // --- time
 // ------------------------------------------------------------------------------------------------------------
 
-std::string WorldRun::start_loop(const TickLoopSettings& settings, bool baseline) {
-    loop_is_new_ = true;
-    loop_settings_ = settings;
-    baseline_ = baseline ? std::make_unique<BaselineLoop>() : nullptr;
-    std::string error = loop_.start(settings, &WorldRun::tick_loop_function, this, trace_.get());
-    if (error.empty() && baseline_ != nullptr) {
-        error = baseline_->start(settings);
-    }
-    return error;
-}
-
 void WorldRun::stop_loop() {
-    if (baseline_ != nullptr) {
-        baseline_->stop();
-    }
     loop_.stop();
     drain();
 }
@@ -127,42 +104,11 @@ void WorldRun::pause() {
     hands_->clear_forces();
 }
 
-TickStatus WorldRun::tick_loop_function(void* self, Nanoseconds scheduled) {
-    WorldRun& run = *static_cast<WorldRun*>(self);
-    if (run.loop_is_new_) {
-        run.loop_is_new_ = false;
-        run.clock_offset_.store(scheduled - run.next_time_, std::memory_order_relaxed);
-    }
-    return run.tick(scheduled - run.clock_offset_.load(std::memory_order_relaxed));
-}
-
-TickStatus WorldRun::tick(Nanoseconds now) {
-    const TickStatus status = session_.tick(now, trace_.get());
-    next_time_ = now + settings_.session.period;
-    ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
-    return status;
-}
-
 void WorldRun::advance(std::int64_t ticks) {
-    for (std::int64_t done = 0; done < ticks; ++done) {
-        const Nanoseconds now = next_time_;
-        if (trace_ != nullptr) {
-            trace_->begin_tick(now, monotonic_now());
-        }
-        const TickStatus status = tick(now);
-        stepped_status_ |= status;
-        if (trace_ != nullptr) {
-            trace_->end_tick(monotonic_now(), status);
-        }
-        if (done % ticks_at_once == ticks_at_once - 1) {
-            session_.collect();
-            drain();
-        }
-    }
-}
-
-TickStatus WorldRun::take_status() {
-    return settings_.real_time ? loop_.take_status() : std::exchange(stepped_status_, 0u);
+    loop_.advance(ticks, [this] {
+        session_.collect();
+        drain();
+    });
 }
 
 // --- from Godot to the session
@@ -172,8 +118,8 @@ void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
     session_.collect();  // trees that the loop has let go of can be refitted
     synchronise_links();
-    if (view_ != nullptr) {
-        view_->hold_still();
+    if (model_ != nullptr) {
+        model_->hold_still();
     } else {
         synchronise_bodies(seconds);
     }
@@ -190,13 +136,16 @@ void WorldRun::synchronise(double seconds) {
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;
     const std::uint32_t first = settings_.real_time ? frames_between : 2;
-    if (++looks_ < first || (looks_ - first) % frames_between != 0 || view_ != nullptr) {
+    if (++looks_ < first || (looks_ - first) % frames_between != 0 || model_ != nullptr) {
         return;
     }
     const SceneFacts facts = bodies_.facts();
     hands_->look_at_scene(facts, complaints_);
     if (bodies_.bodies().empty()) {
         complaints_.say(world_, problem_of_emptiness(world_));
+    } else if (const String outside = looks_ == first ? problem_of_outside(world_) : String();
+               !outside.is_empty()) {
+        complaints_.say(world_, outside);
     }
 }
 
@@ -225,7 +174,7 @@ void WorldRun::synchronise_bodies(double seconds) {
     MirrorContext context;
     context.defaults = defaults_;
     // In real time a tick may be under way that has already taken its commands.
-    context.takes_effect = ticks() + (settings_.real_time ? 2 : 1);
+    context.takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
     context.workers = &Workers::shared();
     bodies_.touched(hands_->touched());
     bodies_.synchronise(world_, session_, context, seconds, complaints_);
@@ -238,8 +187,7 @@ void WorldRun::start_links() {
     std::vector<WorldLink*> attached;
     for (MMTLink* const node : settings_.links) {
         auto link = std::make_unique<WorldLink>(node->plan(), session_, from_godot(world_.get_gravity()),
-                                                pose_of(world_.get_global_transform()),
-                                                settings_.real_time ? &clock_offset_ : nullptr);
+                                                pose_of(world_.get_global_transform()), loop_.ahead());
         attached.push_back(link.get());
         links_.push_back({node, std::move(link)});
     }
@@ -247,28 +195,28 @@ void WorldRun::start_links() {
     if (links_.empty() || !links_.front().link->is_operator()) {
         return;
     }
-    view_ = std::make_unique<ModelView>(world_);
+    model_ = std::make_unique<ModelView>(world_);
     const OwnLink& link = links_.front();
     link.link->set_distortion([this, errors = link.node->model_errors()](ObjectDescription& description) {
         if (const auto error = errors.find(description.name); error != errors.end()) {
             distort(error->second, description);
         }
-        view_->note(description);
+        model_->note(description);
     });
 }
 
 void WorldRun::synchronise_links() {
-    const auto now = static_cast<Nanoseconds>(ticks()) * settings_.session.period;
+    const Nanoseconds now = loop_.now();
     for (const OwnLink& link : links_) {
         const bool has_new_objects =
             link.link->synchronise(link.node != nullptr ? std::optional(link.node->plan()) : std::nullopt,
                                    from_godot(world_.get_gravity()), Workers::shared(),
-                                   {now, !loop_.running(), !settings_.real_time});
+                                   {now, !loop_.is_running(), !settings_.real_time});
         if (has_new_objects) {
-            std::ranges::move(view_->update(link.link->objects()), std::back_inserter(model_news_));
+            std::ranges::move(model_->update(link.link->objects()), std::back_inserter(model_news_));
         }
     }
-    if (!links_.empty() && view_ == nullptr) {
+    if (!links_.empty() && model_ == nullptr) {
         tell_far_side(now);
     }
 }
@@ -278,7 +226,7 @@ void WorldRun::tell_far_side(Nanoseconds now) {
     std::vector<const BodyMirror*> mirrors;
     for (const auto& mirror : bodies_.bodies()) {
         if (mirror->handle() != no_handle && mirror->body() != nullptr) {
-            told.push_back({mirror->handle(), mirror->revision()});
+            told.push_back({mirror->handle(), mirror->twin().revision()});
             mirrors.push_back(mirror.get());
         }
     }
@@ -291,7 +239,7 @@ void WorldRun::tell_far_side(Nanoseconds now) {
     }
     const auto describe = [&](std::size_t i) {
         return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
-                                      mirrors[i]->addition()};
+                                      mirrors[i]->twin().addition()};
     };
     for (const OwnLink& link : links_) {
         link.link->tell(told, describe, joints, session_.snapshot(), now);
@@ -300,20 +248,6 @@ void WorldRun::tell_far_side(Nanoseconds now) {
 
 // --- recording
 // -------------------------------------------------------------------------------------------------------
-
-void WorldRun::want_trace() {
-    if (trace_ != nullptr) {
-        return;
-    }
-    const bool running = loop_.running();
-    stop_loop();
-    trace_ = std::make_unique<TickTrace>(trace_capacity);
-    if (running) {
-        if (const std::string error = start_loop(loop_settings_, baseline_ != nullptr); !error.empty()) {
-            complaints_.say(world_, to_godot(error));
-        }
-    }
-}
 
 void WorldRun::synchronise_recorder() {
     if (recorder_ != nullptr && !recorder_->is_recording()) {
@@ -330,8 +264,10 @@ void WorldRun::synchronise_recorder() {
         }
         recorder_ = recorder;
         recorded_proxy_ = no_handle;
-        if (recorder->wants_trace()) {
-            want_trace();
+        if (recorder->recording().has_trace()) {
+            if (const std::string error = loop_.trace_ticks(); !error.empty()) {
+                complaints_.say(world_, to_godot(error));
+            }
         }
     }
     if (recorder_ == nullptr) {
@@ -347,18 +283,17 @@ void WorldRun::synchronise_recorder() {
     if (proxy != no_handle && (proxy != recorded_proxy_ || object != recorded_object_)) {
         recorded_proxy_ = proxy;
         recorded_object_ = object;
-        session_.record(recorder_->ring().get(), proxy, object);
+        session_.record(recorder_->recording().ring().get(), proxy, object);
     }
 }
 
 void WorldRun::drain() {
-    if (recorder_ == nullptr) {
+    if (recorder_ == nullptr || !recorder_->is_recording()) {
         return;
     }
-    const Nanoseconds zero_on_monotonic = clock_offset_.load(std::memory_order_relaxed);
-    recorder_->drain(settings_.real_time ? zero_on_monotonic + epoch_of_monotonic_clock_ : 0);
-    if (trace_ != nullptr) {
-        recorder_->drain_trace(*trace_);
+    recorder_->recording().drain(loop_.epoch());
+    if (TickTrace* trace = loop_.trace()) {
+        recorder_->recording().drain(*trace);
     }
 }
 
@@ -370,7 +305,9 @@ void WorldRun::forget(HapticRecorder* recorder) {
         return;
     }
     session_.record(nullptr, no_handle, no_handle);
-    retired_.push_back(recorder_->ring());
+    if (recorder_->is_recording()) {
+        retired_.push_back(recorder_->recording().ring());
+    }
     recorder_ = nullptr;
 }
 
@@ -387,27 +324,8 @@ void WorldRun::finish(HapticRecorder* recorder) {
     }
 }
 
-void WorldRun::scene_changed(const Node& node) {
-    if (view_ != nullptr) {
-        view_->scene_changed(node);
-    } else {
-        bodies_.note_node(node);
-    }
-}
-
 // --- from the session to Godot
 // ---------------------------------------------------------------------------------------
-
-SessionHandle WorldRun::body_of(const Node* node) {
-    if (node == nullptr) {
-        return no_handle;
-    }
-    if (view_ != nullptr) {
-        return view_->body_of(node->get_instance_id());
-    }
-    const BodyMirror* mirror = bodies_.of(node->get_instance_id());
-    return mirror != nullptr ? mirror->handle() : no_handle;
-}
 
 const BodyState* WorldRun::state_of(const Node* node) {
     const SessionHandle body = body_of(node);
@@ -418,14 +336,6 @@ const BodyState* WorldRun::state_of(const Node* node) {
         }
     }
     return nullptr;
-}
-
-std::uint64_t WorldRun::node_of(SessionHandle body) {
-    if (view_ != nullptr) {
-        return view_->node_of(body);
-    }
-    const BodyMirror* mirror = bodies_.of_handle(body);
-    return mirror != nullptr ? mirror->id() : 0;
 }
 
 void WorldRun::show() {
@@ -443,7 +353,7 @@ void WorldRun::show() {
         hands_->show_devices(snapshot);
         show_bodies(snapshot);
         if (!is_over_) {
-            hands_->show_proxies(snapshot, [this](SessionHandle body) { return node_of(body); });
+            hands_->show_proxies(snapshot, [this](SessionHandle body) { return view().node_of(body); });
         }
     }
     // A script may have freed some of them by now.
@@ -457,11 +367,7 @@ void WorldRun::show() {
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
     for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
-        if (view_ != nullptr) {
-            view_->apply(snapshot.bodies[i]);
-        } else {
-            bodies_.apply(snapshot.bodies[i], snapshot.tick);
-        }
+        view().show(snapshot.bodies[i], snapshot.tick);
     }
 }
 

@@ -1,14 +1,10 @@
 // What a HapticWorld owns while it runs: the session, its loop, and what of the scene tree stands in it.
 //
-// Threads: everything but tick() belongs to the main thread. tick() is called by the haptic thread in real
-// time and by advance() in stepped time; it touches the session's loop side, the trace and the clock's own
-// members, nothing else.
+// Threads: the main thread; the haptic thread is that of the loop (world/world_loop.hpp).
 #pragma once
 
-#include <atomic>
 #include <godot_cpp/classes/node3d.hpp>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include "nodes/body_mirrors.hpp"
@@ -16,10 +12,9 @@
 #include "nodes/messages.hpp"
 #include "nodes/model_view.hpp"
 #include "nodes/proxy_pointer.hpp"
-#include "realtime/baseline_loop.hpp"
-#include "realtime/tick_loop.hpp"
 #include "session/session.hpp"
 #include "world/world_link.hpp"
+#include "world/world_loop.hpp"
 
 namespace tactus {
 
@@ -48,9 +43,10 @@ public:
     // While scene and session are brought together. Godot may call scripts then, as bodies move.
     bool is_busy() const { return is_busy_; }
 
-    // Real time only. The text is empty, or why the loop could not start. With `baseline` a bare loop runs
-    // beside.
-    std::string start_loop(const TickLoopSettings& settings, bool baseline);
+    // Real time only. The text is empty, or why the loop could not start.
+    std::string start_loop(const TickLoopSettings& settings, bool baseline) {
+        return loop_.start(settings, baseline);
+    }
     void stop_loop();
     // Ticks stop for a while: nothing pushes the hand meanwhile.
     void pause();
@@ -63,7 +59,7 @@ public:
     void advance(std::int64_t ticks);
 
     // A node has come or gone.
-    void scene_changed(const godot::Node& node);
+    void scene_changed(const godot::Node& node) { view().scene_changed(node); }
     void forget(HapticDevice* device) { hands_->forget(device, session_); }
     void forget(ProxyPointer* proxy) { hands_->forget(proxy, session_); }
     void forget(HapticRecorder* recorder);
@@ -75,37 +71,29 @@ public:
     // long as the next frame is.
     void push(SessionHandle body, const BodyPush& push, bool for_a_frame);
     // no_handle where the node is no body of this world.
-    SessionHandle body_of(const godot::Node* node);
+    SessionHandle body_of(const godot::Node* node) {
+        return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
+    }
     // Of one that can move, as shown last; null where there is none.
     const BodyState* state_of(const godot::Node* node);
 
     const BodyMirrors& bodies() const { return bodies_; }
     Session& session() { return session_; }
-    TickLoop& loop() { return loop_; }
-    const TickLoop& loop() const { return loop_; }
-    BaselineLoop* baseline() { return baseline_.get(); }
-    Nanoseconds now() const { return static_cast<Nanoseconds>(ticks()) * settings_.session.period; }
-    std::uint64_t ticks() const { return ticks_.load(std::memory_order_acquire); }
-    TickStatus take_status();
-    std::size_t body_count() const {
-        return view_ ? links_.front().link->body_count() : bodies_.bodies().size();
-    }
+    WorldLoop& loop() { return loop_; }
+    const WorldLoop& loop() const { return loop_; }
+    std::size_t body_count() { return view().body_count(); }
     std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
     std::vector<std::string> problems() const;                         // each names its node
 
 private:
-    static TickStatus tick_loop_function(void* self, Nanoseconds scheduled);
-    TickStatus tick(Nanoseconds now);
-
+    SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
     void synchronise_bodies(double seconds);
     void look_at_scene();
     void synchronise_recorder();
     void start_links();
     void synchronise_links();
     void tell_far_side(Nanoseconds now);
-    void want_trace();
     void drain();
-    std::uint64_t node_of(SessionHandle body);
     void show_bodies(const SessionSnapshot& snapshot);
 
     struct OwnLink {
@@ -115,25 +103,13 @@ private:
 
     HapticWorld& world_;
     RunSettings settings_;
-    std::atomic<Nanoseconds> clock_offset_{
-        0};                       // a tick's time on the monotonic clock less its time in the session
     std::vector<OwnLink> links_;  // to each far side. Above the session, whose sides use them
     Session session_;
-    std::unique_ptr<TickTrace> trace_;
-    TickLoop loop_;
-    TickLoopSettings loop_settings_;  // as it was started last
-    std::unique_ptr<BaselineLoop> baseline_;
-    std::unique_ptr<ModelView> view_;    // at the operator; else null
+    WorldLoop loop_;
+    std::unique_ptr<ModelView> model_;   // at the operator; else null
     std::vector<ModelNews> model_news_;  // for its link's node
     bool is_over_ = false;
     bool is_busy_ = false;
-
-    // The session's clock starts at zero and stands still while the loop does.
-    std::atomic<std::uint64_t> ticks_{0};
-    Nanoseconds next_time_ = 0;  // of the session, for the next tick
-    bool loop_is_new_ = true;
-    Nanoseconds epoch_of_monotonic_clock_;  // its zero, since the epoch
-    TickStatus stepped_status_ = 0;
 
     std::vector<std::pair<SessionHandle, BodyPush>> forces_;  // until the next frame
     BodyMirrors bodies_;

@@ -483,6 +483,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     }
     for (std::size_t i = 0; i < most_proxies; ++i) {
         if (loop.proxy(i).present()) {
+            note_given(loop, i);
             send_sample(loop, i, now);
         }
     }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/passive_update.hpp"
 #include "core/teleop/pose_filter.hpp"
 #include "network/sample_stream.hpp"
 #include "session/carried_pointer.hpp"
@@ -56,6 +57,7 @@ private:
         bool known = false;         // there was such a tick
         bool answered = false;      // traditional: what the far side said last still held then
         OperatorPassivity passivity;
+        PassiveUpdate update;
         // Sending.
         OperatorSample sent;
         bool has_sent = false;
@@ -93,12 +95,14 @@ private:
     // --- operator_touch.cpp
     bool lands(SessionLoop& loop, Nanoseconds now);
     void correct(SessionLoop& loop, Nanoseconds now);
+    void charge_motion(SessionLoop& loop, const Target& target);
     Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
                            Nanoseconds now) const;
     Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
                       bool changed);
-    Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot);
+    Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
+    void note_given(SessionLoop& loop, std::size_t index);
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 

@@ -96,6 +96,9 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
         const Pose motion = displacement(from, target.motion.pose);
         statistics_.cost.moved =
             std::max(statistics_.cost.moved, glm::length(target.motion.pose.position - from.position));
+        if (settings().correction == Correction::passive) {
+            charge_motion(loop, target);
+        }
         bool rides = false;
         for (std::size_t i = 0; i < most_proxies && is_carrying(settings().correction); ++i) {
             if (const SessionLoop::ProxySlot& slot = loop.proxy(i);
@@ -117,6 +120,19 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
     }
 }
 
+// What a correction gives a body in speed, whoever touches it may get.
+void OperatorSide::charge_motion(SessionLoop& loop, const Target& target) {
+    const Vec3 before = loop.motion(target.body).linear_velocity;
+    const Vec3& after = target.motion.linear_velocity;
+    const double energy = 0.5 * loop.mass(target.body) * (glm::dot(after, after) - glm::dot(before, before));
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (slot.present() && loop.rests_on(*slot.proxy, target.body)) {
+            pointers_[i].update.sped_up(energy);
+        }
+    }
+}
+
 // --- feeling
 
 void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
@@ -128,6 +144,7 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
         if (!slot.present()) {
             pointer.felt.forget();
             pointer.carried.forget();
+            pointer.update.forget();
             pointer.known = false;
             continue;
         }
@@ -158,8 +175,9 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
 }
 
 // The far side's force, as much of it as makes no energy.
-Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot& slot) {
+Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers) {
     const TraditionalTouch::Far& far = traditional_.far(index);
+    OperatorPassivity& passivity = pointers_[index].passivity;
     OperatorPassivity::In in;
     in.sample = sample_;
     in.hand = slot.hand;
@@ -167,7 +185,18 @@ Vec3 OperatorSide::passive_force(std::size_t index, const SessionLoop::ProxySlot
     in.far_force = far.force;
     in.far_sample = far.sample;
     in.seconds = seconds_;
-    return pointers_[index].passivity.force(settings().passivity, settings().passive, in);
+    if (!answers) {
+        passivity.rest(settings().passive, in);
+        return Vec3(0.0);
+    }
+    return passivity.force(settings().passivity, settings().passive, in);
+}
+
+// What has left for the device is what the hand has felt, and what the far side is told of.
+void OperatorSide::note_given(SessionLoop& loop, std::size_t index) {
+    Pointer& pointer = pointers_[index];
+    pointer.force = loop.given_force(loop.proxy(index));
+    pointer.passivity.given(settings().passive, pointer.force, seconds_);
 }
 
 void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now) {
@@ -185,10 +214,7 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         const bool answers = traditional_.answers(index, sample_, channel_.link().hears_peer(),
                                                   static_cast<SampleSequence>(silence / seconds_));
         changed |= std::exchange(pointer.answered, answers) != answers;
-        in.modelled = answers ? passive_force(index, slot) : Vec3(0.0);
-        if (!answers) {
-            pointer.passivity.reset();
-        }
+        in.modelled = passive_force(index, slot, answers);
         traditional_.describe(index, slot, in.modelled);
         in.stiffness = glm::length(in.modelled) > no_force ? usual_stiffness : 0.0;
     } else {
@@ -196,13 +222,19 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         in.stiffness = stiffness_under(loop, slot.state);
     }
     hide_changes(pointer, in.modelled, in.stiffness, way, changed);
+    const bool same_model = pointer.known && !settings().traditional && !corrected_ && !changed;
+    slot.own_change = same_model ? glm::distance(in.modelled, pointer.modelled) : 0.0;
+    const Vec3 modelled = in.modelled;
+    if (settings().correction == Correction::passive && !settings().traditional) {
+        in.modelled = pointer.update.feel(settings().update, in);
+    } else {
+        pointer.update.forget();
+    }
     slot.state.force = pointer.felt.feel(settings().stealth, in);
-    pointer.passivity.given(slot.state.force);
     pointer.modelled_before =
-        pointer.known && !changed ? pointer.modelled : in.modelled;  // a change is no trend
-    pointer.modelled = in.modelled;
+        pointer.known && !changed ? pointer.modelled : modelled;  // a change is no trend
+    pointer.modelled = modelled;
     pointer.hand = slot.hand;
-    pointer.force = slot.state.force;
     pointer.known = true;
     tell_felt(pointer, slot, index);
 }
@@ -219,6 +251,8 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
             pointer.felt.hide(stealth, pointer.uncorrected, modelled);
         } else if (settings().correction == Correction::stealthy_magnitude) {
             pointer.felt.hide_size(stealth, pointer.uncorrected, modelled);
+        } else if (settings().correction == Correction::passive) {
+            pointer.update.changed(pointer.uncorrected, modelled, stiffness);
         }
         cost.force_step = std::max(cost.force_step, glm::distance(modelled + pointer.felt.hidden(), before));
     }

@@ -383,12 +383,14 @@ void SessionLoop::write_devices(Nanoseconds now) {
         if (!slot.device) {
             continue;
         }
+        const Vec3 asked = slot.force;
         const SafetySample sample = safety_sample(slot, i);
         slot.safe = slot.safety.pass(
             settings_of(slot.capabilities, slot.workspace, side_ ? side_->limits() : local_touch), sample);
         if (slot.safe.force != sample.wanted) {
             slot.force = direction_to_parent(slot.workspace.pose, slot.safe.force);
         }
+        slot.refused = asked - slot.force;
         const bool limited = slot.safe.limited != 0;
         status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
         for (ProxySlot& proxy : proxies_) {
@@ -416,6 +418,9 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
             const double added = seconds_ * glm::dot(proxy.state.force - proxy.pressed, slot.hand_velocity);
             sample.source +=
                 (std::max(0.0, added) + std::max(0.0, proxy.parts.source)) / slot.workspace.scale;
+        }
+        if (proxy.proxy && proxy.description.device == index) {
+            sample.own_change += proxy.own_change;
         }
     }
     return sample;
@@ -503,7 +508,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.safe.state,
                                                slot.safe.limited,
                                                slot.wanted.stiffness,
-                                               slot.used.stiffness};
+                                               slot.used.stiffness,
+                                               {seconds_, slot.capabilities.delay}};
         }
     }
     snapshots_.publish();

@@ -46,6 +46,7 @@ public:
                                   // (unit: newtons)
         Vec3 force_before{0.0};   // one tick ago
         FadingForce fading;       // from `force` to state.force
+        double own_change = 0.0;  // see ForceExit::leave
         bool jumped = false;      // see ProxyTick
         HandForce parts;
         Vec3 pressed{0.0};  // of `parts`, what surfaces press with (unit: newtons)
@@ -88,11 +89,14 @@ public:
     const TouchScene& scene() const { return scene_; }
     SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
     DeviceSample device_sample(SessionHandle device) const;
+    // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
+    Vec3 given_force(const ProxySlot& slot) const;
 
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
     void set_factors(SessionHandle handle, const BodyFactors& factors);
+    double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
     const Vec3& gravity() const { return gravity_; }
     // Whether the owner has changed what is touched, or what touches, since this was asked last.
     bool take_touch_change() { return std::exchange(touch_changed_, false); }
@@ -129,6 +133,7 @@ private:
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
+        Vec3 refused{0.0};        // of what they wanted, by its limits (unit: newtons)
         DeviceSample heard;       // as it came, with whatever nonsense
         DeviceCapabilities capabilities;
         HandSafety safety;

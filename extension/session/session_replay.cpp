@@ -23,6 +23,16 @@ void SessionLoop::set_factors(SessionHandle handle, const BodyFactors& factors) 
     physics_.set_factors(bodies_[handle].id, factors);
 }
 
+double SessionLoop::mass(SessionHandle handle) const {
+    return physics_.mass(bodies_[handle].id);
+}
+
+Vec3 SessionLoop::given_force(const ProxySlot& slot) const {
+    return slot.description.device < most_devices
+               ? slot.state.force - devices_[slot.description.device].refused
+               : slot.state.force;
+}
+
 Vec3 SessionLoop::pushed(SessionHandle handle) const {
     Vec3 force(0.0);
     if (handle >= bodies_.size() || bodies_[handle].slot < 0 || bodies_[handle].motion != Motion::Dynamic) {

@@ -9,6 +9,7 @@
 #include "core/haptics/proxy.hpp"
 #include "core/math/pose.hpp"
 #include "core/safety/hand_safety.hpp"
+#include "core/safety/stiffness_limit.hpp"
 #include "physics/physics_world.hpp"
 
 namespace tactus {
@@ -114,6 +115,7 @@ struct DeviceState {
     // What was touched last that the device cannot render safely, and what it was given instead.
     double stiffness_wanted = 0.0;  // (unit: newtons per meter); 0: all of it was safe
     double stiffness_used = 0.0;
+    LoopLag lag;  // of the device, for which that holds
 };
 
 // Everything Godot shows of one tick. Bodies: those that can move, each with where it is now.

@@ -17,6 +17,7 @@
 #include "core/teleop/felt_pointer.hpp"
 #include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/parameter_estimate.hpp"
+#include "core/teleop/passive_update.hpp"
 #include "core/teleop/passivity.hpp"
 #include "core/teleop/pose_filter.hpp"
 #include "core/teleop/stealth.hpp"
@@ -42,6 +43,7 @@ struct TeleopSettings {
     ForceLimits limits;                     // of what leaves for the devices
     Passivity passivity = Passivity::none;  // of traditional touch
     PassivitySettings passive;
+    PassiveUpdateSettings update;  // with Correction::passive
     StandInSettings stand_in;
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200

@@ -197,3 +197,96 @@ func test_impulses_and_forces_move_bodies() -> void:
 	world.apply_central_impulse(still, Vector3.UP)
 	expect_error("apply_impulse() did nothing: what it is given is not made of finite numbers")
 	world.apply_impulse(body, Vector3(NAN, 0, 0))
+
+
+func _warnings(of: Node) -> String:
+	return " ".join(of.get_warnings())
+
+
+## The editor's warnings come from the same place, whether the scene runs or not.
+func test_warnings_in_the_editor_name_what_the_scene_lacks() -> void:
+	var world := _stepped()
+	add_floor(world)
+	var tip := add_hand(world, _down())
+	var device: HapticDevice = world.get_node("Device")
+	add_child(world)
+	check_equal(_warnings(tip), "", "of a scene that works")
+	check_equal(_warnings(device), "", "of its hand")
+	tip.collision_mask = 4
+	check(_warnings(tip).contains("'collision_mask' has no layer"), "mask: " + _warnings(tip))
+	tip.collision_mask = 1
+	for radius: float in [30.0, 1e-6]:
+		tip.radius = radius
+		check(_warnings(tip).contains("the fingertip's radius"), "size: " + _warnings(tip))
+	tip.radius = 0.01
+	device.path = path(Vector3(0, -0.1, 0), Vector3(0, 0.1, 0))
+	check(_warnings(tip).contains("its hand begins inside 'Floor'"), "inside: " + _warnings(tip))
+	device.position.y = 0.3
+	check_equal(_warnings(tip), "", "once it is out")
+	device.driver = HapticDevice.DRIVER_PATH
+	device.path = null
+	check(_warnings(device).contains("set 'path' to a HapticPath"), "path: " + _warnings(device))
+	device.free()
+	check(_warnings(tip).contains("is not a HapticDevice"), "device: " + _warnings(tip))
+	tip.device = NodePath()
+	check(_warnings(tip).contains("there is no HapticDevice in its world"), "device: " + _warnings(tip))
+
+
+func test_warnings_of_what_stands_outside() -> void:
+	var scene := Node3D.new()
+	var world := _stepped()
+	scene.add_child(world)
+	add_floor(world)
+	var outside := with_shape(StaticBody3D.new(), sphere(0.1)) as StaticBody3D
+	outside.name = "Outside"
+	outside.physics_material_override = material(100.0)
+	scene.add_child(outside)
+	await _say(scene, "'Outside' has a HapticMaterial and is not felt", 0.4)
+	scene = Node3D.new()
+	var body := with_shape(StaticBody3D.new(), sphere(0.1))
+	var mesh := HapticMesh.new()
+	mesh.library_mesh = "cube"
+	body.add_child(mesh)
+	scene.add_child(body)
+	await _say(scene, "its body stands outside of every HapticWorld")
+	scene = Node3D.new()
+	scene.add_child(HapticMesh.new())
+	scene.get_child(0).library_mesh = "cube"
+	await _say(scene, "it belongs to no body")
+
+
+func test_a_recorder_without_a_world() -> void:
+	var recorder := HapticRecorder.new()
+	recorder.autostart = false
+	var scene := Node3D.new()
+	scene.add_child(recorder)
+	add_child(scene)
+	check(_warnings(recorder).contains("there is no HapticWorld"), _warnings(recorder))
+	remove_child(scene)
+	await _say(scene, "there is no HapticWorld: put one into the scene")
+
+
+func test_a_control_that_takes_the_mouse() -> void:
+	var scene := Node3D.new()
+	var world := _stepped()
+	scene.add_child(world)
+	add_floor(world)
+	world.add_child(Camera3D.new())
+	var device := HapticDevice.new()
+	world.add_child(device)
+	var sheet := ColorRect.new()
+	sheet.name = "Sheet"
+	sheet.size = Vector2(get_viewport().size)
+	scene.add_child(sheet)
+	expect_error("'Sheet' lies over the view and takes the mouse")
+	add_child(scene)
+	var motion := InputEventMouseMotion.new()
+	motion.position = Vector2(get_viewport().size) * 0.5
+	motion.global_position = motion.position
+	Input.parse_input_event(motion)
+	await frames(3)
+	world.advance(0.1)
+	check(_warnings(device).contains("takes the mouse"), _warnings(device))
+	sheet.mouse_filter = Control.MOUSE_FILTER_IGNORE
+	await frames(2)
+	check(not _warnings(device).contains("takes the mouse"), "it still warns")

@@ -96,8 +96,26 @@ func test_the_device_is_given_at_most_its_limit() -> void:
 	add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
 	var device: HapticDevice = world.get_node("Device")
 	device.force_limit = 3.0
+	var limited := [0]
+	device.force_limited.connect(func() -> void: limited[0] += 1)
 	world.advance(1.5)
+	await get_tree().process_frame
 	check_near(device.get_force(), Vector3(0, 3, 0), 1e-4, "force on the device")
+	check(limited[0] >= 1, "nobody was told that the force was limited")
+
+
+func test_without_its_button_a_device_is_given_no_force() -> void:
+	var world := add_world()
+	add_floor(world, 1000.0)
+	add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
+	var device: HapticDevice = world.get_node("Device")
+	device.dead_man_buttons = 2
+	world.advance(1.5)
+	check_near(device.get_force(), Vector3.ZERO, 0.0, "force without the button")
+	check(device.get_state_text().contains("button"), device.get_state_text())
+	device.dead_man_buttons = 0
+	world.advance(0.1)
+	check(device.get_force().y > 1.0, "no force without a dead-man button")
 
 
 func test_layers_that_the_mask_leaves_out_are_not_touched() -> void:

@@ -19,7 +19,9 @@ public:
         return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, buttons, true};
     }
     void write(Nanoseconds, const Vec3& given) override { force = given; }
+    DeviceCapabilities capabilities() const override { return can; }
 
+    DeviceCapabilities can;
     Vec3 position{0.0};
     Vec3 velocity{0.0};
     Vec3 force{0.0};

@@ -47,6 +47,65 @@ TEST(Session, ForcesAreLimitedToWhatTheDeviceMayTake) {
     EXPECT_TRUE(rig.tick() & session_force_limited);
 }
 
+TEST(Session, WithoutItsDeadManButtonADeviceIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    Workspace workspace;
+    workspace.dead_man = 0b10;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.005, 0.0}, 50);
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.device.buttons = 0b10;
+    rig.tick();
+    EXPECT_NEAR(rig.device.force.y, 500.0 * 0.015, 1e-6);
+    rig.device.buttons = 0b01;
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.session.refresh();
+    EXPECT_EQ(rig.session.snapshot().devices[0].safety, HandState::released);
+}
+
+// 0.2 N s/m bear 200 N/m at a tick of a millisecond with half of one more; a workspace twice as large in the
+// scene halves that.
+TEST(Session, AWallThatADeviceCannotBearIsAsStiffAsItCan) {
+    for (const double scale : {1.0, 2.0}) {
+        SessionRig rig;
+        rig.add(ground());
+        Workspace workspace;
+        workspace.force_limit = 1e6;
+        workspace.scale = scale;
+        rig.session.set_workspace(rig.hand, workspace);
+        rig.device.can.feels = true;
+        rig.device.can.damping = 0.2;
+        rig.device.can.delay = 0.0005;
+        rig.device.position = {0.0, 0.1 / scale, 0.0};
+        rig.tick();
+        rig.draw({0.0, -0.02 / scale, 0.0}, 50);
+        EXPECT_NEAR(rig.device.force.y, 200.0 / scale * 0.03, 1e-6);
+        rig.session.refresh();
+        const DeviceState& state = rig.session.snapshot().devices[0];
+        EXPECT_EQ(state.stiffness_wanted, 500.0);
+        EXPECT_NEAR(state.stiffness_used, 200.0 / scale, 1e-9);
+    }
+}
+
+TEST(Session, AHandThatHasJumpedIsNotPushed) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.can.max_speed = 5.0;
+    rig.device.position = {0.0, 0.01, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.01, 0.0}, 50);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.device.position.y = -0.02;
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.tick();
+    EXPECT_GT(rig.device.force.y, 1.0);
+}
+
 TEST(Session, AWorkspaceTurnsPositionsInAndForcesBack) {
     SessionRig rig;
     rig.add(ground());

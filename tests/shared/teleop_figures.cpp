@@ -99,7 +99,7 @@ struct Pushing {
 void evaluate_arm(const std::vector<TeleopRow>& rows, const TeleopCase& experiment, TeleopFigures& figures) {
     Pushing over_the_link, local;
     PortEnergy local_port;
-    Series deviation, speed, felt, direct;
+    Series deviation, speed, felt, direct, off;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const TeleopRow& row = rows[i];
         const double time = to_seconds(row.time);
@@ -113,10 +113,13 @@ void evaluate_arm(const std::vector<TeleopRow>& rows, const TeleopCase& experime
             speed.add(glm::length(row.velocity));
             felt.add(glm::length(row.force));
             direct.add(glm::length(row.direct));
+            off.add(force_error(row.force, row.direct));
         }
     }
     figures["local_energy_created_J"] = local_port.created();
     figures["restless_mm_s"] = 1e3 * speed.mean();
+    figures["settled_direct_force_N"] = direct.mean();
+    figures["settled_force_error_N"] = off.mean();
     figures["settled_force_share"] = direct.sum > 0.0 ? felt.sum / direct.sum : 0.0;
     over_the_link.tell("", figures);
     local.tell("local_", figures);
@@ -157,6 +160,13 @@ public:
         values_.push_back(value);
         series_.add(value);
     }
+    const Series& series() const { return series_; }
+    void tell_before_unit(const std::string& name, const std::string& unit, TeleopFigures& figures) const {
+        figures[name + "_mean_" + unit] = series_.mean();
+        figures[name + "_p95_" + unit] = percentile(values_, 0.95);
+        figures[name + "_p99_" + unit] = percentile(values_, 0.99);
+        figures[name + "_max_" + unit] = series_.largest;
+    }
     void tell(const std::string& name, const std::string& unit, TeleopFigures& figures) const {
         figures[name + "_" + unit + "_mean"] = series_.mean();
         figures[name + "_" + unit + "_p95"] = percentile(values_, 0.95);
@@ -184,6 +194,23 @@ void find_excess(std::vector<TeleopRow>& rows) {
         rows[i].excess_1ms = within(i, 1);
         rows[i].excess_100ms = within(i, 100);
     }
+}
+
+// What is felt of the model's being put right: from the first correction on, and of nothing before it.
+void evaluate_once_told(const std::vector<TeleopRow>& rows, TeleopFigures& figures) {
+    const auto first = std::ranges::find_if(rows, [](const TeleopRow& row) { return row.told; });
+    const auto told = static_cast<std::size_t>(first - rows.begin());
+    double newtons = 0.0, jnd = 0.0;
+    for (std::size_t i = std::max<std::size_t>(told, 1); i < rows.size(); ++i) {
+        const std::size_t before =
+            std::max(i - std::min<std::size_t>(i, 100), told - std::min<std::size_t>(told, 1));
+        const FeltExcess excess =
+            felt_excess(rows[i].force, rows[i].direct, rows[before].force, rows[before].direct);
+        newtons = std::max(newtons, excess.newtons);
+        jnd = std::max(jnd, excess.jnd);
+    }
+    figures["felt_excess_once_told_100ms_N_max"] = newtons;
+    figures["felt_excess_once_told_100ms_jnd_max"] = jnd;
 }
 
 void evaluate_excess(const std::vector<TeleopRow>& rows, const TeleopCase& experiment, TeleopFigures& figures,
@@ -219,8 +246,9 @@ void evaluate_excess(const std::vector<TeleopRow>& rows, const TeleopCase& exper
 TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment, const TeleopPorts& ports,
                        TeleopBins* bins) {
     TeleopFigures figures;
-    Series error, shifted, box, turn, jitter;
-    std::vector<double> errors, shares;
+    Series shifted, turn, jitter;
+    Spread error, box;
+    std::vector<double> shares;
     std::array<HighPass, 3> filters{HighPass(30.0), HighPass(30.0), HighPass(30.0)};
     const std::size_t shift =
         experiment.settings.traditional
@@ -231,12 +259,11 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
         const TeleopRow& row = rows[i];
         const double wrong = force_error(row.force, row.direct);
         error.add(wrong);
-        errors.push_back(wrong);
         if (i >= shift && rows[i - shift].far_known) {
             shifted.add(force_error_shifted(row.force, rows[i - shift].far));
         }
         if (row.far_known) {
-            box.add(row.box_error);
+            box.add(1e3 * row.box_error);
             turn.add(row.turn_error);
         }
         const Vec3 fast(filters[0](row.force.x), filters[1](row.force.y), filters[2](row.force.z));
@@ -251,9 +278,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
             last_wrong = to_seconds(row.time);
         }
     }
-    figures["force_error_mean_N"] = error.mean();
-    figures["force_error_p95_N"] = percentile(errors, 0.95);
-    figures["force_error_max_N"] = error.largest;
+    error.tell_before_unit("force_error", "N", figures);
     figures["force_error_shifted_mean_N"] = shifted.mean();
     figures["force_jitter_rms_N"] = jitter.rms();
     figures["correction_cost_jnd_p99"] = percentile(shares, 0.99);
@@ -264,6 +289,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     figures["link_energy_created_J"] = ports.link_created;
     find_excess(rows);
     evaluate_excess(rows, experiment, figures, bins);
+    evaluate_once_told(rows, figures);
     figures["let_go_ticks"] =
         static_cast<double>(std::ranges::count_if(rows, [](const TeleopRow& row) { return row.let_go; }));
     if (experiment.uses_arm) {
@@ -272,8 +298,8 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     if (!experiment.object.empty()) {
         const auto last =
             std::find_if(rows.rbegin(), rows.rend(), [](const TeleopRow& row) { return row.far_known; });
-        figures["box_position_error_rms_mm"] = 1e3 * box.rms();
-        figures["box_position_error_max_mm"] = 1e3 * box.largest;
+        box.tell_before_unit("box_position_error", "mm", figures);
+        figures["box_position_error_rms_mm"] = box.series().rms();
         figures["box_position_error_final_mm"] = last == rows.rend() ? 0.0 : 1e3 * last->box_error;
         if (last != rows.rend()) {
             for (int axis = 0; axis < 3; ++axis) {

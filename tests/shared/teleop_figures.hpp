@@ -23,6 +23,7 @@ struct TeleopRow {
     bool touches = false;                  // the operator's pointer, the object
     bool direct_touches = false;           // anything
     bool let_go = false;                   // the pointer has let go and says so
+    bool told = false;                     // the model has been corrected, in this tick or before
     double jnd_share = 0.0, offset = 0.0;  // see TeleopStatistics
     double depth = 0.0;                    // of the far hand below the surface there, after this sample
     Vec3 local_hand{0.0}, local_velocity{0.0};  // an arm of its own that touches without a link

@@ -270,6 +270,7 @@ void TeleopRun::note_model(std::size_t tick) {
     row.direct_touches = direct_.pointer().contact_count > 0;
     const TeleopStatistics& statistics = operator_port_->statistics.front();
     row.let_go = (model_.pointer().status & felt_letting_go) != 0;
+    row.told = statistics.corrections > 0;
     row.jnd_share = statistics.cost.jnd_share;
     row.offset = statistics.offset;
     largest_step_ = std::max(largest_step_, statistics.cost.force_step);

@@ -219,6 +219,16 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.passive.refill = number;
     } else if (key == "tank_share") {
         s.passive.shared = number;
+    } else if (key == "largest_damping") {
+        s.passive.largest_damping = number;
+    } else if (key == "largest_yield") {
+        s.passive.largest_yield = number;
+    } else if (key == "update_bring_in") {
+        s.update.bring_in = number;
+    } else if (key == "update_take_out") {
+        s.update.take_out = number;
+    } else if (key == "update_tank") {
+        s.update.tank = number;
     } else if (key == "delay_ms") {  // there and back
         c.forth.delay = c.back.delay = from_seconds(0.5e-3 * number);
     } else if (key == "jitter_ms") {
@@ -232,7 +242,7 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
     } else if (key == "correction") {
         return choose(value,
                       {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
-                       "stealthy_translate", "stealthy_turn"},
+                       "stealthy_translate", "stealthy_turn", "passive"},
                       s.correction);
     } else if (key == "derivation") {
         return choose(value, {"none", "velocity", "acceleration", "averaged", "history", "resimulate"},

@@ -4,30 +4,29 @@ local model (what a scripted path leaves open: thesis 5.3, inference 5).
     ./run experiment closed_loop [--delays=0,25,50,100,200,500] [--pictures=1]
 
 In the static scene the arm presses onto the ground and holds; in the dynamic one it pushes a box, whose model is 20 %
-too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is traditional,
-traditional with each passive scheme (traditional_wave_variables, traditional_time_domain, traditional_two_layers), mmt
-(the default), mmt_right, never_corrected, pose_only and velocities.
+too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is mmt (the default),
+or one of measuring/rivals.py; with _right after it, where there is a model, the model is right.
 
 energy_created_J is the most that the hand has been given on balance at any moment of a contact, settled_force_share what
-is felt of the force that direct touch would give while the hand holds still (transparency), restless_mm_s how fast it
-moves then. The others: how deep the hand goes into the environment (penetration), how far beyond where it then settles
-(overshoot), by how much deeper than by local touch (over_penetration), and the energy that the device gives the hand.
+is felt of the force that direct touch would give while the hand holds still (transparency; where direct touch gives less
+than 0.05 N then there is no such share), settled_force_error_N how much of it is missing or too much, restless_mm_s how
+fast the hand moves then. The others: how deep the hand goes into the environment (penetration), how far beyond where it
+then settles (overshoot), by how much deeper than by local touch (over_penetration), and the energy that the device gives
+the hand. passive.energy_created_max_J is the most of all that is called passive.
 """
 
+import csv
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import options, teleop_grid, teleop_runs
+from measuring import options, rivals, teleop_runs
 
 FIGURES = ("penetration_max_mm", "settled_depth_mm", "overshoot_mm", "energy_J")
-LINKED = (
-    "energy_created_J", "energy_at_hand_J", "energy_at_far_side_J", "settled_force_share", "restless_mm_s",
-    "force_error_mean_N", "felt_excess_1ms_N_max", "felt_excess_100ms_N_max", "felt_excess_100ms_jnd_p99",
-    "felt_excess_100ms_jnd_max", "bits_per_s",
-)  # fmt: skip
-PASSIVE = tuple(f"traditional_{scheme}" for scheme in teleop_runs.PASSIVITY)
+LINKED = ("settled_force_share", "settled_force_error_N", "restless_mm_s", "hand_deviation_rms_mm", *teleop_runs.FIGURES)
 SCENES = ("static", "dynamic")
+# Direct touch that gives less says nothing about a share (newtons).
+LEAST_SHARED = 0.05
 
 
 @dataclass(frozen=True)
@@ -37,24 +36,30 @@ class Settings:
     pictures: int = 1
 
 
-def cases(description: dict, scene: str, delays: list[str], output: Path) -> list[teleop_runs.Case]:
+def name_of(scheme: str) -> str:
+    return "mmt" if scheme == rivals.DEFAULT else scheme
+
+
+def common(description: dict, scene: str) -> teleop_runs.Case:
     place = description[scene]
-    common: teleop_runs.Case = {"seconds": description["seconds"], "arm": 1}
-    common |= {f"arm_{key}": value for key, value in description["arm"].items()}
-    common |= {"settled_from": place["settled"][0], "settled_to": place["settled"][1]}
-    if "object" in place:
-        common |= {"object": place["object"]}
-    found: list[teleop_runs.Case] = []
-    for delay in delays:
-        wrong = teleop_runs.wrong(place.get("wrong", {}))
-        ways: dict[str, teleop_runs.Case] = {"traditional": {"traditional": 1}, "mmt": wrong, "mmt_right": {}}
-        ways |= {f"traditional_{scheme}": {"traditional": 1, "passivity": scheme} for scheme in teleop_runs.PASSIVITY}
-        for scheme in ("never_corrected", "pose_only", "velocities"):
-            ways[scheme] = teleop_grid.SCHEMES[scheme] | wrong
-        for way, keys in ways.items():
-            name = f"{scene}.{way}_{delay}ms"
-            found.append({"name": name, "delay_ms": delay, "rows": output / f"{name}.csv", **common, **keys})
-    return found
+    keys: teleop_runs.Case = {"seconds": description["seconds"], "arm": 1}
+    keys |= {f"arm_{key}": value for key, value in description["arm"].items()}
+    keys |= {"settled_from": place["settled"][0], "settled_to": place["settled"][1]}
+    return keys | ({"object": place["object"]} if "object" in place else {})
+
+
+def cases(description: dict, scene: str, delays: list[str], output: Path) -> list[teleop_runs.Case]:
+    wrong = teleop_runs.wrong(description[scene].get("wrong", {}))
+    ways = {name_of(scheme): rivals.with_model(scheme, wrong) for scheme in rivals.SCHEMES}
+    ways |= {f"{name_of(scheme)}_right": keys for scheme, keys in rivals.MODELS.items() if scheme != "never_corrected"}
+    return [
+        {
+            "name": f"{scene}.{way}_{delay}ms", "delay_ms": delay, "rows": output / f"{scene}.{way}_{delay}ms.csv",
+            **common(description, scene), **keys,
+        }
+        for delay in delays
+        for way, keys in ways.items()
+    ]  # fmt: skip
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
@@ -69,14 +74,11 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     for scene in SCENES:
         found = teleop_runs.run(description[scene]["scene"], cases(description, scene, delays, output), output)
         local = next(iter(found.values()))
-        summary |= {f"{scene}.local.{key}": local[f"local_{key}"] for key in FIGURES}
+        summary |= {f"{scene}.local.{key}": local[f"local_{key}"] for key in (*FIGURES, "energy_created_J")}
         for name, figures in found.items():
-            summary |= {f"{name}.{key}": figures[key] for key in (*FIGURES, *LINKED)}
-            over = figures["penetration_max_mm"] - figures["local_penetration_max_mm"]
-            summary[f"{name}.over_penetration_mm"] = over
-            summary[f"{name}.hand_deviation_rms_mm"] = figures["hand_deviation_rms_mm"]
-            summary[f"{name}.largest_difference_from_local"] = difference(figures)
-        summary[f"{scene}.local.energy_created_J"] = local["local_energy_created_J"]
+            summary |= {f"{name}.{key}": value for key, value in of_case(figures).items()}
+        _write_table(output / f"{scene}.csv", found)
+    summary |= passive(summary)
     if settings.pictures:
         from plots import closed_loop
 
@@ -84,6 +86,35 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     return summary
 
 
+def of_case(figures: dict[str, float]) -> dict[str, float]:
+    found = {key: figures[key] for key in (*FIGURES, *LINKED)}
+    if figures["settled_direct_force_N"] < LEAST_SHARED:
+        del found["settled_force_share"]
+    found["over_penetration_mm"] = figures["penetration_max_mm"] - figures["local_penetration_max_mm"]
+    found["largest_difference_from_local"] = difference(figures)
+    return found
+
+
 def difference(figures: dict[str, float]) -> float:
     """The largest of all figures' differences from local touch, as a share of what local touch has."""
     return max(abs(figures[key] - figures[f"local_{key}"]) / abs(figures[f"local_{key}"]) for key in FIGURES)
+
+
+def passive(summary: dict[str, object]) -> dict[str, object]:
+    created = {
+        key: float(value)
+        for key, value in summary.items()
+        if key.endswith(".energy_created_J") and any(f".{scheme}_" in key for scheme in rivals.PASSIVE)
+    }
+    worst = max(created, key=lambda key: created[key])
+    return {"passive.energy_created_max_J": created[worst], "passive.energy_created_max_case": worst.rsplit(".", 1)[0]}
+
+
+def _write_table(path: Path, found: dict[str, dict[str, float]]) -> None:
+    with path.open("w", newline="") as file:
+        writer = csv.writer(file)
+        keys = (*FIGURES, *LINKED)
+        writer.writerow(["way", "delay_ms", *keys])
+        for name, figures in found.items():
+            way, delay = name.split(".")[1].removesuffix("ms").rsplit("_", 1)
+            writer.writerow([way, delay, *(f"{figures[key]:.6g}" for key in keys)])

@@ -2,10 +2,11 @@
 
     ./run experiment data_reduction [--seconds=10] [--delay=100] [--pictures=1]
 
-Cases are WAY.BAND: WAY is traditional or mmt (its model 20 % too heavy and 30 % too slippery), BAND is none, fixed or
-weber. Beside the packets and bits each way, against what is really sent at full rate: by how much the force is another one
-than with everything said, in newtons and as a share of what a hand just notices (7 % of the force, at least 0.02 N), and the
-share of the ticks with a touch in which it is more than that (noticeable_share_of_touch).
+Cases are WAY.BAND: WAY is mmt (the default, its model 20 % too heavy and 30 % too slippery) or one of measuring/rivals.py,
+BAND is none, fixed or weber. Beside the packets and bits each way, against what is really sent at full rate: by how much the
+force is another one than with everything said, in newtons and in just-noticeable differences (7 % of the force, at least
+0.02 N), over the ticks with a touch, and the share of these ticks in which it is more than one
+(noticeable_share_of_touch).
 """
 
 from dataclasses import dataclass
@@ -14,9 +15,8 @@ from typing import Literal
 
 import numpy as np
 
-from measuring import options, teleop_runs
+from measuring import options, rivals, teleop_runs
 
-WAYS = ("traditional", "mmt")
 BANDS: dict[str, teleop_runs.Case] = {  # fmt: skip
     "none": {},
     "fixed": {
@@ -27,8 +27,8 @@ BANDS: dict[str, teleop_runs.Case] = {  # fmt: skip
     },
 }
 FIGURES = (
-    "packets_forth_per_s", "packets_back_per_s", "bits_per_s", "bits_forth_per_s", "bits_back_per_s", "bytes_per_s",
-    "force_error_mean_N", "box_position_error_rms_mm", "felt_excess_100ms_jnd_p99", "felt_excess_100ms_jnd_max",
+    "packets_forth_per_s", "packets_back_per_s", "bits_forth_per_s", "bits_back_per_s", "bytes_per_s",
+    "box_position_error_rms_mm", *teleop_runs.FIGURES,
 )  # fmt: skip
 WEBER, LEAST_NOTICEABLE = 0.07, 0.02
 
@@ -41,14 +41,20 @@ class Settings:
     pictures: int = 1
 
 
+def ways(wrong: teleop_runs.Case) -> dict[str, teleop_runs.Case]:
+    # What is never corrected hears nothing that could be saved.
+    schemes = [scheme for scheme in rivals.SCHEMES if scheme != "never_corrected"]
+    return {"mmt" if scheme == rivals.DEFAULT else scheme: rivals.with_model(scheme, wrong) for scheme in schemes}
+
+
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("dynamic_mmt")
     common: teleop_runs.Case = {"delay_ms": settings.delay, "seconds": settings.seconds, "object": description["object"]}
-    ways = {"traditional": {"traditional": 1}, "mmt": teleop_runs.wrong(description["wrong"])}
+    asked = ways(teleop_runs.wrong(description["wrong"]))
     cases = [
-        {"name": f"{way}.{band}", "rows": output / f"{way}.{band}.csv", **common, **ways[way], **BANDS[band]}
-        for way in WAYS
+        {"name": f"{way}.{band}", "rows": output / f"{way}.{band}.csv", **common, **keys, **BANDS[band]}
+        for way, keys in asked.items()
         for band in BANDS
     ]
     found = teleop_runs.run(description["scene"], cases, output)
@@ -64,7 +70,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     if settings.pictures:
         from plots import data_reduction
 
-        data_reduction.draw(summary, WAYS, tuple(BANDS), output / "data_reduction.png")
+        data_reduction.draw(summary, tuple(asked), tuple(BANDS), output / "data_reduction.png")
     return summary
 
 
@@ -77,10 +83,11 @@ def change(folder: Path, full: str, reduced: str) -> dict[str, float]:
     size = np.sqrt(sum(before[f"force_{axis}"] ** 2 for axis in "xyz"))
     touched = size > 0.0
     share = (off / np.maximum(WEBER * size, LEAST_NOTICEABLE))[touched]
-    return {
+    found = {
         "force_change_mean_N": float(off.mean()),
-        "force_change_mean_jnd": float(share.mean()),
         "force_change_median_jnd": float(np.median(share)),
         "noticeable_share_of_touch": float((share > 1.0).mean()),
         "force_error_added_mean_N": float(force_error(after).mean() - force_error(before).mean()),
     }
+    spread = {"mean": share.mean(), "p95": np.quantile(share, 0.95), "p99": np.quantile(share, 0.99), "max": share.max()}
+    return found | {f"force_change_{how}_jnd": float(value) for how, value in spread.items()}

@@ -1,16 +1,20 @@
 """Touch of what moves, over a network, with a model that is realistically wrong: how to bring the truth in (thesis 5.4).
 
     ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,10,50] [--pictures=1]
-        [--table=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
+        [--table=1] [--variants=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
         [--grid_schemes=default,never_corrected,…] [--grid_losses=0,50] [--grid_set=KEY=VALUE,KEY=VALUE]
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 Cases are CORRECTION.DERIVATION.DELAYms.LOSSpct: how a correction is brought in, how the present is derived from a state
 that is one delay old, the delay there and back, and the share of packets lost. traditional.DELAYms.LOSSpct is beside them, and traditional_SCHEME with each passive scheme.
 
+VARIANT.SCHEME.100ms are other mistakes (demo_project/experiments/dynamic_mmt.json, "variants"), each with every scheme of
+measuring/rivals.py: among them "unsynchronised", a right model whose side ticks half a tick later and starts late behind a
+jittering link (thesis figure 5.5), and places that are seen with 1 mm of noise.
+
 The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
-pose alone, velocities and traditional touch, over models that are wrong in many ways. --table=0 and the options of the
-grid leave out what is not wanted; --grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
+pose alone, velocities and traditional touch, over models that are wrong in many ways. --table=0, --variants=0 and the options
+of the grid leave out what is not wanted; --grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
 """
 
 import csv
@@ -18,16 +22,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import options, teleop_grid, teleop_runs
+from measuring import options, rivals, teleop_grid, teleop_runs
 
-CORRECTIONS = ("none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction")
+CORRECTIONS = ("none", "pose", "pose_velocity", "passive", "stealthy_magnitude", "stealthy_direction")
 DERIVATIONS = ("none", "velocity", "acceleration", "averaged", "history", "resimulate")
 FIGURES = (
-    "box_position_error_rms_mm", "box_position_error_final_mm", "box_rotation_error_rms_deg", "force_error_mean_N",
-    "force_jitter_rms_N", "correction_force_step_max_N", "correction_cost_jnd_p99", "packets_per_s",
-    "box_right_after_letting_go_s", "felt_excess_1ms_N_max", "felt_excess_100ms_N_max", "felt_excess_100ms_jnd_p99",
-    "felt_excess_100ms_jnd_max", "energy_at_hand_J", "energy_at_far_side_J", "energy_created_J", "bits_per_s",
+    *teleop_runs.PLACES, *teleop_runs.FIGURES, "force_jitter_rms_N", "correction_force_step_max_N", "correction_cost_jnd_p99",
+    "packets_per_s",
 )  # fmt: skip
+# Of the variants: at this delay (milliseconds), without loss.
+VARIED_AT = "100"
+FIGURE_5_5 = "unsynchronised"
 # Shown as curves: the model left alone, the thesis's correction, and ours.
 SHOWN = ("none.none.100ms.0pct", "pose.none.100ms.0pct", "stealthy_direction.resimulate.100ms.0pct")
 
@@ -40,6 +45,7 @@ class Settings(teleop_runs.Imperfections):
     clock: Literal["virtual", "real"] = "virtual"
     pictures: int = 1
     table: int = 1
+    variants: int = 1
     grid: int = 1
     grid_scenes: str = "all"
     grid_wrong: str = "all"
@@ -56,9 +62,8 @@ def cases(description: dict, settings: Settings, output: Path) -> list[teleop_ru
         for loss in settings.losses.split(","):
             common = {"delay_ms": delay, "loss": float(loss) / 100, "seconds": settings.seconds}
             common["object"] = description["object"]
-            for scheme in ("none", *teleop_runs.PASSIVITY):
-                way = "traditional" if scheme == "none" else f"traditional_{scheme}"
-                found.append({"name": f"{way}.{delay}ms.{loss}pct", "traditional": 1, "passivity": scheme, **common})
+            for way, keys in rivals.TRADITIONAL.items():
+                found.append({"name": f"{way}.{delay}ms.{loss}pct", **keys, **common})
             for correction in CORRECTIONS:
                 for derivation in DERIVATIONS if correction != "none" else ("none",):
                     name = f"{correction}.{derivation}.{delay}ms.{loss}pct"
@@ -75,6 +80,8 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
 
         return teleop_processes.dynamic_mmt(description, settings.seconds, output)
     summary: dict[str, object] = _table(description, settings, output) if settings.table else {}
+    if settings.variants:
+        summary |= _variants(description, settings, output)
     if settings.grid:
         summary |= _grid(description, settings, output)
     return summary
@@ -94,6 +101,28 @@ def _table(description: dict, settings: Settings, output: Path) -> dict[str, obj
         teleop.draw_dynamic(output, SHOWN)
         teleop.draw_schemes(found, CORRECTIONS[1:], DERIVATIONS, output / "schemes.png")
         teleop.draw_delays(found, output / "delays.png")
+    return summary
+
+
+def _variants(description: dict, settings: Settings, output: Path) -> dict[str, object]:
+    common: teleop_runs.Case = {"delay_ms": VARIED_AT, "seconds": settings.seconds, "object": description["object"]}
+    cases: list[teleop_runs.Case] = []
+    for variant, how in description["variants"].items():
+        wrong = teleop_runs.wrong(how.get("wrong", {}))
+        for scheme in rivals.SCHEMES:
+            name = f"{variant}.{scheme}.{VARIED_AT}ms"
+            case = {"name": name, **common, **how.get("link", {}), **rivals.with_model(scheme, wrong)}
+            cases.append(case | ({"rows": output / f"{name}.csv"} if variant == FIGURE_5_5 else {}))
+    found = teleop_runs.run(description["scene"], cases, output)
+    summary: dict[str, object] = {f"{name}.{key}": one[key] for name, one in found.items() for key in FIGURES}
+    for scheme in rivals.SCHEMES:
+        quiet, noisy = (found[f"{variant}.{scheme}.{VARIED_AT}ms"]["force_error_mean_N"] for variant in ("usual", "pose_noise"))
+        summary[f"pose_noise.{scheme}.{VARIED_AT}ms.force_error_over_without_noise"] = noisy / quiet
+    if settings.pictures:
+        from plots import teleop
+
+        teleop.draw_unsynchronised(output, FIGURE_5_5, float(VARIED_AT))
+        teleop.draw_variants(found, tuple(description["variants"]), f"{VARIED_AT}ms", output / "variants.png")
     return summary
 
 

@@ -2,8 +2,10 @@
 
     ./run experiment gate [--runs=200] [--seed=1] [--delay=100] [--pictures=1]
 
-Cases are the schemes C': spring, position (1), position_force (2), position_force_relative (3); with "_alone" the model
-is never corrected. --seed: another number, other perturbations.
+Cases are the schemes C': spring, position (1), position_force (2), position_force_relative (3), and 2 and 3 with a
+free force (position_force_free, relative_free); with "_alone" the model is never corrected. Beside them, with the spring:
+spring_pose_only, spring_velocities, spring_passive_updates, and traditional touch as it is and with each passive scheme.
+--seed: another number, other perturbations.
 """
 
 from pathlib import Path

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import teleop_runs
+from measuring import rivals, teleop_grid, teleop_runs
 
 SCHEMES = ("spring", "position", "position_force", "position_force_relative", "position_force_free", "relative_free")
 # With a free force, nothing but the force leads the far hand: it may be as far from the operator's place as it likes.
@@ -18,6 +18,14 @@ KEYS: dict[str, teleop_runs.Case] = {
 }
 # "_alone": the model is never corrected, so that C' alone keeps the two together.
 VARIANTS = {"": "stealthy_direction", "_alone": "none"}
+CASES: dict[str, teleop_runs.Case] = {
+    f"{scheme}{variant}": {**KEYS.get(scheme, {"control": scheme}), "correction": correction}
+    for scheme in SCHEMES
+    for variant, correction in VARIANTS.items()
+}
+# The others, with the spring: what corrects, or what comes back, keeps the two together.
+OTHERS = ("pose_only", "velocities", "passive_updates", *rivals.TRADITIONAL)
+CASES |= {f"spring_{scheme}" if scheme in rivals.MODELS else scheme: rivals.SCHEMES[scheme] for scheme in OTHERS}
 
 
 @dataclass(frozen=True)
@@ -53,13 +61,11 @@ def perturbation(description: dict, seed: int) -> teleop_runs.Case:
 
 def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:
     found: list[teleop_runs.Case] = []
-    for scheme in SCHEMES:
-        for variant, correction in VARIANTS.items():
-            for run in range(settings.runs):
-                common = {**KEYS.get(scheme, {"control": scheme}), "correction": correction, "delay_ms": settings.delay}
-                common |= {"seconds": description["seconds"], "object": description["object"]}
-                case = {"name": f"{scheme}{variant}.{run}", **common}
-                found.append(case | perturbation(description, settings.seed * 100_000 + run))
+    for name, keys in CASES.items():
+        for run in range(settings.runs):
+            case = {"name": f"{name}.{run}", **keys, "delay_ms": settings.delay}
+            case |= {"seconds": description["seconds"], "object": description["object"]}
+            found.append(case | perturbation(description, settings.seed * 100_000 + run))
     return found
 
 
@@ -72,18 +78,16 @@ def is_beyond(description: dict, figures: dict[str, float], side: str) -> bool:
 
 def run(name: str, settings: Settings, output: Path) -> dict[str, object]:
     description = teleop_runs.description(name)
-    found = teleop_runs.run(description["scene"], cases(description, settings), output)
+    found = teleop_runs.run(description["scene"], cases(description, settings), output, bins=True)
     _write_table(output / "runs.csv", description, found)
     summary: dict[str, object] = {}
-    for scheme in SCHEMES:
-        for variant in VARIANTS:
-            case = f"{scheme}{variant}"
-            runs = [found[f"{case}.{number}"] for number in range(settings.runs)]
-            summary |= {f"{case}.{key}": value for key, value in shares(description, runs).items()}
+    for case in CASES:
+        runs = [found[f"{case}.{number}"] for number in range(settings.runs)]
+        summary |= {f"{case}.{key}": value for key, value in shares(description, runs).items()}
     if settings.pictures:
         from plots import endings
 
-        endings.draw(summary, SCHEMES, description["title"], output / "endings.png")
+        endings.draw(summary, tuple(CASES), description["title"], output / "endings.png")
     return summary
 
 
@@ -99,12 +103,26 @@ def shares(description: dict, runs: list[dict[str, float]]) -> dict[str, float]:
         "apart_p95_mm": apart[int(0.95 * (len(apart) - 1))],
         "off_by_10mm_share": _mean(one["box_position_error_max_mm"] > 10.0 for one in runs),
         "box_position_error_rms_mean_mm": _mean(one["box_position_error_rms_mm"] for one in runs),
-        "force_error_mean_N": _mean(one["force_error_mean_N"] for one in runs),
+        **{f"force_error_{how}_N": _mean(one[f"force_error_{how}_N"] for one in runs) for how in ("mean", "p95", "p99")},
+        "force_error_max_N": max(one["force_error_max_N"] for one in runs),
+        **_felt(runs),
         "felt_excess_100ms_jnd_p99_mean": _mean(one["felt_excess_100ms_jnd_p99"] for one in runs),
-        "felt_excess_100ms_N_max": max(one["felt_excess_100ms_N_max"] for one in runs),
+        "energy_at_hand_mean_J": _mean(one["energy_at_hand_J"] for one in runs),
         "energy_created_max_J": max(one["energy_created_J"] for one in runs),
         "bits_per_s": _mean(one["bits_per_s"] for one in runs),
     }
+
+
+def _felt(runs: list[dict]) -> dict[str, float]:
+    """In all ticks of all runs."""
+    found: dict[str, float] = {}
+    for key in ("felt_excess_1ms_N", "felt_excess_1ms_jnd", "felt_excess_100ms_N", "felt_excess_100ms_jnd"):
+        pooled = teleop_grid.pool(one["bins"][key] for one in runs)
+        found[f"{key}_mean"] = _mean(one[f"{key}_mean"] for one in runs)
+        found[f"{key}_p95"] = teleop_grid.pooled_percentile(pooled, 0.95)
+        found[f"{key}_p99"] = teleop_grid.pooled_percentile(pooled, 0.99)
+        found[f"{key}_max"] = max(one[f"{key}_max"] for one in runs)
+    return found
 
 
 def _mean(values) -> float:

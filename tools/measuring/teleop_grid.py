@@ -8,17 +8,9 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from measuring import teleop_runs
+from measuring.rivals import SCHEMES
 from measuring.teleop_scene import Scene
 
-# The default is what TeleopSettings says; the others are what it is measured against.
-SCHEMES: dict[str, teleop_runs.Case] = {
-    "default": {},
-    "never_corrected": {"correction": "none"},
-    "pose_only": {"correction": "pose", "derivation": "none"},
-    "velocities": {"correction": "pose_velocity", "derivation": "velocity"},
-    "traditional": {"traditional": 1},
-    **{f"traditional_{scheme}": {"traditional": 1, "passivity": scheme} for scheme in teleop_runs.PASSIVITY},
-}
 WITH_LOSS = ("default", "never_corrected", "traditional")
 HANDS: dict[str, teleop_runs.Case] = {"scripted": {}, "arm": {"arm": 1}}
 # Mean force errors that differ by less are equal (newtons): a twentieth of the least force that is noticed.

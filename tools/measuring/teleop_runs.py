@@ -19,6 +19,19 @@ Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "n
 # What keeps traditional touch from making energy (core/teleop/passivity.hpp).
 PASSIVITY = ("wave_variables", "time_domain", "two_layers")
 
+SPREAD = ("mean", "p95", "p99", "max")
+# What every experiment publishes of every case; core/teleop/errors.hpp says what it is.
+FIGURES = (
+    *(f"force_error_{how}_N" for how in SPREAD),
+    *(f"felt_excess_{window}_{unit}_{how}" for window in ("1ms", "100ms") for unit in ("N", "jnd") for how in SPREAD),
+    "energy_at_hand_J", "energy_at_far_side_J", "energy_created_J", "bits_per_s",
+)  # fmt: skip
+# And of a body that is followed.
+PLACES = (
+    *(f"box_position_error_{how}_mm" for how in ("rms", *SPREAD, "final")),
+    "box_rotation_error_rms_deg", "box_right_after_letting_go_s",
+)  # fmt: skip
+
 
 @dataclass(frozen=True)
 class Imperfections:

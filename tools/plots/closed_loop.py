@@ -4,41 +4,47 @@ from pathlib import Path
 
 import numpy as np
 
+from measuring import rivals
 from plots import style
-from plots.teleop import read
+from plots.teleop import WAYS, read
 
 TITLES = {"static": "onto the ground", "dynamic": "against a box"}
-
-
-WAYS = {
-    "traditional": ("traditional", style.WARNING, "-"),
-    "traditional_wave_variables": ("wave variables", style.REFERENCE, "-"),
-    "traditional_time_domain": ("time domain", style.QUIET, "-"),
-    "traditional_two_layers": ("two layers", style.INK, "-"),
-    "mmt": ("local model", style.MEASURED, "-"),
-}
+FAMILIES = (tuple(rivals.TRADITIONAL), tuple(rivals.MODELS))
 
 
 def draw(folder: Path, scenes: tuple[str, ...], delays: list[str], summary: dict[str, object]) -> None:
     shown = "100" if "100" in delays else delays[-1]
-    drawn, axes = style.figure(3, len(scenes), 12.0, 9.6)
+    drawn, axes = style.figure(4, len(scenes), 12.0, 13.0)
+    along = np.array([float(delay) for delay in delays])
     for column, scene in enumerate(scenes):
-        depth, energy, share = (axes[row][column] for row in range(3))
-        rows = read(folder / f"{scene}.mmt_{shown}ms.csv")
-        depth.plot(rows["time"], rows["local_depth_m"] * 1e3, color=style.QUIET, linewidth=4.0, alpha=0.4, label="local touch")
-        along = np.array([float(delay) for delay in delays])
-        for way, (label, colour, dash) in WAYS.items():
-            rows = read(folder / f"{scene}.{way}_{shown}ms.csv")
-            depth.plot(rows["time"], rows["depth_m"] * 1e3, dash, color=colour, linewidth=1.0, label=label)
-            for key, one in (("energy_created_J", energy), ("settled_force_share", share)):
-                values = [float(summary[f"{scene}.{way}_{delay}ms.{key}"]) for delay in delays]
-                one.plot(along, values, dash, color=colour, marker="o", markersize=4)
-        depth.set(ylabel="far hand below the surface (mm)", xlabel="time (s)", ylim=(0, None))
-        depth.set_title(f"An arm presses {TITLES[scene]}, {shown} ms away")
-        depth.legend(fontsize=8, ncols=2)
-        energy.set(ylabel="energy made in a contact (J)", xlabel="delay there and back (ms)")
-        energy.set_yscale("symlog", linthresh=1e-6)
-        energy.axhline(1e-6, color=style.INK, linewidth=0.8, linestyle=":")
-        share.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
-        share.set(ylabel="felt of the true force\nwhile the hand holds", xlabel="delay there and back (ms)", ylim=(0, 1.6))
+        for row, family in enumerate(FAMILIES):
+            _draw_depth(axes[row][column], folder, scene, shown, family)
+        axes[0][column].set_title(f"An arm presses {TITLES[scene]}, {shown} ms away")
+        for row, key, label in (
+            (2, "energy_created_J", "energy made in a contact (J)"),
+            (3, "settled_force_error_N", "force error while\nthe hand holds (N)"),
+        ):
+            one = axes[row][column]
+            for way in rivals.SCHEMES:
+                name = "mmt" if way == rivals.DEFAULT else way
+                values = [float(summary[f"{scene}.{name}_{delay}ms.{key}"]) for delay in delays]
+                colour, dash = WAYS[way]
+                one.plot(along, values, dash, color=colour, marker="o", markersize=3.5, linewidth=1.3, label=rivals.LABELS[way])
+            one.set(ylabel=label, xlabel="delay there and back (ms)")
+        axes[2][column].set_yscale("symlog", linthresh=1e-6)
+        axes[2][column].axhline(1e-6, color=style.INK, linewidth=0.8, linestyle=":")
+        axes[2][column].set_ylim(-2e-7, None)
+        axes[3][column].set_yscale("symlog", linthresh=1e-3)
+        axes[3][column].set_ylim(0, None)
+    drawn.legend(*axes[3][0].get_legend_handles_labels(), loc="outside lower center", ncols=5, fontsize=9)
     style.save(drawn, folder / "closed_loop.png")
+
+
+def _draw_depth(axes, folder: Path, scene: str, delay: str, family: tuple[str, ...]) -> None:
+    for number, way in enumerate(family):
+        rows = read(folder / f"{scene}.{'mmt' if way == rivals.DEFAULT else way}_{delay}ms.csv")
+        if number == 0:
+            axes.plot(rows["time"], rows["local_depth_m"] * 1e3, color=style.QUIET, linewidth=4.0, alpha=0.4, label="local touch")
+        colour, dash = WAYS[way]
+        axes.plot(rows["time"], rows["depth_m"] * 1e3, dash, color=colour, linewidth=1.0, label=rivals.LABELS[way])
+    axes.set(ylabel="far hand below\nthe surface (mm)", xlabel="time (s)", ylim=(0, None))

@@ -1,34 +1,48 @@
-"""How many runs end alike on both sides, for each C'."""
+"""How many runs end alike on both sides, for each C' and for every other way."""
 
 from pathlib import Path
 
 import numpy as np
 
+from measuring.rivals import LABELS as WAYS
 from plots import style
 
 LABELS = {
-    "spring": "spring", "position": "1: position", "position_force": "2: position\nand force",
-    "position_force_relative": "3: position, force,\nrelative position",
+    "spring": "spring", "position": "1: position", "position_force": "2: position and force",
+    "position_force_relative": "3: position, force, relative position",
+    "position_force_free": "2, the force free", "relative_free": "3, the force free",
 }  # fmt: skip
+ALONE = "_alone"
 
 
-def draw(summary: dict[str, object], schemes: tuple[str, ...], title: str, path: Path) -> None:
-    drawn, ((alike, apart),) = style.figure(1, 2, 10.0, 4.2)
-    places = np.arange(len(schemes))
-    for offset, variant, colour, label in (
-        (-0.2, "_alone", style.QUIET, "never corrected"),
-        (0.2, "", style.MEASURED, "corrected"),
-    ):
-        shares = [100.0 * float(summary[f"{scheme}{variant}.ends_alike_share"]) for scheme in schemes]
-        bars = alike.bar(places + offset, shares, 0.38, color=colour, label=label)
-        alike.bar_label(bars, [f"{share:.1f}" for share in shares], fontsize=8)
-        errors = [float(summary[f"{scheme}{variant}.apart_median_mm"]) for scheme in schemes]
-        apart.bar(places + offset, np.maximum(errors, 1e-4), 0.38, color=colour)
-    alike.axhline(95.0, color=style.INK, linewidth=0.8, linestyle=":")
-    alike.set(ylabel="runs that end alike (%)", ylim=(0, 110))
-    alike.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2, fontsize=8)
-    apart.set(ylabel="boxes apart at the end, median (mm)", yscale="log")
-    for axes in (alike, apart):
-        axes.set_xticks(places, [LABELS[scheme] for scheme in schemes], fontsize=8)
-    drawn.suptitle(title, fontsize=11)
+def label_of(case: str) -> str:
+    if case.removesuffix(ALONE) in LABELS:
+        return LABELS[case.removesuffix(ALONE)] + (", never corrected" if case.endswith(ALONE) else "")
+    return WAYS[case.removeprefix("spring_")]
+
+
+def colour_of(case: str) -> str:
+    if case.removesuffix(ALONE) not in LABELS:
+        return style.REFERENCE
+    return style.QUIET if case.endswith(ALONE) else style.MEASURED
+
+
+def draw(summary: dict[str, object], cases: tuple[str, ...], title: str, path: Path) -> None:
+    drawn, axes = style.figure(1, 3, 13.0, 0.34 * len(cases) + 1.4, sharey=True)
+    places = np.arange(len(cases))
+    panels = (
+        ("ends_alike_share", "runs that end alike (%)", 100.0, ".1f"),
+        ("apart_median_mm", "boxes apart at the end, median (mm)", 1.0, ".2g"),
+        ("force_error_mean_N", "force error, mean (N)", 1.0, ".2g"),
+    )
+    for (key, name, factor, form), one in zip(panels, axes[0]):
+        values = [factor * float(summary[f"{case}.{key}"]) for case in cases]
+        bars = one.barh(places, values, 0.7, color=[colour_of(case) for case in cases])
+        one.bar_label(bars, [format(value, form) for value in values], fontsize=8, padding=2)
+        one.set_title(name, fontsize=9.5)
+        one.margins(x=0.15)
+    axes[0][0].axvline(95.0, color=style.INK, linewidth=0.8, linestyle=":")
+    axes[0][0].set_yticks(places, [label_of(case) for case in cases], fontsize=8.5)
+    axes[0][0].invert_yaxis()
+    drawn.suptitle(f"{title} (blue: corrected, grey: never corrected, orange: the others)", fontsize=11)
     style.save(drawn, path)

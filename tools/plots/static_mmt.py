@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
+from measuring.rivals import LABELS
 from plots import style
-from plots.teleop import force_error, legend, read
+from plots.teleop import WAYS, force_error, legend, read
 
 
 def draw(folder: Path, path: str) -> None:
@@ -38,25 +39,25 @@ def _draw_correction(folder: Path, path: str) -> None:
     style.save(drawn, folder / f"{path}_correction.png")
 
 
-def draw_trade(summary: dict[str, object], paths: tuple[str, ...], shares: tuple[str, ...], ours: str, path: Path) -> None:
-    """Felt excess against time to truth: the same correction from careful to careless."""
-    drawn, ((one,),) = style.figure(1, 1, 7.0, 4.6)
-    for name, colour in zip(paths, (style.MEASURED, style.REFERENCE)):
-        points = [
-            (
-                float(summary[f"{name}.trade.{share}.seconds_until_right"]),
-                float(summary[f"{name}.trade.{share}.felt_excess_100ms_jnd_max"]),
-            )
-            for share in shares
-        ]
-        one.plot(*zip(*points), color=colour, marker="o", markersize=4, label=name.replace("_", " "))
-        for share, point in zip(shares, points):
-            one.annotate(share, point, textcoords="offset points", xytext=(5, 3), fontsize=7, color=colour)
-        default = [float(summary[f"{name}.{ours}.{key}"]) for key in ("seconds_until_right", "felt_excess_100ms_jnd_max")]
-        one.plot(*default, color=colour, marker="s", markersize=8, fillstyle="none")
+def draw_trade(summary: dict[str, object], name: str, shares: tuple[str, ...], ways: tuple[str, ...], path: Path) -> None:
+    """Felt excess against time to truth: the same correction from careful to careless, and other ways."""
+    drawn, ((one,),) = style.figure(1, 1, 8.0, 5.0)
+
+    def point(case: str) -> tuple[float, float]:
+        keys = ("seconds_from_told_until_right", "felt_excess_once_told_100ms_jnd_max")
+        return tuple(float(summary[f"{name}.trade.{case}.{key}"]) for key in keys)
+
+    points = [point(share) for share in shares]
+    one.plot(*zip(*points), color=style.MEASURED, marker="o", markersize=4, linewidth=1.2, label="so much of a JND in 100 ms")
+    for share, place in zip(shares, points):
+        one.annotate(share, place, textcoords="offset points", xytext=(9, 4), fontsize=8, color=style.MEASURED)
+    for way, marker in zip(ways, "sX^D"):
+        one.plot(
+            *point(way), color=WAYS[way][0], marker=marker, markersize=9, fillstyle="none", linestyle="", label=LABELS[way]
+        )  # fmt: skip
     one.axhline(1.0, color=style.INK, linewidth=0.8, linestyle=":")
-    one.set(xlabel="seconds from the first touch until right", yscale="log", xlim=(0, None))
-    one.set_ylabel("felt excess over 100 ms, largest\n(just-noticeable differences)")
-    one.set_title("What is felt of a correction against the time it takes", pad=12)
-    one.legend(fontsize=8, title="numbers: share of a JND in 100 ms; square: default", title_fontsize=7)
+    one.set(xlabel="seconds from being told until right", xlim=(0, None), ylim=(0, None))
+    one.set_ylabel("felt excess over 100 ms, largest (JND)")
+    one.set_title("A wrong ground is put right under a hand that presses and slides", pad=10)
+    one.legend(fontsize=9)
     style.save(drawn, path)

@@ -5,7 +5,16 @@ from pathlib import Path
 
 import numpy as np
 
+from measuring import rivals
 from plots import style
+
+# Colour and dash of each way: traditional touch is dashed.
+WAYS = {
+    "default": (style.MEASURED, "-"), "never_corrected": (style.QUIET, "-"), "pose_only": (style.WARNING, "-"),
+    "velocities": (style.REFERENCE, "-"), "passive_updates": ("#3f8148", "-"), "traditional": (style.INK, "--"),
+    "traditional_wave_variables": ("#7a4fa3", "--"), "traditional_time_domain": ("#2a8c8c", "--"),
+    "traditional_two_layers": ("#a87b1e", "--"),
+}  # fmt: skip
 
 Rows = dict[str, np.ndarray]
 
@@ -80,6 +89,53 @@ def draw_dynamic(folder: Path, names: tuple[str, ...]) -> None:
     style.save(drawn, folder / "dynamic.png")
 
 
+def draw_unsynchronised(folder: Path, variant: str, delay: float) -> None:
+    """The thesis's figure 5.5: a right model whose sides are not synchronised, and what its mistakes make of the force."""
+    drawn, ((error,), (place,)) = style.figure(2, 1, 9.0, 6.0, sharex=True)
+    for scheme in rivals.MODELS:
+        rows = read(folder / f"{variant}.{scheme}.{delay:.0f}ms.csv")
+        colour, dash = WAYS[scheme]
+        error.plot(rows["time"], force_error(rows), dash, color=colour, linewidth=1.0)
+        off = np.where(rows["box_error_m"] > 0.0, rows["box_error_m"] * 1e3, np.nan)
+        place.semilogy(rows["time"], off, dash, color=colour, linewidth=1.0, label=rivals.LABELS[scheme])
+    error.set(ylabel="force error (N)")
+    error.set_yscale("symlog", linthresh=1e-2)
+    error.set_ylim(0, None)
+    error.set_title(f"A right model whose far side ticks at other times, {delay:.0f} ms away")
+    place.set(ylabel="box off by (mm)", xlabel="time (s)", ylim=(1e-4, None))
+    drawn.legend(*place.get_legend_handles_labels(), loc="outside lower center", ncols=5, fontsize=8.5)
+    style.save(drawn, folder / "unsynchronised.png")
+
+
+def draw_variants(found: dict, variants: tuple[str, ...], delay: str, path: Path) -> None:
+    """Every scheme with every mistake of the model or the link."""
+    figures = (
+        ("force_error_mean_N", "force error, mean (N)"),
+        ("box_position_error_rms_mm", "box off by, RMS (mm)"),
+        ("felt_excess_100ms_jnd_p99", "felt excess in 100 ms, p99 (JND)"),
+    )
+    drawn, axes = style.figure(1, 3, 15.0, 4.6, sharey=True)
+    schemes = tuple(rivals.SCHEMES)
+    for (key, title), one in zip(figures, axes[0]):
+        values = np.array([[found[f"{variant}.{scheme}.{delay}"][key] for variant in variants] for scheme in schemes])
+        _draw_table(one, values)
+        one.set(title=title, xticks=range(len(variants)), yticks=range(len(schemes)))
+        one.set_xticklabels([variant.replace("_", "\n") for variant in variants], fontsize=7)
+        one.set_yticklabels([rivals.LABELS[scheme] for scheme in schemes], fontsize=8.5)
+    style.save(drawn, path)
+
+
+def _draw_table(axes, values: np.ndarray) -> None:
+    shown = np.log10(np.maximum(values, 1e-4))
+    axes.imshow(shown, cmap="YlOrRd", aspect="auto")
+    middle = np.nanmean(shown)
+    for (row, column), value in np.ndenumerate(values):
+        dark = shown[row, column] > middle + 1.0
+        text = f"{value:.2g}" if 1e-4 <= value < 100 else "0" if value < 100 else f"{value:.0f}"
+        axes.text(column, row, text, ha="center", va="center", color="white" if dark else style.INK, fontsize=8)
+    axes.grid(False)
+
+
 def draw_schemes(found: dict, corrections: tuple, derivations: tuple, path: Path) -> None:
     """Every scheme at 100 ms without loss."""
     figures = (
@@ -92,40 +148,36 @@ def draw_schemes(found: dict, corrections: tuple, derivations: tuple, path: Path
         values = np.array(
             [[found.get(f"{c}.{d}.100ms.0pct", {}).get(key, np.nan) for c in corrections] for d in derivations]
         )
-        one.imshow(np.log10(np.maximum(values, 1e-4)), cmap="YlOrRd", aspect="auto")
-        middle = np.nanmean(np.log10(np.maximum(values, 1e-4)))
-        for (row, column), value in np.ndenumerate(values):
-            dark = np.log10(max(value, 1e-4)) > middle + 1.0
-            text = f"{value:.2g}" if value >= 1e-4 else "0"
-            one.text(column, row, text, ha="center", va="center", color="white" if dark else style.INK, fontsize=9)
+        _draw_table(one, values)
         one.set(title=title, xticks=range(len(corrections)), yticks=range(len(derivations)))
         one.set_xticklabels([c.replace("_", "\n") for c in corrections], fontsize=8)
         one.set_yticklabels(derivations)
-        one.grid(False)
     drawn.suptitle("100 ms, no loss: how a correction is brought in, and how the present is derived", fontsize=11)
     style.save(drawn, path)
 
 
 def draw_delays(found: dict, path: Path) -> None:
     schemes = {
-        "traditional": "traditional", "none.none": "never corrected", "pose.none": "pose alone (thesis)",
-        "pose_velocity.velocity": "velocity (eq. 3.1)", "stealthy_direction.resimulate": "stealthy, re-simulated",
+        "none.none": "never_corrected", "pose.none": "pose_only", "pose_velocity.velocity": "velocities",
+        "passive.resimulate": "passive_updates", "stealthy_direction.resimulate": "default",
+        **{scheme: scheme for scheme in rivals.TRADITIONAL},
     }  # fmt: skip
-    colours = (style.INK, style.QUIET, style.WARNING, style.REFERENCE, style.MEASURED)
-    drawn, axes = style.figure(1, 2, 10.0, 4.0)
+    drawn, axes = style.figure(1, 2, 12.0, 5.4)
     for (key, title), one in zip(
         (("force_error_mean_N", "force error, mean (N)"), ("box_position_error_rms_mm", "box off by, RMS (mm)")), axes[0]
     ):
-        for (scheme, label), colour in zip(schemes.items(), colours):
-            for loss, dash in (("0", "-"), ("50", ":")):
+        for scheme, way in schemes.items():
+            colour, whole = WAYS[way]
+            for loss, dash in (("0", whole), ("50", ":")):
                 points = sorted(
                     (float(name.split(".")[-2].removesuffix("ms")), figures[key])
                     for name, figures in found.items()
                     if name.rsplit(".", 2)[0] == scheme and name.endswith(f".{loss}pct") and key in figures
                 )
                 if points:
-                    one.plot(*zip(*points), dash, color=colour, marker="o", markersize=3, label=label if dash == "-" else None)
+                    label = rivals.LABELS[way] if loss == "0" else None
+                    one.plot(*zip(*points), dash, color=colour, marker="o", markersize=3, linewidth=1.3, label=label)
         one.set(title=title, xlabel="delay there and back (ms)", yscale="log")
-    axes[0][0].legend(fontsize=8)
+    drawn.legend(*axes[0][0].get_legend_handles_labels(), loc="outside lower center", ncols=5, fontsize=8.5)
     axes[0][1].text(0.98, 0.02, "dotted: half of all packets lost", transform=axes[0][1].transAxes, ha="right", fontsize=8)
     style.save(drawn, path)

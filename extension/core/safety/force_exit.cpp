@@ -26,10 +26,10 @@ Vec3 with_less_power(const Vec3& force, const Vec3& before, const Vec3& velocity
 }  // namespace
 
 Vec3 ForceExit::leave(const ForceLimits& limits, const Vec3& wanted, double most, const Vec3& velocity,
-                      double seconds, bool& limited) {
+                      double seconds, double own_change, bool& limited) {
     Vec3 force = limited_force(wanted, most);
     const Vec3 change = force - last_;
-    const double step = limits.slew * seconds;
+    const double step = limits.slew * seconds + own_change;
     if (glm::dot(change, change) > step * step) {
         // The limit of size may be another one than a tick ago.
         force = limited_force(last_ + change * (step / glm::length(change)), most);

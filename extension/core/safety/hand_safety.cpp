@@ -72,8 +72,8 @@ SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& s
         safe.limited |= force != wanted ? hand_limited_passivity : 0u;
     }
     bool cut = false;
-    safe.force =
-        exit_.leave(settings.limits, force, settings.max_force, sample.velocity, sample.seconds, cut);
+    safe.force = exit_.leave(settings.limits, force, settings.max_force, sample.velocity, sample.seconds,
+                             sample.own_change, cut);
     safe.limited |= cut ? hand_limited_force : 0u;
     passivity_.given(safe.force);
     return safe;

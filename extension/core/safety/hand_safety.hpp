@@ -53,8 +53,9 @@ struct SafetySample {
     std::uint32_t buttons = 0;
     bool connected = true;
     bool enabled = true;
-    double source = 0.0;     // see PassivitySample
-    double seconds = 0.001;  // of a tick
+    double source = 0.0;      // see PassivitySample
+    double own_change = 0.0;  // see ForceExit::leave
+    double seconds = 0.001;   // of a tick
 };
 
 struct SafeForce {

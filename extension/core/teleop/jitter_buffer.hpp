@@ -175,13 +175,25 @@ private:
         const double available = place(ring_.newest());
         const double reach = settings_.sparse ? target : std::min(target, available);
         const double plain = head_ + ratio_;
+        const double slow = head_ + ratio_ * (1.0 - slow_down);
         if (plain > reach + tiny) {
             behind_for_ = 0;
             catching_up_ = 0.0;
-            const double slow = std::max(target, head_ + ratio_ * (1.0 - slow_down));
-            return settings_.sparse ? slow : std::clamp(slow, head_, std::max(head_, available));
+            const double wanted = std::max(target, slow);
+            return settings_.sparse ? wanted : std::clamp(wanted, head_, std::max(head_, available));
         }
-        return catch_up(plain, reach);
+        const double head = catch_up(plain, reach);
+        return catching_up_ > 0.0 || settings_.sparse ? head : towards_a_whole_sample(head, slow);
+    }
+
+    // Between two samples the hand is where the operator's never was in a tick, and what it does there
+    // answers neither of them. Where sides tick alike, a head that has come to stand between two falls back
+    // to the earlier one, as slowly as it gets deeper.
+    double towards_a_whole_sample(double head, double slow) const {
+        if (ratio_ != 1.0) {
+            return head;
+        }
+        return std::max(std::floor(head + tiny), std::min(slow, head));
     }
 
     double catch_up(double plain, double reach) {

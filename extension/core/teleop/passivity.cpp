@@ -20,21 +20,44 @@ const OperatorPassivity::Past* OperatorPassivity::past(std::uint64_t sample) con
     return sample != 0 && found.sample == sample ? &found : nullptr;
 }
 
-void OperatorPassivity::reset() {
-    if (!now_.begun) {
+void OperatorPassivity::rest(const PassivitySettings& settings, const In& in) {
+    if (now_.begun) {
+        now_ = {};
+        for (Past& one : past_) {
+            one.sample = 0;
+        }
+    }
+    // With F = 0, u = sqrt(b/2) x'.
+    const Vec3 velocity = unpaid_.known ? (in.hand - unpaid_.hand) / in.seconds : Vec3(0.0);
+    unpaid_.now += 0.25 * settings.impedance * glm::dot(velocity, velocity) * in.seconds;
+    unpaid_.hand = in.hand;
+    unpaid_.known = true;
+    if (++unpaid_.ticks == samples) {
+        unpaid_ = {0.0, unpaid_.now, 0, in.hand, true};
+    }
+}
+
+// The wave that is left is that of the force which the hand has felt, and so is the one that was played.
+void OperatorPassivity::given(const PassivitySettings& settings, const Vec3& force, double seconds) {
+    if (!now_.begun || force == now_.given) {
         return;
     }
-    now_ = {};
-    for (Past& one : past_) {
-        one.sample = 0;
-    }
+    const double b = settings.impedance, root = std::sqrt(2.0 * b);
+    const Vec3 played = (force + b * now_.way_velocity) / root;
+    now_.wave_energy += 0.5 * seconds * (glm::dot(now_.played, now_.played) - glm::dot(played, played));
+    now_.played = played;
+    now_.given = force;
+    past_[now_.sample % samples].wave = (b * now_.way_velocity - force) / root;
 }
 
 Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& settings, const In& in) {
     if (!now_.begun) {
-        now_.hand = in.hand;
+        now_.hand = unpaid_.known ? unpaid_.hand : in.hand;
+        now_.wave_energy = -(unpaid_.now + unpaid_.before);
         now_.begun = true;
+        unpaid_ = {};
     }
+    now_.way_velocity = (in.hand - now_.hand) / in.seconds;
     // The environment is passive: in a contact it gives back no more than this end has given.
     now_.net = now_.given == Vec3(0.0) ? 0.0 : now_.net + glm::dot(now_.given, in.hand - now_.hand);
     hear(scheme, settings, in);
@@ -56,8 +79,8 @@ Vec3 OperatorPassivity::force(Passivity scheme, const PassivitySettings& setting
     Past& past = past_[in.sample % samples];
     past.sample = in.sample;
     past.hand = in.hand;
-    const Vec3 velocity = (in.hand - now_.hand) / in.seconds;
-    past.wave = (settings.impedance * velocity - force) / std::sqrt(2.0 * settings.impedance);
+    past.wave = (settings.impedance * now_.way_velocity - force) / std::sqrt(2.0 * settings.impedance);
+    now_.sample = in.sample;
     now_.hand = in.hand;
     now_.velocity = in.velocity;
     now_.given = force;
@@ -94,16 +117,16 @@ void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings
 
 Vec3 OperatorPassivity::wave_force(const PassivitySettings& settings, const In& in) {
     const double b = settings.impedance;
-    const Vec3 velocity = (in.hand - now_.hand) / in.seconds;
     const double share = 1.0 - std::exp(-two_pi * settings.wave_cutoff * in.seconds);
     now_.smooth += share * (now_.wave - now_.smooth);
     Vec3 wave = now_.smooth;
     const double energy = 0.5 * in.seconds * glm::dot(wave, wave);
-    if (energy > now_.wave_energy) {
-        wave *= std::sqrt(std::max(0.0, now_.wave_energy) / energy);
+    if (const double left = std::max(0.0, now_.wave_energy); energy > left) {
+        wave *= std::sqrt(left / energy);
     }
     now_.wave_energy -= 0.5 * in.seconds * glm::dot(wave, wave);
-    return std::sqrt(2.0 * b) * wave - b * velocity;
+    now_.played = wave;
+    return std::sqrt(2.0 * b) * wave - b * now_.way_velocity;
 }
 
 // Of a force, what gives no more than `energy` in a tick in which the hand goes on as it does (unit: joules).

@@ -65,8 +65,9 @@ public:
     // The force on the hand in this tick (unit: newtons).
     Vec3 force(Passivity scheme, const PassivitySettings& settings, const In& in);
     // After limits behind it have changed what the hand is given.
-    void given(const Vec3& force) { now_.given = force; }
-    void reset();
+    void given(const PassivitySettings& settings, const Vec3& force, double seconds);
+    // A tick in which the far side does not answer: the hand is free, and all that was known is forgotten.
+    void rest(const PassivitySettings& settings, const In& in);
 
 private:
     struct Past {
@@ -84,9 +85,12 @@ private:
     // All that a beginning forgets.
     struct State {
         bool begun = false;
-        Vec3 hand{0.0};           // one tick ago
-        Vec3 velocity{0.0};       // the same
-        Vec3 given{0.0};          // force, one tick ago
+        Vec3 hand{0.0};          // one tick ago
+        Vec3 velocity{0.0};      // the same
+        Vec3 given{0.0};         // force, one tick ago
+        Vec3 way_velocity{0.0};  // of the hand's way in this tick
+        Vec3 played{0.0};        // wave, in this tick
+        std::uint64_t sample = 0;
         std::uint64_t heard = 0;  // the newest sample that was answered
         Vec3 far_force{0.0};      // with it
         double far_in = 0.0;      // taken in at the far end, as heard (unit: joules)
@@ -98,7 +102,17 @@ private:
         double net = 0.0;          // given to the hand in this contact, less what it has given (unit: joules)
     };
 
+    // Waves that a hand has sent which nothing has opposed: what comes back of them is not paid for. Those of
+    // the last `samples` to 2 `samples` ticks (unit: joules).
+    struct Unpaid {
+        double now = 0.0, before = 0.0;
+        std::size_t ticks = 0;
+        Vec3 hand{0.0};
+        bool known = false;
+    };
+
     State now_;
+    Unpaid unpaid_;
     std::array<Past, samples> past_{};
 };
 

@@ -23,10 +23,11 @@ enum class Correction : std::uint8_t {
     stealthy_direction,  // the force keeps size and direction; what it would have changed by fades
     stealthy_translate,  // pointers are carried by the object's way alone; as it turns, the force varies
     stealthy_turn,       // pointers are carried and turned with it; the force keeps its size in its frame
+    passive,             // at once, with the rates; what that puts in is paid for (passive_update.hpp)
 };
 
 inline bool is_stealthy(Correction correction) {
-    return correction >= Correction::stealthy_magnitude;
+    return correction >= Correction::stealthy_magnitude && correction <= Correction::stealthy_turn;
 }
 // A second pointer is carried along (thesis 3.1.4).
 inline bool is_carrying(Correction correction) {

@@ -51,9 +51,13 @@ Pressing press(Passivity scheme, std::size_t there, double wall) {
             in.far_sample = t - 2 * there - 1;
             in.far_force = answers[in.far_sample];
         }
-        force = near->force(scheme, settings, in);
-        force.y = std::clamp(force.y, -10.0, 10.0);
-        near->given(force);
+        if (in.far_sample != 0) {
+            force = near->force(scheme, settings, in);
+            force.y = std::clamp(force.y, -10.0, 10.0);
+            near->given(settings, force, tick);
+        } else {
+            near->rest(settings, in);  // the hand is under way before anybody has answered
+        }
         hands.push_back(in.hand);
         forces.push_back(force);
         if (t > there) {

@@ -1,11 +1,11 @@
-#include "nodes/body_building.hpp"
+#include "world/body_form.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "core/geometry/smooth_normals.hpp"
-#include "nodes/conversions.hpp"
 #include "physics/solid_properties.hpp"
+#include "world/same_shapes.hpp"
 
 namespace tactus {
 
@@ -17,6 +17,14 @@ std::size_t triangle_count(const Shape& shape) {
     }
     const auto* hull = std::get_if<ConvexHullShape>(&shape);
     return hull != nullptr ? hull->hull->triangles.size() : 0;
+}
+
+bool same_meshes(const std::vector<MeshDraft>& a, const std::vector<MeshDraft>& b) {
+    return std::ranges::equal(a, b, [](const MeshDraft& left, const MeshDraft& right) {
+        return left.source == right.source && left.scaling == right.scaling &&
+               same_pose(left.pose, right.pose) && left.smooth_below == right.smooth_below &&
+               left.one_sided == right.one_sided;
+    });
 }
 
 void add_part(TouchShape& touch, TouchPart part) {
@@ -84,14 +92,48 @@ void take_solid_of(const std::vector<BuiltDraft>& meshes, BodyDescription& descr
     }
 }
 
+void put_into(BodyDescription& description, const BodyMakings& makings) {
+    description.mass = makings.mass;
+    description.center_of_mass = makings.center_of_mass;
+    description.inertia = makings.inertia == Vec3(0.0) ? std::nullopt : std::optional<Vec3>(makings.inertia);
+    description.continuous = makings.continuous;
+    description.can_sleep = makings.can_sleep;
+    for (int i = 0; i < 3; ++i) {
+        description.lock_linear[i] = (makings.locks >> i & 1u) != 0;
+        description.lock_angular[i] = (makings.locks >> (i + 3) & 1u) != 0;
+    }
+}
+
 }  // namespace
 
-std::size_t triangle_count(const BodyReading& reading) {
+bool same_form(const BodyForm& a, const BodyForm& b) {
+    return a.problems == b.problems && same_shapes(a.shapes, b.shapes) && same_meshes(a.meshes, b.meshes) &&
+           same_meshes(a.touched, b.touched);
+}
+
+std::string problem_of(const MeshDraft& draft) {
+    const std::string& error = draft.source->triangles().error;
+    return error.empty() ? error : draft.owner + error;
+}
+
+std::vector<std::string> problems_of(const BodyForm& form) {
+    std::vector<std::string> problems = form.problems;
+    for (const std::vector<MeshDraft>* drafts : {&form.meshes, &form.touched}) {
+        for (const MeshDraft& draft : *drafts) {
+            if (std::string problem = problem_of(draft); !problem.empty()) {
+                problems.push_back(std::move(problem));
+            }
+        }
+    }
+    return problems;
+}
+
+std::size_t triangle_count(const BodyForm& form) {
     std::size_t count = 0;
-    for (const PlacedShape& placed : reading.shapes) {
+    for (const PlacedShape& placed : form.shapes) {
         count += triangle_count(placed.shape);
     }
-    for (const std::vector<MeshDraft>* drafts : {&reading.meshes, &reading.touched}) {
+    for (const std::vector<MeshDraft>* drafts : {&form.meshes, &form.touched}) {
         for (const MeshDraft& draft : *drafts) {
             count += draft.source->triangle_count();
         }
@@ -101,19 +143,19 @@ std::size_t triangle_count(const BodyReading& reading) {
 
 BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
     BuiltBody result;
-    result.problems = plan.reading.problems;
-    const std::vector<BuiltDraft> colliding = build_drafts(plan.reading.meshes, run, result.problems);
-    const std::vector<BuiltDraft> touched = build_drafts(plan.reading.touched, run, result.problems);
+    result.problems = plan.form.problems;
+    const std::vector<BuiltDraft> colliding = build_drafts(plan.form.meshes, run, result.problems);
+    const std::vector<BuiltDraft> touched = build_drafts(plan.form.touched, run, result.problems);
 
     BodyAddition addition;
     BodyDescription& description = addition.description;
-    description.shapes = plan.reading.shapes;
+    description.shapes = plan.form.shapes;
     for (const BuiltDraft& mesh : colliding) {
         description.shapes.push_back(mesh.shape);
     }
     auto touch = std::make_shared<TouchShape>();
-    if (touched.empty() && !plan.reading.shapes.empty()) {
-        const TouchShapeResult made = make_touch_shape(plan.reading.shapes, run);
+    if (touched.empty() && !plan.form.shapes.empty()) {
+        const TouchShapeResult made = make_touch_shape(plan.form.shapes, run);
         if (made.shape == nullptr) {
             result.problems.push_back(made.error);
             return result;
@@ -138,10 +180,10 @@ BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
     if (plan.makings.solid_of_mesh) {
         take_solid_of(touched, description);
     }
-    description.pose = pose_of(plan.place);
+    description.pose = plan.place.pose;
     description.may_move = plan.may_move;
-    description.linear_velocity = from_godot(plan.linear_velocity);
-    description.angular_velocity = from_godot(plan.angular_velocity);
+    description.linear_velocity = plan.place.linear_velocity;
+    description.angular_velocity = plan.place.angular_velocity;
     result.body = Session::prepare_body(addition, run);
     result.addition = std::move(addition);
     return result;

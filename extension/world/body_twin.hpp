@@ -1,0 +1,81 @@
+// The session's twin of one body of a scene: made as it was read, beside the loop where that takes a while,
+// told what changes, and asked what there is to show. Owner's thread only.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "realtime/workers.hpp"
+#include "session/session.hpp"
+#include "world/body_form.hpp"
+
+namespace tactus {
+
+class BodyTwin {
+public:
+    SessionHandle handle() const { return handle_; }
+    // One of many triangles is built by the workers; until it is ready the body is as it was before, or
+    // absent.
+    bool is_building() const { return job_ != nullptr; }
+    // As it was read when the newest twin was planned.
+    const BodyPlan& planned() const { return plan_; }
+    const BodyValues& values() const { return values_; }
+    const Pose& pose() const { return place_.pose; }
+    // What is touched; null where it is not in the session.
+    const TouchShape* touch() const { return handle_ != no_handle ? addition_.touch.get() : nullptr; }
+    // Its size about its own place, 0 where it has never been in the session (unit: meters).
+    double reach() const { return addition_.touch != nullptr ? addition_.touch->reach : 0.0; }
+
+    // Another one whenever the session's body is to be described anew (see addition()).
+    std::uint64_t revision() const { return revision_; }
+    // The session's body as it is now: what one like it is made from.
+    BodyAddition addition() const;
+    // Why it cannot be touched, or only in part; as it was found when it was built.
+    const std::vector<std::string>& problems() const { return problems_; }
+
+    // Has one built: here where that takes no time, else by the workers.
+    void plan(BodyPlan plan, Workers& workers);
+    // Hands over one that has become ready: true where it is new in the session by that, and stands where it
+    // was planned. `takes_effect`: the first tick that has certainly taken what is sent now.
+    bool take_ready(Session& session, std::uint64_t takes_effect);
+    // After take_ready(): where it stands by now.
+    void stand_at(Session& session, const BodyPlace& now);
+    // What is built is wanted no longer, and what there is goes.
+    void remove(Session& session);
+
+    void set_values(Session& session, const BodyValues& values);
+    // It has been put there, or, where it does not move by itself, moved there within `seconds`.
+    void set_pose(Session& session, const Pose& pose, double seconds, std::uint64_t takes_effect);
+    void set_velocity(Session& session, const Vec3& linear, const Vec3& angular, std::uint64_t takes_effect);
+
+    // Whether this state, of a snapshot of that tick, is to be shown: it is another one, and made with all
+    // that was sent. Once for each.
+    bool takes(const BodyState& state, std::uint64_t tick);
+
+private:
+    // What is built, and what came of it. Shared with the thread that builds it.
+    struct Job {
+        BodyPlan plan;
+        BuiltBody built;
+        std::atomic<bool> done{false};
+    };
+
+    void take_out(Session& session);
+    bool deform(Session& session, Job& job);
+
+    SessionHandle handle_ = no_handle;
+    BodyPlan plan_;
+    BodyAddition addition_;  // that the session's body was made from
+    BodyMakings made_of_;    // likewise
+    BodyValues values_;
+    BodyPlace place_;
+    std::uint64_t revision_ = 0;
+    std::shared_ptr<Job> job_;        // null: nothing is being built
+    std::uint64_t shown_change_ = 0;  // BodyState::changed_at that is shown
+    std::uint64_t shown_from_ = 0;    // earlier ticks do not know yet what was sent last
+    std::vector<std::string> problems_;
+};
+
+}  // namespace tactus

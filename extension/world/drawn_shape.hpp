@@ -1,0 +1,23 @@
+// Triangles for the eye: what is shown of shapes that have none, and of paths.
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/shape.hpp"
+
+namespace tactus {
+
+// Counter-clockwise seen from outside.
+struct Drawing {
+    TriangleMesh mesh;
+    double crease = 0.0;  // facets that meet at less than this are one round surface (unit: radians)
+};
+
+// A plane is drawn as a square about its nearest point to the origin.
+Drawing drawn_shape(const Shape& shape);
+
+// A tube along the points, for lines that stay visible from anywhere (unit of thickness: meters). Less than
+// two points are no line.
+Drawing tube(const std::vector<Vec3>& points, double thickness, bool closed);
+
+}  // namespace tactus

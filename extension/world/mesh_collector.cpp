@@ -1,0 +1,79 @@
+#include "world/mesh_collector.hpp"
+
+#include <cstring>
+#include <utility>
+
+#include "core/geometry/same_places.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr std::size_t bytes_of_place = 3 * sizeof(float);
+constexpr std::size_t bytes_of_compressed_place = 4 * sizeof(std::uint16_t);
+constexpr float whole_share = 65535.0F;
+
+}  // namespace
+
+void MeshCollector::add(std::span<const PackedPlace> corners, std::span<const std::int32_t> indices) {
+    const std::size_t before = mesh_.vertices.size();
+    mesh_.vertices.reserve(before + corners.size());
+    for (const PackedPlace& place : corners) {
+        mesh_.vertices.emplace_back(place[0], place[1], place[2]);
+    }
+    // An index without a corner stays one: check_mesh() says so.
+    const auto vertex = [&](std::size_t i) {
+        const std::size_t corner = indices.empty() ? i : static_cast<std::size_t>(indices[i]);
+        return corner < corners.size() ? static_cast<std::uint32_t>(before + corner) : 0xffff'ffffu;
+    };
+    const std::size_t count = (indices.empty() ? corners.size() : indices.size()) / 3 * 3;
+    mesh_.triangles.reserve(mesh_.triangles.size() + count / 3);
+    for (std::size_t i = 0; i < count; i += 3) {
+        mesh_.triangles.push_back({vertex(i), vertex(i + 2), vertex(i + 1)});
+    }
+}
+
+TriangleMesh MeshCollector::take() {
+    merge_places(mesh_);
+    return std::move(mesh_);
+}
+
+bool is_whole(const SurfaceBytes& bytes) {
+    const std::size_t a_place = bytes.compressed ? bytes_of_compressed_place : bytes_of_place;
+    return bytes.corners.size() >= a_place * bytes.corner_count &&
+           (bytes.indices.size() == 2 * bytes.index_count || bytes.indices.size() == 4 * bytes.index_count);
+}
+
+std::vector<PackedPlace> read_corners(const SurfaceBytes& bytes) {
+    std::vector<PackedPlace> corners(bytes.corner_count);
+    if (!bytes.compressed && !corners.empty()) {
+        std::memcpy(corners.data(), bytes.corners.data(), corners.size() * bytes_of_place);
+        return corners;
+    }
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        std::uint16_t share[3];
+        std::memcpy(share, bytes.corners.data() + i * bytes_of_compressed_place, sizeof(share));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            corners[i][axis] =
+                static_cast<float>(share[axis]) / whole_share * bytes.box_size[axis] + bytes.box_corner[axis];
+        }
+    }
+    return corners;
+}
+
+std::vector<std::int32_t> read_indices(const SurfaceBytes& bytes) {
+    std::vector<std::int32_t> indices(bytes.index_count);
+    const bool is_short = bytes.indices.size() == 2 * bytes.index_count;
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        std::uint16_t index = 0;
+        if (is_short) {
+            std::memcpy(&index, bytes.indices.data() + 2 * i, sizeof(index));
+            indices[i] = index;
+        } else {
+            std::memcpy(&indices[i], bytes.indices.data() + 4 * i, sizeof(std::int32_t));
+        }
+    }
+    return indices;
+}
+
+}  // namespace tactus

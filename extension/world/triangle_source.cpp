@@ -1,0 +1,116 @@
+#include "world/triangle_source.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "core/geometry/mesh_check.hpp"
+#include "realtime/workers.hpp"
+
+namespace tactus {
+
+namespace {
+
+// The tree that is touched now, the one before, on the way from which the loop may still be, and one that it
+// has let go of: more would only be kept for nothing.
+constexpr std::size_t max_former_trees = 3;
+
+std::atomic<std::uint64_t> tree_count{0};
+
+}  // namespace
+
+TriangleMesh scaled(TriangleMesh mesh, const Mat3& scaling) {
+    for (Vec3& vertex : mesh.vertices) {
+        vertex = scaling * vertex;
+    }
+    if (glm::determinant(scaling) < 0.0) {
+        for (auto& triangle : mesh.triangles) {
+            std::swap(triangle[1], triangle[2]);
+        }
+    }
+    return mesh;
+}
+
+TriangleSource::TriangleSource(std::function<TriangleMesh()> read, std::size_t triangle_count)
+    : read_(std::move(read)), triangle_count_(triangle_count) {}
+
+TriangleSource::TriangleSource(Checked checked) : checked_(std::move(checked)) {
+    triangle_count_ = checked_.mesh != nullptr ? checked_.mesh->triangles.size() : 0;
+}
+
+void TriangleSource::succeed(TriangleSource& before) {
+    const std::unique_lock lock(before.mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) {
+        return;  // it is still being built: waiting would take as long as building anew
+    }
+    former_ = std::move(before.former_);
+    for (const Kept& kept : before.kept_) {
+        if (std::shared_ptr<TriangleTree> tree = kept.tree.lock()) {
+            former_.push_back({kept.scaling, kept.mesh, std::move(tree)});
+        }
+    }
+    if (former_.size() > max_former_trees) {
+        former_.erase(former_.begin(), former_.end() - max_former_trees);
+    }
+}
+
+const TriangleSource::Checked& TriangleSource::triangles() {
+    const std::lock_guard lock(mutex_);
+    if (const auto read = std::exchange(read_, nullptr)) {
+        const auto mesh = Workers::freed_aside(read());
+        checked_.error = check_mesh(*mesh);
+        checked_.mesh = checked_.error.empty() ? mesh : nullptr;
+    }
+    return checked_;
+}
+
+// Where the corners alone have moved, the tree keeps its form. One that only we hold is of no body any more
+// and serves again; else a new one is made beside it, and bodies are swept along the way from one to the
+// other.
+std::shared_ptr<TriangleTree> TriangleSource::refitted(const Mat3& scaling, const TriangleMesh& mesh,
+                                                       const ParallelRunner& run) {
+    std::erase_if(former_, [&](const Former& former) {
+        return former.scaling == scaling && (former.mesh->vertices.size() != mesh.vertices.size() ||
+                                             former.mesh->triangles != mesh.triangles);
+    });
+    const auto is_like = [&](const Former& former) { return former.scaling == scaling; };
+    const auto free = std::ranges::find_if(
+        former_, [&](const Former& former) { return is_like(former) && former.tree.use_count() == 1; });
+    if (free == former_.end()) {
+        const auto touched = std::ranges::find_if(former_, is_like);
+        return touched == former_.end() ? nullptr
+                                        : std::make_shared<TriangleTree>(touched->tree->refitted(mesh, run));
+    }
+    std::atomic_thread_fence(std::memory_order_acquire);  // use_count() is relaxed
+    std::shared_ptr<TriangleTree> tree = std::move(free->tree);
+    former_.erase(free);
+    tree->refit(mesh, run);
+    return tree;
+}
+
+std::uint64_t TriangleSource::trees_built() {
+    return tree_count.load(std::memory_order_relaxed);
+}
+
+BuiltMesh TriangleSource::built(const Mat3& scaling, const ParallelRunner& run) {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(kept_, [](const Kept& kept) { return kept.tree.expired(); });
+    for (const Kept& kept : kept_) {
+        if (std::shared_ptr<TriangleTree> tree = kept.tree.lock();
+            tree != nullptr && kept.scaling == scaling) {
+            return {kept.mesh, std::move(tree)};
+        }
+    }
+    const std::shared_ptr<const TriangleMesh> whole = triangles().mesh;
+    const auto mesh = scaling == Mat3(1.0) ? whole : Workers::freed_aside(scaled(*whole, scaling));
+    std::shared_ptr<TriangleTree> tree = refitted(scaling, *mesh, run);
+    if (tree == nullptr) {
+        tree = Workers::freed_aside(TriangleTree::build(*mesh, run));
+    }
+    tree_count.fetch_add(1, std::memory_order_relaxed);
+    kept_.push_back({scaling, mesh, tree});
+    return {mesh, std::move(tree)};
+}
+
+}  // namespace tactus

@@ -1,0 +1,78 @@
+// The triangles of one mesh, and the trees over them: read once, built once for each scale, shared by every
+// body that is made of them.
+//
+// Threads: any; who comes second while something is built waits and shares.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "core/geometry/touch_shape.hpp"
+
+namespace tactus {
+
+// A mesh at one scale, ready to be touched.
+struct BuiltMesh {
+    std::shared_ptr<const TriangleMesh> mesh;
+    std::shared_ptr<const TriangleTree> tree;
+};
+
+// Scaled, mirrored or sheared; the triangles of a mirrored mesh are turned over so that outside stays
+// outside.
+TriangleMesh scaled(TriangleMesh mesh, const Mat3& scaling);
+
+class TriangleSource {
+public:
+    struct Checked {
+        std::shared_ptr<const TriangleMesh> mesh;  // null where there is an error
+        std::string error;                         // what is wrong and what to do
+    };
+
+    // `read` gives the triangles, about so many, when somebody asks for them: once, on whichever thread that
+    // is.
+    TriangleSource(std::function<TriangleMesh()> read, std::size_t triangle_count);
+    explicit TriangleSource(Checked checked);  // read elsewhere
+
+    // The same mesh with its corners elsewhere: trees that nobody touches any more are refitted, not rebuilt.
+    void succeed(TriangleSource& before);
+
+    // About, before anything is built.
+    std::size_t triangle_count() const { return triangle_count_; }
+
+    const Checked& triangles();
+    // Trees that any source has built or refitted so far.
+    static std::uint64_t trees_built();
+
+    // Of sound triangles only.
+    BuiltMesh built(const Mat3& scaling, const ParallelRunner& run);
+
+private:
+    // One scale. The tree is weakly held: it lives as long as a body is made of it.
+    struct Kept {
+        Mat3 scaling;
+        std::shared_ptr<const TriangleMesh> mesh;
+        std::weak_ptr<TriangleTree> tree;
+    };
+    // A tree over these triangles as they were before.
+    struct Former {
+        Mat3 scaling;
+        std::shared_ptr<const TriangleMesh> mesh;
+        std::shared_ptr<TriangleTree> tree;
+    };
+
+    std::shared_ptr<TriangleTree> refitted(const Mat3& scaling, const TriangleMesh& mesh,
+                                           const ParallelRunner& run);
+
+    std::function<TriangleMesh()> read_;  // empty once it has been called
+    std::size_t triangle_count_ = 0;
+    std::recursive_mutex mutex_;  // of all below
+    Checked checked_;
+    std::vector<Kept> kept_;
+    std::vector<Former> former_;
+};
+
+}  // namespace tactus

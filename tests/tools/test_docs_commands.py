@@ -1,0 +1,67 @@
+"""Every command that the documents name can be given, and every table of docs/teleoperation.md says how it is made."""
+
+import dataclasses
+import importlib
+import re
+import typing
+
+import experiment
+import pytest
+
+from setup import cache
+
+FOLDER = cache.clone()
+DOCUMENTS = sorted([FOLDER / "README.md", *(FOLDER / "docs").glob("*.md")])
+_COMMAND = re.compile(r"\./run (\w+)((?: [\w./=,{}-]+)*)")
+# In place of a name.
+_ANY = ("NAME", "NAME…", "FILTER", "SCENE")
+
+
+def _commands() -> list[tuple[str, str, list[str]]]:
+    found = []
+    for document in DOCUMENTS:
+        for verb, words in _COMMAND.findall(document.read_text()):
+            found.append((document.name, verb, words.split()))
+    return found
+
+
+def _front_door() -> set[str]:
+    case = re.search(r"^([\w |]+)\) ;;$", (FOLDER / "run").read_text(), re.MULTILINE)
+    return set(case[1].split(" | "))
+
+
+def _benches() -> set[str]:
+    return {path.stem for path in (FOLDER / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd")}
+
+
+@pytest.mark.parametrize(("document", "verb", "words"), _commands())
+def test_a_command_of_the_documents_can_be_given(document: str, verb: str, words: list[str]):
+    assert verb in _front_door(), document
+    if verb not in ("experiment", "bench") or not words or words[0] in _ANY or words[0].startswith("--"):
+        return
+    names = experiment.names() if verb == "experiment" else _benches()
+    assert words[0] in names, f"{document}: ./run {verb} {words[0]}"
+    if verb == "experiment":
+        settings = importlib.import_module(f"experiments.{words[0]}").Settings if _has_settings(words[0]) else None
+        for option in (word for word in words[1:] if word.startswith("--")):
+            assert settings and option[2:].split("=")[0] in _fields(settings), f"{document}: {words[0]} {option}"
+
+
+def _has_settings(name: str) -> bool:
+    return hasattr(importlib.import_module(f"experiments.{name}"), "Settings")
+
+
+def _fields(settings: type) -> set[str]:
+    return {field.name for field in dataclasses.fields(typing.cast(typing.Any, settings))}
+
+
+def test_every_table_says_how_it_is_made():
+    sections = re.split(r"^## ", (FOLDER / "docs/teleoperation.md").read_text(), flags=re.MULTILINE)
+    tables = 0
+    for section in sections:
+        # What stands before a table, from the last one on.
+        parts = re.split(r"(?:^\|.*\n)+", section, flags=re.MULTILINE)
+        for before in parts[:-1]:
+            tables += 1
+            assert "./run experiment" in before, f"{section.splitlines()[0]}: …{before.strip()[-80:]}"
+    assert tables >= 5

@@ -1,0 +1,91 @@
+#include "world/triangle_source.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tactus {
+namespace {
+
+TriangleMesh sheet(double height) {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 0}, {1, height, 0}, {0, 0, 1}, {1, 0, 1}};
+    mesh.triangles = {{0, 2, 1}, {1, 2, 3}};
+    return mesh;
+}
+
+TEST(TriangleSource, IsReadOnceAndOnlyWhenAsked) {
+    int reads = 0;
+    TriangleSource source(
+        [&reads] {
+            ++reads;
+            return sheet(0.0);
+        },
+        2);
+    EXPECT_EQ(source.triangle_count(), 2u);
+    EXPECT_EQ(reads, 0);
+    EXPECT_EQ(source.triangles().error, "");
+    source.built(Mat3(1.0), run_serially);
+    EXPECT_EQ(reads, 1);
+}
+
+TEST(TriangleSource, SaysWhatIsWrongWithItsTriangles) {
+    TriangleSource source([] { return TriangleMesh{}; }, 0);
+    EXPECT_NE(source.triangles().error, "");
+    EXPECT_EQ(source.triangles().mesh, nullptr);
+}
+
+TEST(TriangleSource, BodiesOfOneScaleShareATree) {
+    TriangleSource source([] { return sheet(0.0); }, 2);
+    const BuiltMesh first = source.built(Mat3(1.0), run_serially);
+    const BuiltMesh second = source.built(Mat3(1.0), run_serially);
+    const BuiltMesh twice = source.built(Mat3(2.0), run_serially);
+    EXPECT_EQ(first.tree, second.tree);
+    EXPECT_NE(first.tree, twice.tree);
+    EXPECT_EQ(twice.mesh->vertices[3], Vec3(2.0, 0.0, 2.0));
+}
+
+TEST(TriangleSource, ATreeLivesAsLongAsABodyIsMadeOfIt) {
+    TriangleSource source([] { return sheet(0.0); }, 2);
+    std::weak_ptr<const TriangleTree> tree = source.built(Mat3(1.0), run_serially).tree;
+    EXPECT_TRUE(tree.expired());
+}
+
+TEST(TriangleSource, AMirroredMeshKeepsItsOutside) {
+    const TriangleMesh mirrored = scaled(sheet(0.0), Mat3(Vec3(-1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)));
+    EXPECT_EQ(mirrored.triangles[0], (std::array<std::uint32_t, 3>{0, 1, 2}));
+    EXPECT_EQ(mirrored.vertices[3], Vec3(-1.0, 0.0, 1.0));
+}
+
+TEST(TriangleSource, CornersThatMovedAreRefittedInATreeThatNobodyTouches) {
+    TriangleSource before([] { return sheet(0.0); }, 2);
+    BuiltMesh flat = before.built(Mat3(1.0), run_serially);
+    const TriangleTree* const first = flat.tree.get();
+
+    TriangleSource second([] { return sheet(0.5); }, 2);
+    second.succeed(before);
+    BuiltMesh high = second.built(Mat3(1.0), run_serially);
+    EXPECT_NE(high.tree.get(), first) << "the first one is still touched";
+
+    flat = {};
+    TriangleSource third([] { return sheet(0.7); }, 2);
+    third.succeed(second);
+    EXPECT_EQ(third.built(Mat3(1.0), run_serially).tree.get(), first);
+}
+
+TEST(TriangleSource, OtherTrianglesAreBuiltAnew) {
+    TriangleSource before([] { return sheet(0.0); }, 2);
+    std::shared_ptr<const TriangleTree> old = before.built(Mat3(1.0), run_serially).tree;
+    TriangleSource other(
+        [] {
+            TriangleMesh mesh = sheet(0.0);
+            mesh.triangles.pop_back();
+            return mesh;
+        },
+        1);
+    other.succeed(before);
+    old.reset();
+    const BuiltMesh built = other.built(Mat3(1.0), run_serially);
+    EXPECT_EQ(built.mesh->triangles.size(), 1u);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,52 @@
+"""The ways to touch over a network that every experiment compares, each with its best settings (./run experiment tuning).
+
+With a model of the far side: never corrected; pose alone, the thesis's; velocities, its equation 3.1; passive updates,
+whose corrections are paid for by what touch has taken; and the default. Without one, traditional touch: as it is, and
+with each scheme that keeps it passive.
+"""
+
+from measuring.teleop_runs import PASSIVITY, Case
+
+DEFAULT = "default"
+# What 24 rounds of ./run experiment tuning have found best. The default stays what it is: what wins there by a
+# fourteenth fades six times as fast, and is felt.
+TUNED: dict[str, Case] = {
+    "pose_only": {"states_every": 22},
+    "velocities": {"states_every": 48},
+    "passive_updates": {"update_bring_in": 0.0411, "update_take_out": 0.0264, "update_tank": 0.0652},
+    "wave_variables": {"wave_impedance": 4.39, "wave_cutoff": 3.78, "drift_rate": 0.503},
+    "time_domain": {
+        "reserve": 0.0078, "lightest_hand": 0.0215, "largest_damping": 3.76, "far_store": 0.0923, "drift_rate": 1.09,
+    },
+    "two_layers": {
+        "reserve": 0.00941, "lightest_hand": 0.0318, "tank": 0.047, "refill": 363, "tank_share": 0.272, "far_store": 0.0523,
+    },
+}  # fmt: skip
+# The default is what TeleopSettings says; the others are what it is measured against.
+MODELS: dict[str, Case] = {
+    DEFAULT: {},
+    "never_corrected": {"correction": "none"},
+    "pose_only": {"correction": "pose", "derivation": "none"},
+    "velocities": {"correction": "pose_velocity", "derivation": "velocity"},
+    "passive_updates": {"correction": "passive"},
+}
+MODELS = {scheme: keys | TUNED.get(scheme, {}) for scheme, keys in MODELS.items()}
+TRADITIONAL: dict[str, Case] = {
+    "traditional": {"traditional": 1},
+    **{f"traditional_{scheme}": {"traditional": 1, "passivity": scheme, **TUNED[scheme]} for scheme in PASSIVITY},
+}
+SCHEMES: dict[str, Case] = MODELS | TRADITIONAL
+# These say of themselves that no touch gives the hand more than it has put in.
+PASSIVE = ("passive_updates", *(scheme for scheme in TRADITIONAL if scheme != "traditional"))
+
+LABELS = {
+    DEFAULT: "default", "never_corrected": "never corrected", "pose_only": "pose alone (thesis)",
+    "velocities": "velocities (eq. 3.1)", "passive_updates": "passive updates", "traditional": "traditional",
+    "traditional_wave_variables": "… wave variables", "traditional_time_domain": "… time domain",
+    "traditional_two_layers": "… two layers",
+}  # fmt: skip
+
+
+def with_model(scheme: str, wrong: Case) -> Case:
+    """The scheme's keys, and what the model gets wrong, where there is one."""
+    return SCHEMES[scheme] | (wrong if scheme in MODELS else {})
