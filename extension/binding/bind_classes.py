@@ -128,10 +128,10 @@ class ClassTable:
         setter, getter = member.get("setter"), member.get("getter")
         set_by = get_by = None
         if member.get("field"):
-            # Typed ones, of which a typed script learns what the property is.
+            # A getter with a type, of which a typed script learns what the property is.
             setter, getter = setter or f"set_{name}", getter or f"get_{name}"
-            row = f"<{index}, {self.value_type(member)}>"
-            set_by, get_by = f"&{self.name}::set_row{row}", f"&{self.name}::get_row{row}"
+            set_by = f"&{self.name}::set_row<{index}>"
+            get_by = f"&{self.name}::get_row<{index}, {self.value_type(member)}>"
         if member.get("follows"):
             function = member.get("changed") or self.root.get("changed")
             lines.append(f'ClassDB::bind_method(D_METHOD("_{name}_changed"), &{self.name}::{function});')

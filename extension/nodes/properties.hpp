@@ -129,14 +129,16 @@ const char* new_name_of(const godot::String& old) {
 
 }  // namespace tactus
 
-// By the number of its row: what is bound is typed as the property is, and a typed script knows it by that.
-#define TACTUS_PROPERTIES(Class)                                                               \
-    static std::span<const tactus::Property<Class>> properties();                              \
-    template <int64_t row, class Value>                                                        \
-    void set_row(std::conditional_t<std::is_arithmetic_v<Value>, Value, const Value&> value) { \
-        tactus::set_property(*this, row, tactus::stored(value));                               \
-    }                                                                                          \
-    template <int64_t row, class Value>                                                        \
-    Value get_row() const {                                                                    \
-        return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row));            \
+// By the number of its row. What is read is typed as the property is, and a typed script knows the property
+// by that; what is set comes as it is, so that a value of another type is refused in words and not by Godot
+// in silence.
+#define TACTUS_PROPERTIES(Class)                                                    \
+    static std::span<const tactus::Property<Class>> properties();                   \
+    template <int64_t row>                                                          \
+    void set_row(const godot::Variant& value) {                                     \
+        tactus::set_property(*this, row, value);                                    \
+    }                                                                               \
+    template <int64_t row, class Value>                                             \
+    Value get_row() const {                                                         \
+        return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row)); \
     }

@@ -184,7 +184,7 @@ func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 		["remote_port", -1],
 		["tuning:state_interval", 0],
 		["tuning:repeated_samples", 10],
-		["tuning:repeated_samples", 0],
+		["tuning:repeated_samples", 1.5],
 		["tuning:stealth_window", 0.0],
 		["tuning:derivation", 6],
 		["control_scheme", 4],
