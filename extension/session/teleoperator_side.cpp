@@ -30,7 +30,7 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
     : channel_(settings, link, std::move(port), endpoint),
       share_(share),
       seconds_(to_seconds(session.period)),
-      moved_at_(session.most_bodies, unseen),
+      moved_at_(session.most_bodies),
       told_(session.most_bodies) {
     set_buffers();
 }
@@ -53,7 +53,6 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         set_buffers();
     }
     take_orders();
-    pace_.adapt(channel_.link().statistics(), now);
     ++tick_;
     receive();
     if (const std::uint64_t missing = channel_.link().statistics().missing; missing != missing_) {
@@ -109,7 +108,6 @@ void TeleoperatorSide::start_over_if_peer_has() {
     if (channel_.peer_has_started()) {
         release_hands();
         discovery_.restart();
-        pace_.restart();
     }
 }
 
@@ -132,9 +130,6 @@ void TeleoperatorSide::describe(Nanoseconds now) {
     const DiscoveryCounts& counts = discovery_.counts();
     channel_.link().set_world(counts.waiting + counts.known + counts.refused + counts.no_room,
                               direction_to_local(settings().frame, settings().gravity));
-    if (tick_ % (pace_.stride() * pace_.stride()) != 0) {
-        return;  // it is long, and may wait
-    }
     Message message;
     for (int i = 0; i < most_a_tick && channel_.link().hears_peer() && discovery_.next(now, message); ++i) {
         channel_.link().send(message);
@@ -280,7 +275,7 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
         return false;
     }
     const auto handle = static_cast<SessionHandle>(body);
-    if (told.again && tick_ - told.tick >= states_every()) {
+    if (told.again && tick_ - told.tick >= settings().states_every) {
         return true;  // what was said may have been lost
     }
     if (!settings().deadband.enabled || told.tick == 0 || loop.asleep(handle) != told.asleep ||
@@ -299,38 +294,15 @@ bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, 
     return motion_needs_sending(band, derive(Derivation::velocity, since), loop.motion(handle));
 }
 
-// Where a static body is, its description says; from when it is put elsewhere on it is told of like any
-// other.
-void TeleoperatorSide::note_moves(SessionLoop& loop) {
-    constexpr std::uint64_t look_every = 8;  // ticks: of what does not move by itself
+// States by need: what moves often, everything now and then.
+void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
-        const auto handle = static_cast<SessionHandle>(i);
-        const SessionLoop::Body* const body = loop.body(handle);
-        std::uint64_t& moved = moved_at_[i];
-        if (!body) {
-            moved = unseen;
-            continue;
-        }
-        if (moved == unseen) {
-            moved = 0;
-            told_[i] = {};
-            told_[i].motion.pose = loop.scene().body(body->slot).pose;
-        }
-        if (body->motion != Motion::Static) {
-            moved = loop.asleep(handle) ? moved : tick_;
-        } else if ((i + tick_) % look_every == 0) {
-            const Pose& pose = loop.scene().body(body->slot).pose;
-            const Pose& told = told_[i].motion.pose;
-            moved = pose.position != told.position || pose.rotation != told.rotation ? tick_ : moved;
+        if (const auto handle = static_cast<SessionHandle>(i); loop.body(handle) && !loop.asleep(handle)) {
+            moved_at_[i] = tick_;
         }
     }
-}
-
-// States by need: what moves often, what may move now and then.
-void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
-    note_moves(loop);
-    const bool everything = tick_ % std::max(states_every(), settings().refresh_every) == 0;
-    if (!everything && tick_ % states_every() != 0) {
+    const bool everything = tick_ % std::max(1u, settings().refresh_every) == 0;
+    if (!everything && tick_ % std::max(1u, settings().states_every) != 0) {
         return;
     }
     ObjectStates message;
@@ -339,8 +311,7 @@ void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < moved_at_.size(); ++i) {
         const auto handle = static_cast<SessionHandle>(i);
         const SessionLoop::Body* const body = loop.body(handle);
-        const bool may_be_news = body && (body->motion != Motion::Static || moved_at_[i] != 0);
-        if (!may_be_news || (!everything && !state_needs_sending(loop, i, now))) {
+        if (!body || (!everything && !state_needs_sending(loop, i, now))) {
             continue;
         }
         const BodyMotion motion = loop.motion(handle);

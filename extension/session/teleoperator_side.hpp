@@ -2,7 +2,6 @@
 // and tells what became of the bodies, or what the hand would feel.
 #pragma once
 
-#include "network/pace.hpp"
 #include "session/channel.hpp"
 #include "session/session_loop.hpp"
 
@@ -45,7 +44,7 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
-    // What was said about a body last, or of a static one, where it was described to be.
+    // What was said about a body last.
     struct Told {
         BodyMotion motion;
         std::uint64_t tick = 0;  // 0: never
@@ -53,8 +52,6 @@ private:
         bool asleep = false;
         bool again = false;  // is to be said once more: the first may have been lost
     };
-
-    static constexpr std::uint64_t unseen = ~std::uint64_t{0};  // there is no such body
 
     const TeleopSettings& settings() const { return channel_.settings(); }
     SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
@@ -73,8 +70,6 @@ private:
                                 const SessionLoop::ProxySlot& slot) const;
     void set_buffers();
     bool loses() const;
-    void note_moves(SessionLoop& loop);
-    std::uint32_t states_every() const { return std::max(1u, settings().states_every) * pace_.stride(); }
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
     void send_forces(SessionLoop& loop, Nanoseconds now);
@@ -83,14 +78,11 @@ private:
 
     Channel channel_;
     DiscoverySender discovery_;
-    Pace pace_{1.0};
     PointerShare share_;
-    double seconds_;               // of a tick
-    Nanoseconds peer_period_ = 0;  // of a tick of the operator, as the buffers have it
-    // By body: the tick in which it was awake last or, if it is static, was found to be elsewhere than was
-    // said; 0: not since it came.
-    std::vector<std::uint64_t> moved_at_;
-    std::vector<Told> told_;  // by body
+    double seconds_;                       // of a tick
+    Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
+    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
+    std::vector<Told> told_;               // by body
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     std::uint64_t tick_ = 0;
