@@ -5,7 +5,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/safety/force_watch.hpp"
 #include "core/safety/stiffness_limit.hpp"
 #include "shared/safety_figures.hpp"
 
@@ -142,14 +141,6 @@ TEST(SafeWall, MakesNoEnergyAndComesToRestWhereAStifferOneDoesNot) {
     const shared::ContactFigures figures = shared::play_contact(free);
     EXPECT_FALSE(figures.stable);
     EXPECT_GT(figures.largest_created, 1e-3);
-}
-
-TEST(ForceWatch, AForceDiesWithItsLoop) {
-    const ForceCommand command{{1.0, 0.0, 0.0}, 5'000'000};
-    EXPECT_EQ(living_force(command, 5'000'000), command.force);
-    EXPECT_EQ(living_force(command, 5'000'000 + force_lifetime), command.force);
-    EXPECT_EQ(living_force(command, 5'000'001 + force_lifetime), Vec3(0.0));
-    EXPECT_EQ(living_force({}, 0), Vec3(0.0));
 }
 
 }  // namespace
