@@ -22,7 +22,6 @@ MAY_INCLUDE = {
 }
 
 
-
 def linked(layer):
     """The layer and all that it stands on, also where it may not include it itself."""
     below = {name for other in MAY_INCLUDE[layer] for name in linked(other)}
@@ -35,8 +34,9 @@ HAS_TEST_PROGRAM = _ENGINE_FREE
 # They divide themselves into processes as only Unix does, or forge packets.
 BENCHES_OF_LINUX = ["stress", "teleop_stress"]
 
-# A source whose name ends in one of these is for that system, or that processor, alone.
-_SYSTEMS = {"linux": ["linux", "posix"], "macos": ["macos", "posix"], "windows": ["windows"]}
+# A source whose name ends in one of these is for that system, or that processor, alone; "other": wherever only Linux can
+# do it.
+_SYSTEMS = {"linux": ["linux", "posix"], "macos": ["macos", "posix", "other"], "windows": ["windows", "other"]}
 _ARCHITECTURES = ["x86_64", "arm64"]
 
 

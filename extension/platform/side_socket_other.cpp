@@ -2,7 +2,7 @@
 
 namespace tactus {
 
-// Two sockets at one place get datagrams at random here.
+// Which of two sockets at one place gets a datagram is not defined.
 SocketHandle open_beside(SocketHandle, IpFamily) {
     return no_socket;
 }
