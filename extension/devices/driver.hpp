@@ -1,36 +1,16 @@
-// What a device on a wire of its own has to bring along: one class, in one file. driver_device.hpp runs it on a thread
-// and hands its readings to the haptic thread.
+// What a device on a wire of its own has to bring along: one class, in one file. driver_device.hpp runs it on
+// a thread and hands its readings to the haptic thread.
 //
-// Everything here is called by that one I/O thread. It may wait and allocate; it throws nothing.
+// All but let_go() is called by that one I/O thread. It may wait and allocate; it throws nothing.
 #pragma once
 
 #include <atomic>
 #include <string>
 
 #include "core/ports/device.hpp"
-#include "core/safety/force_watch.hpp"
-#include "platform/clock.hpp"
-#include "realtime/triple_buffer.hpp"
+#include "devices/force_slot.hpp"
 
 namespace tactus {
-
-// The newest force, for as long as the loop that wrote it lives.
-class ForceSlot {
-public:
-    // Haptic thread.
-    void write(const Vec3& force, Nanoseconds now) { commands_.publish({force, now}); }
-
-    // I/O thread.
-    Vec3 living(Nanoseconds now) {
-        commands_.refresh();
-        return living_force(commands_.front(), now);
-    }
-    // When a force that living() has just given dies, if nothing comes.
-    Nanoseconds end() const { return end_of(commands_.front()); }
-
-private:
-    TripleBuffer<ForceCommand> commands_;
-};
 
 class Driver {
 public:
@@ -42,13 +22,18 @@ public:
 
     virtual ~Driver() = default;
 
-    // Finds the device, opens it, starts it. Gives up soon after `stop` is set. Empty, or why not and what to do.
+    // Finds the device, opens it, starts it. Gives up soon after `stop` is set. Empty, or why not and what to
+    // do.
     virtual std::string open(const std::atomic<bool>& stop) = 0;
     virtual void close() = 0;
 
-    // Sends the force that is alive in `forces`, once a reading and when it dies, and waits for a reading until
-    // `until` at the latest (on the steady clock).
+    // Sends the force that is alive in `forces`, once a reading and when it dies, and waits for a reading
+    // until `until` at the latest (on the steady clock).
     virtual Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) = 0;
+
+    // From the watchdog's thread, between open() and close(), while exchange() is stuck: takes the device's
+    // force away. Nothing where the transport has no way past a call that hangs.
+    virtual void let_go() {}
 
     // Of the open device.
     virtual DeviceCapabilities capabilities() const = 0;

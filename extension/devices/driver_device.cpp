@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "platform/realtime_thread.hpp"
 #include "platform/sleep.hpp"
 
 namespace tactus {
@@ -17,14 +18,44 @@ constexpr Nanoseconds lost_after = 500'000'000;
 
 constexpr Nanoseconds exchange_time = 5'000'000;
 
+// What the I/O thread is given to renew a force or take it away by itself (unit: nanoseconds).
+constexpr Nanoseconds grace = 150'000;
+
+// Next to the loop's own, which is 70 and may not wait for these.
+RealtimeRequest realtime_request() {
+    RealtimeRequest request;
+    request.fifo_priority = 69;
+    request.lock_memory = false;
+    request.cpu = any_processor;
+    request.keep_awake = false;
+    return request;
+}
+
 }  // namespace
 
-DriverDevice::DriverDevice(std::unique_ptr<Driver> driver)
-    : driver_(std::move(driver)), thread_([this] { run(); }) {}
+template <void (DriverDevice::*work)()>
+void DriverDevice::enter(void* device) {
+    const RealtimeReport granted = make_thread_realtime(realtime_request());
+    (static_cast<DriverDevice*>(device)->*work)();
+    release_realtime(granted);
+}
+
+// Without a watchdog nothing is driven.
+DriverDevice::DriverDevice(std::unique_ptr<Driver> driver) : driver_(std::move(driver)) {
+    std::string problem = watchdog_.start("tactus-watchdog", enter<&DriverDevice::keep_watch>, this);
+    if (problem.empty()) {
+        problem = io_.start("tactus-device", enter<&DriverDevice::run>, this);
+    }
+    if (!problem.empty()) {
+        tell(DriverHealth::Phase::searching, "no thread for the device: " + problem);
+    }
+}
 
 DriverDevice::~DriverDevice() {
     stop_.store(true, std::memory_order_release);
-    thread_.join();
+    io_.join();
+    forces_.end_wait();
+    watchdog_.join();
 }
 
 DeviceSample DriverDevice::read(Nanoseconds) {
@@ -45,14 +76,15 @@ void DriverDevice::write(Nanoseconds, const Vec3& force) {
 }
 
 DriverHealth DriverDevice::health() const {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(health_mutex_);
     DriverHealth health = health_;
     health.readings = count_.load(std::memory_order_relaxed);
+    health.let_go = let_go_.load(std::memory_order_relaxed);
     return health;
 }
 
 void DriverDevice::tell(DriverHealth::Phase phase, std::string text) {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(health_mutex_);
     health_.phase = phase;
     health_.text = std::move(text);
     health_.id = phase == DriverHealth::Phase::searching ? std::string() : driver_->id();
@@ -68,19 +100,33 @@ void DriverDevice::rest(Nanoseconds span) const {
 
 void DriverDevice::run() {
     while (!stop_.load(std::memory_order_acquire)) {
-        std::string problem = driver_->open(stop_);
-        if (problem.empty()) {
+        std::string problem;
+        if (open(problem)) {
             run_open();
-            driver_->close();
             problem = "the device has gone: plug it in again, it goes on by itself";
-            const std::lock_guard lock(mutex_);
+            const std::lock_guard lock(health_mutex_);
             ++health_.times_lost;
-        } else {
-            driver_->close();
         }
+        close();
         tell(DriverHealth::Phase::searching, std::move(problem));
         rest(look_again);
     }
+}
+
+bool DriverDevice::open(std::string& problem) {
+    problem = driver_->open(stop_);
+    const std::lock_guard lock(open_mutex_);
+    is_open_ = problem.empty();
+    return is_open_;
+}
+
+void DriverDevice::close() {
+    {
+        const std::lock_guard lock(open_mutex_);
+        is_open_ = false;
+    }
+    driver_->close();
+    forces_.rest();
 }
 
 void DriverDevice::run_open() {
@@ -110,6 +156,28 @@ void DriverDevice::run_open() {
     reading.sample.connected = false;
     reading.sample.velocity = Vec3(0.0);
     readings_.publish(reading);
+}
+
+void DriverDevice::keep_watch() {
+    SleepTimer timer;
+    while (!stop_.load(std::memory_order_acquire)) {
+        forces_.wait_for_force();
+        const Nanoseconds due = forces_.due();
+        if (due <= 0) {
+            continue;
+        }
+        if (monotonic_now() <= due + grace) {
+            timer.sleep_until(due + grace + 1);
+            continue;
+        }
+        const std::lock_guard lock(open_mutex_);
+        // Nobody has looked since.
+        if (is_open_ && forces_.due() == due) {
+            driver_->let_go();
+            forces_.rest(due);
+            let_go_.fetch_add(1, std::memory_order_relaxed);
+        }
+    }
 }
 
 }  // namespace tactus

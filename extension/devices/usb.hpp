@@ -1,5 +1,5 @@
-// libusb, loaded when a device on USB is first asked for, and never before. Its interface is stable since version 1.0,
-// so what is used of it is declared here and nobody needs its headers.
+// libusb, loaded when a device on USB is first asked for, and never before. Its interface is stable since
+// version 1.0, so what is used of it is declared here and nobody needs its headers.
 #pragma once
 
 #include <cstdint>
@@ -70,7 +70,8 @@ struct Library {
     const char* (*error_name)(int) = nullptr;
 };
 
-// Null with an error that says what to install. Loaded once and kept: what runs in other threads may not vanish.
+// Null with an error that says what to install. Loaded once and kept: what runs in other threads may not
+// vanish.
 const Library* library(std::string& error);
 
 }  // namespace tactus::usb

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <godot_cpp/classes/control.hpp>
 #include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 
+#include "devices/drivers.hpp"
 #include "devices/path_device.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -64,6 +66,7 @@ void HapticDevice::changed() {
     port_.reset();
     mouse_.reset();
     arm_.reset();
+    driven_.reset();
     update_configuration_warnings();
 }
 
@@ -103,6 +106,14 @@ String HapticDevice::problem() const {
     if (follows_path() && !path_problem_.is_empty()) {
         return "its path cannot be followed: " + path_problem_;
     }
+    if (driver() == DRIVER_FALCON && firmware_.is_empty()) {
+        return "the Falcon needs its firmware at every start: set 'firmware' to the maker's image "
+               "(novint.bin, "
+               "from its own software)";
+    }
+    if (driver() == DRIVER_FALCON && !FileAccess::file_exists(firmware_)) {
+        return "there is no file '" + firmware_ + "': set 'firmware' to the maker's image (novint.bin)";
+    }
     return is_inside_tree() ? to_godot(problem_of_place(get_global_transform())) : String();
 }
 
@@ -114,8 +125,11 @@ String HapticDevice::get_state_text() const {
     if (HapticWorld::of(this) == nullptr) {
         return "no HapticWorld is running: put one into the scene, best above this node";
     }
+    if (const std::string said = driven_ != nullptr ? driven_->health().text : ""; !said.empty()) {
+        return to_godot(said);
+    }
     if (!state_.connected) {
-        return "waiting for the first tick";
+        return driven_ != nullptr ? "waiting for the device" : "waiting for the first tick";
     }
     const std::string too_stiff =
         explain_stiffness(state_.stiffness_wanted, state_.stiffness_used, state_.lag);
@@ -192,7 +206,26 @@ std::shared_ptr<Device> HapticDevice::port() {
         port_ = mouse_;
         mouse_target_ = from_godot(get_global_position());
     }
+    if (port_ == nullptr && is_driven()) {
+        driven_ = open_driver();
+        port_ = driven_;
+    }
     return port_;
+}
+
+std::shared_ptr<DriverDevice> HapticDevice::open_driver() const {
+    DriverSettings settings;
+    settings.id = from_godot(device_id_);
+    settings.weight = gravity_compensation_;
+    if (!firmware_.is_empty()) {
+        const PackedByteArray image = FileAccess::get_file_as_bytes(firmware_);
+        settings.firmware.assign(image.ptr(), image.ptr() + image.size());
+    }
+    return std::make_shared<DriverDevice>(make_driver(DriverKind::falcon, std::move(settings)));
+}
+
+String HapticDevice::get_device_id() const {
+    return driven_ != nullptr ? to_godot(driven_->health().id) : String();
 }
 
 void HapticDevice::take_state(const DeviceState& state) {
@@ -280,8 +313,12 @@ void HapticDevice::_notification(int what) {
 void HapticDevice::_validate_property(PropertyInfo& property) const {
     const bool of_path = property.name == StringName("path");
     const bool of_mouse = property.name == StringName("wheel_step");
+    const bool of_falcon =
+        property.name == StringName("firmware") || property.name == StringName("gravity_compensation");
+    const bool of_driver = property.name == StringName("device_id");
     const bool of_arm = String(property.name).begins_with("arm_");
     if ((of_path && !follows_path() && driver_ != DRIVER_AUTOMATIC) ||
+        (of_falcon && driver() != DRIVER_FALCON) || (of_driver && !is_driven()) ||
         (of_mouse && driver() != DRIVER_MOUSE) || (of_arm && driver() != DRIVER_ARM)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }

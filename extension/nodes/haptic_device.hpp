@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "core/ports/device.hpp"
+#include "devices/driver_device.hpp"
 #include "devices/mouse_device.hpp"
 #include "devices/simulated_arm.hpp"
 #include "nodes/haptic_path.hpp"
@@ -21,7 +22,7 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
-    enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC };
+    enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC, DRIVER_FALCON };
 
     TACTUS_PROPERTIES(HapticDevice)
 
@@ -30,6 +31,7 @@ public:
     godot::Vector3 get_hand_velocity() const;
     godot::Vector3 get_force() const;
     int64_t get_buttons() const { return state_.buttons; }
+    godot::String get_device_id() const;
     godot::String get_state_text() const;
 
     // Puts the hand of a mouse under this point of the screen, at the depth where it is now.
@@ -62,6 +64,8 @@ private:
     void arm_changed();
     // The one that is meant where that is left open.
     Driver driver() const;
+    bool is_driven() const { return driver() >= DRIVER_FALCON; }
+    std::shared_ptr<DriverDevice> open_driver() const;
     bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
     godot::String problem_of_mouse() const;
 
@@ -70,14 +74,18 @@ private:
     godot::String path_problem_;  // why it cannot be followed; empty where it can
     double wheel_step_ = 0.01;
     ArmSettings arm_settings_;
+    godot::String firmware_;
+    godot::String device_id_;
+    double gravity_compensation_ = 0.0;
     double force_limit_ = 8.0;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
 
     std::shared_ptr<Device> port_;
-    std::shared_ptr<MouseDevice> mouse_;  // the same as port_ where the driver is the mouse
-    std::shared_ptr<SimulatedArm> arm_;   // the same as port_ where the driver is the arm
-    Vec3 mouse_target_{0.0};              // in the scene (unit: meters)
+    std::shared_ptr<MouseDevice> mouse_;    // the same as port_ where the driver is the mouse
+    std::shared_ptr<SimulatedArm> arm_;     // the same as port_ where the driver is the arm
+    std::shared_ptr<DriverDevice> driven_;  // the same as port_ where it has a driver of its own
+    Vec3 mouse_target_{0.0};                // in the scene (unit: meters)
     DeviceState state_;
 };
 

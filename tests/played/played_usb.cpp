@@ -1,4 +1,4 @@
-#include "played_usb.hpp"
+#include "played/played_usb.hpp"
 
 #include <linux/usbdevice_fs.h>
 #include <sys/ioctl.h>
@@ -20,32 +20,47 @@ namespace tactus::shared {
 
 namespace {
 
-constexpr const char* node = "/dev/bus/usb/001/002";
-constexpr const char* place = "/devices/pci0000:00/usb1/1-1";
-
 // The kernel would sleep; a client that finds nothing to reap would ask again at once.
 constexpr useconds_t nothing_to_reap = 100;
 
+// Where the system shows the device on a port of the first bus.
+std::string node_of(int port) {
+    return "/dev/bus/usb/001/00" + std::to_string(1 + port);
+}
+std::string place_of(int port) {
+    return "/devices/pci0000:00/usb1/1-" + std::to_string(port);
+}
+
 // Device, configuration, interface, bulk in 0x81 and bulk out 0x02 of an FT232R: 0403:cb48.
-constexpr const char* device_text =
-    "P: /devices/pci0000:00/usb1/1-1\n"
-    "N: bus/usb/001/002\n"
-    "E: SUBSYSTEM=usb\n"
-    "E: DRIVER=usb\n"
-    "E: BUSNUM=001\n"
-    "E: DEVNUM=002\n"
-    "E: DEVNAME=/dev/bus/usb/001/002\n"
-    "E: DEVTYPE=usb_device\n"
-    "A: bConfigurationValue=1\\n\n"
-    "A: busnum=1\\n\n"
-    "A: devnum=2\\n\n"
-    "A: devpath=1\\n\n"
-    "A: speed=12\\n\n"
-    "H: descriptors=1201000200000008030448cb000601020301"
-    "09022000010100a02d"
-    "0904000002ffffff02"
-    "07058102400000"
-    "07050202400000\n";
+std::string device_text(int port) {
+    const std::string number = std::to_string(1 + port);
+    return "P: " + place_of(port) + "\nN: bus/usb/001/00" + number +
+           "\n"
+           "E: SUBSYSTEM=usb\n"
+           "E: DRIVER=usb\n"
+           "E: BUSNUM=001\n"
+           "E: DEVNUM=00" +
+           number + "\nE: DEVNAME=/dev/bus/usb/001/00" + number +
+           "\n"
+           "E: DEVTYPE=usb_device\n"
+           "A: bConfigurationValue=1\\n\n"
+           "A: busnum=1\\n\n"
+           "A: devnum=" +
+           number + "\\n\nA: devpath=" + std::to_string(port) +
+           "\\n\n"
+           "A: speed=12\\n\n"
+           "H: descriptors=1201000200000008030448cb000601020301"
+           "09022000010100a02d"
+           "0904000002ffffff02"
+           "07058102400000"
+           "07050202400000\n";
+}
+
+// One for the process: it is told to libusb by the environment.
+UMockdevTestbed* testbed() {
+    static UMockdevTestbed* const one = umockdev_testbed_new();
+    return one;
+}
 
 struct Urb {
     UMockdevIoctlData* data = nullptr;  // of a usbdevfs_urb, ours until it is reaped
@@ -92,7 +107,7 @@ struct PlayedUsb::Impl {
     double failing;
     bool plugged = false;
     std::deque<Urb> urbs;
-    UMockdevTestbed* testbed = nullptr;
+    bool in_use = false;
     UMockdevIoctlBase* handler = nullptr;
 };
 
@@ -106,10 +121,11 @@ bool PlayedUsb::Impl::handle(UMockdevIoctlClient* client) {
     }
     switch (request) {
         case USBDEVFS_GET_CAPABILITIES: {
-            UMockdevIoctlData* const flags = umockdev_ioctl_data_resolve(argument, 0, sizeof(guint32), nullptr);
+            UMockdevIoctlData* const flags =
+                umockdev_ioctl_data_resolve(argument, 0, sizeof(guint32), nullptr);
             const guint32 capabilities = USBDEVFS_CAP_BULK_SCATTER_GATHER | USBDEVFS_CAP_BULK_CONTINUATION |
-                                         USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT |
-                                         USBDEVFS_CAP_ZERO_PACKET;
+                                         USBDEVFS_CAP_NO_PACKET_SIZE_LIM |
+                                         USBDEVFS_CAP_REAP_AFTER_DISCONNECT | USBDEVFS_CAP_ZERO_PACKET;
             std::memcpy(flags->data, &capabilities, sizeof capabilities);
             umockdev_ioctl_client_complete(client, 0, 0);
             umockdev_ioctl_data_unref(flags);
@@ -132,7 +148,11 @@ bool PlayedUsb::Impl::handle(UMockdevIoctlClient* client) {
         case USBDEVFS_IOCTL:  // no driver of the kernel's holds it
             umockdev_ioctl_client_complete(client, -1, ENODATA);
             return true;
-        default:  // claims, releases, resets
+        case USBDEVFS_CLAIMINTERFACE:
+        case USBDEVFS_DISCONNECT_CLAIM:
+            umockdev_ioctl_client_complete(client, in_use ? -1 : 0, in_use ? EBUSY : 0);
+            return true;
+        default:  // releases, resets
             umockdev_ioctl_client_complete(client, 0, 0);
             return true;
     }
@@ -239,17 +259,15 @@ bool PlayedUsb::Impl::discard(UMockdevIoctlClient* client, UMockdevIoctlData* ar
 }
 
 PlayedUsb::PlayedUsb(const PlayedUsbSettings& settings) : impl_(std::make_unique<Impl>(settings)) {
-    impl_->testbed = umockdev_testbed_new();
     impl_->handler = umockdev_ioctl_base_new();
     g_signal_connect_after(impl_->handler, "handle-ioctl", G_CALLBACK(Impl::on_ioctl), impl_.get());
-    umockdev_testbed_attach_ioctl(impl_->testbed, node, impl_->handler, nullptr);
+    umockdev_testbed_attach_ioctl(testbed(), node_of(settings.port).c_str(), impl_->handler, nullptr);
 }
 
 PlayedUsb::~PlayedUsb() {
     unplug();
-    umockdev_testbed_detach_ioctl(impl_->testbed, node, nullptr);
+    umockdev_testbed_detach_ioctl(testbed(), node_of(impl_->settings.port).c_str(), nullptr);
     g_object_unref(impl_->handler);
-    g_object_unref(impl_->testbed);
     for (const Urb& urb : impl_->urbs) {
         umockdev_ioctl_data_unref(urb.data);
     }
@@ -264,7 +282,7 @@ void PlayedUsb::plug() {
         impl_->falcon.power_cycle();
         impl_->plugged = true;
     }
-    umockdev_testbed_add_from_string(impl_->testbed, device_text, nullptr);
+    umockdev_testbed_add_from_string(testbed(), device_text(impl_->settings.port).c_str(), nullptr);
 }
 
 void PlayedUsb::unplug() {
@@ -274,7 +292,7 @@ void PlayedUsb::unplug() {
             return;
         }
     }
-    umockdev_testbed_remove_device(impl_->testbed, place);
+    umockdev_testbed_remove_device(testbed(), ("/sys" + place_of(impl_->settings.port)).c_str());
 }
 
 void PlayedUsb::set_failing(double share) {
@@ -282,9 +300,19 @@ void PlayedUsb::set_failing(double share) {
     impl_->failing = share;
 }
 
+void PlayedUsb::set_in_use(bool in_use) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->in_use = in_use;
+}
+
 void PlayedUsb::mean(const Vec3& there) {
     const std::lock_guard lock(impl_->mutex);
     impl_->falcon.mean(there);
+}
+
+void PlayedUsb::press(unsigned buttons) {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->falcon.press(buttons);
 }
 
 Vec3 PlayedUsb::hand() {
@@ -297,6 +325,16 @@ Vec3 PlayedUsb::force() {
     const std::lock_guard lock(impl_->mutex);
     impl_->falcon.advance(monotonic_now());
     return impl_->falcon.force();
+}
+
+std::uint8_t PlayedUsb::leds() {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->falcon.leds();
+}
+
+Nanoseconds PlayedUsb::let_go_at() {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->falcon.let_go_at();
 }
 
 bool PlayedUsb::running() {

@@ -8,8 +8,8 @@ namespace tactus::shared {
 
 namespace {
 
-constexpr Nanoseconds packet_time = 1'000'000;    // of its firmware: one exchange a millisecond
-constexpr Nanoseconds torque_time = 10'000'000;   // without a packet its motors are let go
+constexpr Nanoseconds packet_time = 1'000'000;   // of its firmware: one exchange a millisecond
+constexpr Nanoseconds torque_time = 10'000'000;  // without a packet its motors are let go
 constexpr Nanoseconds step_time = 250'000;
 constexpr std::size_t firmware_size = 6'000;
 constexpr double out_angle = 55.0 * delta_degrees;  // the mark of a leg lies between these
@@ -127,7 +127,10 @@ void PlayedFalcon::write(std::span<const std::uint8_t> bytes, Nanoseconds now) {
                 break;
         }
     }
-    while (running() && commands_.next(command_)) {
+    for (const auto before = command_.torques; running() && commands_.next(command_);) {
+        if (before != std::array<std::int16_t, 3>{} && command_.torques == std::array<std::int16_t, 3>{}) {
+            let_go_at_ = now;
+        }
         commanded_ = now;
         next_report_ = std::max(next_report_ + packet_time, now);
         ++exchanges_;
@@ -136,8 +139,8 @@ void PlayedFalcon::write(std::span<const std::uint8_t> bytes, Nanoseconds now) {
     }
 }
 
-// The chip sends what it has when its latency timer is over, or at once where a packet of USB is full; here a report
-// counts as one.
+// The chip sends what it has when its latency timer is over, or at once where a packet of USB is full; here a
+// report counts as one.
 std::vector<std::uint8_t> PlayedFalcon::read(std::size_t room, Nanoseconds asked, Nanoseconds now) {
     advance(now);
     const bool ready = !out_.empty() && out_.front().at <= now;
@@ -160,6 +163,7 @@ FalconReport PlayedFalcon::report() {
     for (int i = 0; i < 3; ++i) {
         report.encoders[static_cast<std::size_t>(i)] = static_cast<std::int16_t>(std::lround(turned[i]));
     }
+    report.buttons = static_cast<std::uint8_t>(buttons_ & 0xfu);
     report.homed = static_cast<std::uint8_t>(homed_);
     return report;
 }
@@ -197,7 +201,8 @@ void PlayedFalcon::step(double seconds) {
     const double mass = settings_.mass + settings_.hand_mass;
     const double damping = settings_.friction + settings_.hand_damping;
     const double stiffness = settings_.hand_stiffness * (homed ? 1.0 : 5.0);
-    const Vec3 pull = stiffness * (centre + meant - place_ - seconds * velocity_) - damping * velocity_ + force_;
+    const Vec3 pull =
+        stiffness * (centre + meant - place_ - seconds * velocity_) - damping * velocity_ + force_;
     velocity_ += seconds * pull / (mass + seconds * damping + seconds * seconds * stiffness);
     const Vec3 next = place_ + seconds * velocity_;
     const DeltaState there = delta_pose(data.geometry, next).state;

@@ -1,5 +1,6 @@
-// A Novint Falcon as its host sees it, played: the chip on USB, the loader, the firmware's packets, and a delta arm with
-// mass and friction in a user's hand, which the torques drive and the encoders show. Plain values; time comes in.
+// A Novint Falcon as its host sees it, played: the chip on USB, the loader, the firmware's packets, and a
+// delta arm with mass and friction in a user's hand, which the torques drive and the encoders show. Plain
+// values; time comes in.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +16,13 @@ namespace tactus::shared {
 
 struct PlayedFalconSettings {
     FalconData data;
-    double mass = 0.15;         // of arm and grip (unit: kilograms)
-    double friction = 1.5;      // (unit: newton seconds per meter)
-    double hand_mass = 0.3;     // of the user's (unit: kilograms)
+    double mass = 0.15;             // of arm and grip (unit: kilograms)
+    double friction = 1.5;          // (unit: newton seconds per meter)
+    double hand_mass = 0.3;         // of the user's (unit: kilograms)
     double hand_stiffness = 200.0;  // with which the user goes where he means to (unit: newtons per meter)
-    double hand_damping = 8.0;  // (unit: newton seconds per meter)
-    double settling = 0.5;      // how often the greeting comes with a 0 in front, 0 … 1
-    double wrong_echo = 0.0;    // how often a byte of firmware comes back otherwise, 0 … 1
+    double hand_damping = 8.0;      // (unit: newton seconds per meter)
+    double settling = 0.5;          // how often the greeting comes with a 0 in front, 0 … 1
+    double wrong_echo = 0.0;        // how often a byte of firmware comes back otherwise, 0 … 1
 };
 
 class PlayedFalcon {
@@ -36,14 +37,18 @@ public:
     // What the chip sends at `now`, with its two bytes of modem status, at most `room` bytes; empty: not yet.
     std::vector<std::uint8_t> read(std::size_t room, Nanoseconds asked, Nanoseconds now);
 
-    // The user's: where he means the hand to be, in the frame of DeviceSample. Until the legs have been homed, he pulls
-    // it out and pushes it in.
+    // The user's: where he means the hand to be, in the frame of DeviceSample. Until the legs have been
+    // homed, he pulls it out and pushes it in.
     void mean(const Vec3& place) { meant_ = place; }
+    void press(unsigned buttons) { buttons_ = buttons; }
     void advance(Nanoseconds now);
 
     bool running() const { return stage_ == Stage::running; }
     Vec3 hand() const { return place_ - delta_centre(settings_.data.geometry); }
     Vec3 force() const { return force_; }  // of its motors on the hand (unit: newtons)
+    std::uint8_t leds() const { return command_.leds; }
+    // When a packet last took away a force that the one before had given; 0: never.
+    Nanoseconds let_go_at() const { return let_go_at_; }
     std::uint64_t exchanges() const { return exchanges_; }
     void power_cycle();
 
@@ -72,9 +77,11 @@ private:
     FalconStream<FalconCommand> commands_;
     FalconCommand command_;
     Nanoseconds commanded_ = 0;
+    Nanoseconds let_go_at_ = 0;
     Nanoseconds next_report_ = 0;
     Nanoseconds time_ = 0;
     std::uint64_t exchanges_ = 0;
+    unsigned buttons_ = 0;
     unsigned homed_ = 0;
     unsigned pulled_out_ = 0;
     Vec3 meant_{0.0};

@@ -15,16 +15,24 @@ constexpr unsigned char endpoint_in = 0x81;
 constexpr std::size_t modem_status = 2;  // bytes in front of whatever an FT232R says
 
 // Requests of an FT232R.
-enum : std::uint8_t { ftdi_reset = 0, ftdi_modem = 1, ftdi_flow = 2, ftdi_baud = 3, ftdi_data = 4, ftdi_latency = 9 };
+enum : std::uint8_t {
+    ftdi_reset = 0,
+    ftdi_modem = 1,
+    ftdi_flow = 2,
+    ftdi_baud = 3,
+    ftdi_data = 4,
+    ftdi_latency = 9
+};
 constexpr std::uint16_t purge_in = 1, purge_out = 2;
 constexpr std::uint16_t dtr_low = 0x0100, dtr_high = 0x0101, rts_low = 0x0200;
-constexpr std::uint16_t eight_bits = 8;        // no parity, one stop bit
-constexpr std::uint16_t baud_9600 = 0x4138;    // divisors of 3 MHz
+constexpr std::uint16_t eight_bits = 8;      // no parity, one stop bit
+constexpr std::uint16_t baud_9600 = 0x4138;  // divisors of 3 MHz
 constexpr std::uint16_t baud_140k = 0x0015;
 constexpr std::uint8_t request_to_device = 0x40;
 
 constexpr int attempts_to_start = 10;
 constexpr int attempts_to_greet = 100;
+constexpr int attempts_to_answer = 3;
 constexpr int attempts_a_transfer = 40;  // half of them failing, one in 10^12 does not come through
 constexpr unsigned transfer_time = 50;   // (unit: milliseconds)
 constexpr int reads_for_an_answer = 60;  // each waits for the chip's latency timer, 16 ms
@@ -32,6 +40,9 @@ constexpr std::size_t piece = 62;        // of firmware, with the modem status a
 
 // After this long without a packet the exchange begins anew (unit: nanoseconds).
 constexpr Nanoseconds silence = 20'000'000;
+
+// The arm is carried within half a second of a loop that lives (share of its weight a packet).
+constexpr double carried_a_packet = 1.0 / 500.0;
 
 }  // namespace
 
@@ -51,7 +62,8 @@ std::string FalconDriver::open(const std::atomic<bool>& stop) {
     }
     error = open_device();
     if (error.empty()) {
-        error = start(stop);
+        stop_ = &stop;
+        error = start();
     }
     if (error.empty() && !make_queue()) {
         error = "libusb gives no transfers: is memory short?";
@@ -83,7 +95,8 @@ std::string FalconDriver::open_device() {
         if (opened != 0) {
             handle_ = nullptr;
             error = opened == usb::error_access
-                        ? "the Falcon may not be opened: run ./run setup --device-access once, and plug it in again"
+                        ? "the Falcon may not be opened: run ./run setup --device-access once, and plug it "
+                          "in again"
                         : std::string("the Falcon cannot be opened: ") + usb_->error_name(opened);
             continue;
         }
@@ -91,8 +104,9 @@ std::string FalconDriver::open_device() {
         if (const int claimed = usb_->claim_interface(handle_, 0); claimed != 0) {
             usb_->close(handle_);
             handle_ = nullptr;
-            error = claimed == usb::error_busy ? "the Falcon is in use: close the other program"
-                                               : std::string("the Falcon cannot be had: ") + usb_->error_name(claimed);
+            error = claimed == usb::error_busy
+                        ? "the Falcon is in use: close the other program"
+                        : std::string("the Falcon cannot be had: ") + usb_->error_name(claimed);
             continue;
         }
         id_ = place;
@@ -107,7 +121,7 @@ std::string FalconDriver::open_device() {
 // --- start-up, with libusb's calls that wait
 
 bool FalconDriver::control(std::uint8_t request, std::uint16_t value) {
-    for (int attempt = 0; attempt < attempts_a_transfer && !gone_; ++attempt) {
+    for (int attempt = 0; attempt < attempts_a_transfer && !is_over(); ++attempt) {
         const int done =
             usb_->control_transfer(handle_, request_to_device, request, value, 0, nullptr, 0, transfer_time);
         if (done >= 0) {
@@ -120,14 +134,15 @@ bool FalconDriver::control(std::uint8_t request, std::uint16_t value) {
 
 // What a failed transfer has sent is said; the rest follows.
 bool FalconDriver::send(std::span<const std::uint8_t> bytes) {
-    for (int attempt = 0; attempt < attempts_a_transfer && !gone_; ++attempt) {
+    for (int attempt = 0; attempt < attempts_a_transfer && !is_over(); ++attempt) {
         std::array<unsigned char, 64> buffer{};
         std::copy(bytes.begin(), bytes.end(), buffer.begin());
         int sent = 0;
         const int done = usb_->bulk_transfer(handle_, endpoint_out, buffer.data(),
                                              static_cast<int>(bytes.size()), &sent, transfer_time);
         gone_ = done == usb::error_no_device;
-        bytes = bytes.subspan(static_cast<std::size_t>(std::clamp<int>(sent, 0, static_cast<int>(bytes.size()))));
+        bytes =
+            bytes.subspan(static_cast<std::size_t>(std::clamp<int>(sent, 0, static_cast<int>(bytes.size()))));
         if (bytes.empty()) {
             return true;
         }
@@ -137,7 +152,8 @@ bool FalconDriver::send(std::span<const std::uint8_t> bytes) {
 
 // Exactly so many bytes; false where they do not come.
 bool FalconDriver::receive(std::span<std::uint8_t> bytes) {
-    for (int attempt = 0; attempt < reads_for_an_answer && received_.size() < bytes.size() && !gone_; ++attempt) {
+    for (int attempt = 0; attempt < reads_for_an_answer && received_.size() < bytes.size() && !is_over();
+         ++attempt) {
         std::array<unsigned char, read_size> buffer{};
         int got = 0;
         const int done = usb_->bulk_transfer(handle_, endpoint_in, buffer.data(),
@@ -164,10 +180,10 @@ void FalconDriver::flush() {
     control(ftdi_reset, purge_out);
 }
 
-std::string FalconDriver::start(const std::atomic<bool>& stop) {
+std::string FalconDriver::start() {
     std::string error;
-    for (int attempt = 0; attempt < attempts_to_start && !stop.load() && !gone_; ++attempt) {
-        error = start_once(stop);
+    for (int attempt = 0; attempt < attempts_to_start && !is_over(); ++attempt) {
+        error = start_once();
         if (error.empty()) {
             return error;
         }
@@ -175,12 +191,13 @@ std::string FalconDriver::start(const std::atomic<bool>& stop) {
     return gone_ ? "the Falcon was unplugged while it started: plug it in again" : error;
 }
 
-std::string FalconDriver::start_once(const std::atomic<bool>& stop) {
+std::string FalconDriver::start_once() {
     flush();
-    const bool slow = control(ftdi_latency, 16) && control(ftdi_baud, baud_9600) && control(ftdi_data, eight_bits) &&
-                      control(ftdi_flow, 0) && control(ftdi_modem, rts_low) && control(ftdi_modem, dtr_low) &&
+    const bool slow = control(ftdi_latency, 16) && control(ftdi_baud, baud_9600) &&
+                      control(ftdi_data, eight_bits) && control(ftdi_flow, 0) &&
+                      control(ftdi_modem, rts_low) && control(ftdi_modem, dtr_low) &&
                       control(ftdi_modem, dtr_high);
-    if (!slow || !greet(stop)) {
+    if (!slow || !greet()) {
         return "the Falcon does not answer: check its power supply, and plug it in again";
     }
     const std::array<std::uint8_t, 1> knock{0x41};
@@ -190,16 +207,19 @@ std::string FalconDriver::start_once(const std::atomic<bool>& stop) {
     if (!fast) {
         return "the Falcon does not follow to its fast line: plug it in again";
     }
-    if (!load(stop)) {
+    if (!load()) {
         return "the Falcon does not take its firmware: is 'firmware' the maker's image?";
     }
-    return control(ftdi_latency, 1) ? "" : "the Falcon's line cannot be made fast: plug it in again";
+    if (!control(ftdi_latency, 1)) {
+        return "the Falcon's line cannot be made fast: plug it in again";
+    }
+    return answers() ? "" : "the Falcon does not run its firmware: is 'firmware' the maker's image?";
 }
 
-bool FalconDriver::greet(const std::atomic<bool>& stop) {
+bool FalconDriver::greet() {
     const std::array<std::uint8_t, 3> hello{0x0a, 0x43, 0x0d};
     const std::array<std::uint8_t, 4> wanted{0x0a, 0x44, 0x2c, 0x0d};
-    for (int attempt = 0; attempt < attempts_to_greet && !stop.load() && !gone_; ++attempt) {
+    for (int attempt = 0; attempt < attempts_to_greet && !is_over(); ++attempt) {
         std::array<std::uint8_t, 4> answer{};
         if (!send(hello) || !receive(answer)) {
             continue;
@@ -219,9 +239,9 @@ bool FalconDriver::greet(const std::atomic<bool>& stop) {
 }
 
 // Each piece is sent back. One that comes back otherwise has arrived otherwise: all begins anew.
-bool FalconDriver::load(const std::atomic<bool>& stop) {
+bool FalconDriver::load() {
     const std::span<const std::uint8_t> image(settings_.firmware);
-    for (std::size_t at = 0; at < image.size() && !stop.load(); at += piece) {
+    for (std::size_t at = 0; at < image.size() && !is_over(); at += piece) {
         const auto part = image.subspan(at, std::min(piece, image.size() - at));
         std::array<std::uint8_t, piece> echo{};
         if (!send(part) || !receive(std::span(echo).first(part.size())) ||
@@ -229,39 +249,60 @@ bool FalconDriver::load(const std::atomic<bool>& stop) {
             return false;
         }
     }
-    return !stop.load();
+    return !is_over();
+}
+
+bool FalconDriver::answers() {
+    stream_.reset();
+    FalconCommand asked;
+    asked.homing = true;
+    for (int attempt = 0; attempt < attempts_to_answer && !is_over(); ++attempt) {
+        FalconPacket answer{};
+        if (send(falcon_encode(asked)) && receive(answer)) {
+            stream_.take(answer);
+        }
+        if (stream_.next(report_)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // --- the exchange, with queued transfers
+
+bool FalconDriver::prepare(Queued& queued, unsigned char endpoint, void (*done)(usb::Transfer*)) {
+    queued.driver = this;
+    queued.transfer = usb_->alloc_transfer(0);
+    if (queued.transfer == nullptr) {
+        return false;
+    }
+    usb::Transfer& transfer = *queued.transfer;
+    transfer.handle = handle_;
+    transfer.endpoint = endpoint;
+    transfer.type = usb::type_bulk;
+    transfer.timeout = 0;
+    transfer.callback = done;
+    transfer.user_data = &queued;
+    transfer.buffer = queued.bytes.data();
+    transfer.length = static_cast<int>(endpoint == endpoint_in ? queued.bytes.size() : falcon_packet_size);
+    return true;
+}
 
 bool FalconDriver::make_queue() {
     stream_.reset();
     arm_.reset();
     report_ = {};
     sent_ = Vec3(0.0);
+    carried_ = 0.0;
     owed_ = static_cast<int>(transfers_each_way);
     heard_ = monotonic_now();
-    for (auto* way : {&in_, &out_}) {
-        for (Queued& queued : *way) {
-            queued.driver = this;
-            queued.transfer = usb_->alloc_transfer(0);
-            if (queued.transfer == nullptr) {
-                return false;
-            }
-            usb::Transfer& transfer = *queued.transfer;
-            transfer.handle = handle_;
-            transfer.endpoint = way == &in_ ? endpoint_in : endpoint_out;
-            transfer.type = usb::type_bulk;
-            transfer.timeout = 0;
-            transfer.callback = way == &in_ ? in_done : out_done;
-            transfer.user_data = &queued;
-            transfer.buffer = queued.bytes.data();
-        }
+    bool ready = prepare(last_, endpoint_out, last_done);
+    const FalconPacket letting_go = falcon_encode(FalconCommand{});
+    std::copy(letting_go.begin(), letting_go.end(), last_.bytes.begin());
+    for (std::size_t i = 0; i < transfers_each_way; ++i) {
+        ready = prepare(in_[i], endpoint_in, in_done) && prepare(out_[i], endpoint_out, out_done) && ready;
     }
-    for (Queued& in : in_) {
-        submit_in(in);
-    }
-    return true;
+    return ready;
 }
 
 void FalconDriver::note(usb::TransferStatus status) {
@@ -270,7 +311,6 @@ void FalconDriver::note(usb::TransferStatus status) {
 }
 
 void FalconDriver::submit_in(Queued& in) {
-    in.transfer->length = static_cast<int>(in.bytes.size());
     const int done = usb_->submit_transfer(in.transfer);
     in.in_flight = done == 0;
     gone_ = gone_ || done == usb::error_no_device;
@@ -297,33 +337,62 @@ void FalconDriver::out_done(usb::Transfer* transfer) {
     }
 }
 
+void FalconDriver::last_done(usb::Transfer* transfer) {
+    static_cast<Queued*>(transfer->user_data)
+        ->driver->is_last_in_flight_.store(false, std::memory_order_release);
+}
+
+// libusb takes transfers from any thread, also while another one is stuck in its events.
+void FalconDriver::let_go() {
+    if (is_last_in_flight_.exchange(true, std::memory_order_acq_rel)) {
+        return;
+    }
+    if (usb_->submit_transfer(last_.transfer) != 0) {
+        is_last_in_flight_.store(false, std::memory_order_release);
+    }
+}
+
+FalconCommand FalconDriver::command(const Vec3& force) {
+    FalconCommand command;
+    command.homing = report_.homed != 7;
+    if (command.homing) {
+        command.leds = falcon_led_red;
+    } else {
+        command.torques = arm_.counts(force);
+        command.leds = is_loop_alive_ ? falcon_led_green : falcon_led_blue;
+    }
+    return command;
+}
+
 // False where none of the transfers is free.
 bool FalconDriver::submit_out(const Vec3& force) {
     for (Queued& out : out_) {
         if (out.in_flight) {
             continue;
         }
-        const bool homed = report_.homed == 7;
-        FalconCommand command;
-        command.torques = homed ? arm_.counts(force) : std::array<std::int16_t, 3>{};
-        command.homing = !homed;
-        command.leds = homed ? falcon_led_green : falcon_led_red;
-        const FalconPacket packet = falcon_encode(command);
+        const FalconPacket packet = falcon_encode(command(force));
         std::copy(packet.begin(), packet.end(), out.bytes.begin());
-        out.transfer->length = static_cast<int>(packet.size());
         const int done = usb_->submit_transfer(out.transfer);
         gone_ = gone_ || done == usb::error_no_device;
         out.in_flight = done == 0;
-        sent_ = homed ? force : Vec3(0.0);
+        sent_ = report_.homed == 7 ? force : Vec3(0.0);
         return out.in_flight;
     }
     return false;
 }
 
+// With what carries the arm, which is let go of with the loop.
+Vec3 FalconDriver::living(ForceSlot& forces, Nanoseconds now) {
+    const Vec3 force = forces.living(now, Vec3(0.0, carried_, 0.0));
+    is_loop_alive_ = forces.end() != 0;
+    return force;
+}
+
 void FalconDriver::wait(Nanoseconds until, int* until_done) {
     const Nanoseconds span = std::max<Nanoseconds>(0, until - monotonic_now());
-    timeval time{static_cast<time_t>(span / nanoseconds_per_second),
-                 static_cast<suseconds_t>(span % nanoseconds_per_second / 1000)};
+    timeval time{};
+    time.tv_sec = static_cast<decltype(time.tv_sec)>(span / nanoseconds_per_second);
+    time.tv_usec = static_cast<decltype(time.tv_usec)>(span % nanoseconds_per_second / 1000);
     usb_->handle_events_timeout_completed(context_, &time, until_done);
 }
 
@@ -343,7 +412,11 @@ Driver::Exchange FalconDriver::exchange(ForceSlot& forces, Nanoseconds until, De
             heard_ = now;
             owed_ = std::min(owed_ + 1, static_cast<int>(transfers_each_way));
             sample.connected = report_.homed == 7 && arm_.read(report_, seconds, sample);
-            if (submit_out(forces.living(now))) {
+            const double carried_more = settings_.weight * carried_a_packet;
+            carried_ =
+                std::clamp(carried_ + (sample.connected && is_loop_alive_ ? carried_more : -carried_more),
+                           0.0, settings_.weight);
+            if (submit_out(living(forces, now))) {
                 --owed_;
             }
             return Exchange::reading;
@@ -352,7 +425,7 @@ Driver::Exchange FalconDriver::exchange(ForceSlot& forces, Nanoseconds until, De
             owed_ = 1;  // a packet or its answer was lost
             heard_ = now;
         }
-        const Vec3 force = forces.living(now);
+        const Vec3 force = living(forces, now);
         const bool dies = sent_ != Vec3(0.0) && force == Vec3(0.0);
         if (owed_ > 0 || dies) {
             if (submit_out(force)) {
@@ -375,6 +448,12 @@ std::string FalconDriver::advice() const {
                                 "then push it all the way in";
 }
 
+bool FalconDriver::is_any_in_flight() const {
+    const auto flies = [](const Queued& queued) { return queued.in_flight; };
+    return is_last_in_flight_.load(std::memory_order_acquire) || std::any_of(in_.begin(), in_.end(), flies) ||
+           std::any_of(out_.begin(), out_.end(), flies);
+}
+
 // A transfer belongs to libusb until it has come back, be it cancelled.
 void FalconDriver::close() {
     if (usb_ == nullptr) {
@@ -383,18 +462,13 @@ void FalconDriver::close() {
     if (handle_ != nullptr && !gone_ && sent_ != Vec3(0.0)) {
         submit_out(Vec3(0.0));
     }
-    const auto any_in_flight = [this] {
-        const auto flies = [](const Queued& queued) { return queued.in_flight; };
-        return std::any_of(in_.begin(), in_.end(), flies) || std::any_of(out_.begin(), out_.end(), flies);
-    };
-    for (auto* way : {&in_, &out_}) {
-        for (Queued& queued : *way) {
-            if (queued.in_flight && way == &in_) {
-                usb_->cancel_transfer(queued.transfer);
-            }
+    for (Queued& in : in_) {
+        if (in.in_flight) {
+            usb_->cancel_transfer(in.transfer);
         }
     }
-    for (Nanoseconds began = monotonic_now(); any_in_flight() && monotonic_now() - began < nanoseconds_per_second;) {
+    for (Nanoseconds began = monotonic_now();
+         is_any_in_flight() && monotonic_now() - began < nanoseconds_per_second;) {
         wait(monotonic_now() + 10'000'000);
         for (Queued& out : out_) {
             if (out.in_flight && monotonic_now() - began > 50'000'000) {
@@ -402,15 +476,14 @@ void FalconDriver::close() {
             }
         }
     }
-    for (auto* way : {&in_, &out_}) {
-        for (Queued& queued : *way) {
-            // One that never comes back is left to libusb, with the memory it may still write to.
-            if (queued.transfer != nullptr && !queued.in_flight) {
-                usb_->free_transfer(queued.transfer);
-            }
-            queued.transfer = nullptr;
-            queued.in_flight = false;
+    last_.in_flight = is_last_in_flight_.exchange(false, std::memory_order_acq_rel);
+    for (Queued* queued : {&in_[0], &in_[1], &out_[0], &out_[1], &last_}) {
+        // One that never comes back is left to libusb.
+        if (queued->transfer != nullptr && !queued->in_flight) {
+            usb_->free_transfer(queued->transfer);
         }
+        queued->transfer = nullptr;
+        queued->in_flight = false;
     }
     if (handle_ != nullptr) {
         usb_->release_interface(handle_, 0);

@@ -1,11 +1,11 @@
-// The Novint Falcon on USB: an FT232R that leads to a signal processor, which needs its firmware at every start.
+// The Novint Falcon on USB: an FT232R that leads to a signal processor, which needs its firmware at every
+// start.
 //
-// Threads: all of it belongs to one I/O thread (driver.hpp). libusb calls back from within exchange() and close().
+// Threads: all but let_go() belongs to one I/O thread (driver.hpp). libusb calls back from within exchange()
+// and close().
 #pragma once
 
 #include <array>
-#include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,6 +19,7 @@ namespace tactus {
 struct FalconSettings {
     std::vector<std::uint8_t> firmware;  // the image; the maker's own, which is not ours to give away
     std::string id;                      // of one of several; empty: the first that is free
+    double weight = 0.0;  // of arm and grip in the hand, which the motors carry (unit: newtons)
     FalconData data;
 };
 
@@ -30,6 +31,7 @@ public:
     std::string open(const std::atomic<bool>& stop) override;
     void close() override;
     Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) override;
+    void let_go() override;
     DeviceCapabilities capabilities() const override { return falcon_capabilities(); }
     std::string id() const override { return id_; }
     std::string advice() const override;
@@ -46,10 +48,12 @@ private:
     };
 
     std::string open_device();
-    std::string start(const std::atomic<bool>& stop);
-    std::string start_once(const std::atomic<bool>& stop);
-    bool greet(const std::atomic<bool>& stop);
-    bool load(const std::atomic<bool>& stop);
+    bool is_over() const { return gone_ || stop_->load(std::memory_order_acquire); }
+    std::string start();
+    std::string start_once();
+    bool greet();
+    bool load();
+    bool answers();
 
     bool control(std::uint8_t request, std::uint16_t value);
     bool send(std::span<const std::uint8_t> bytes);
@@ -57,10 +61,15 @@ private:
     void flush();
 
     bool make_queue();
+    bool prepare(Queued& queued, unsigned char endpoint, void (*done)(usb::Transfer*));
     void submit_in(Queued& in);
     bool submit_out(const Vec3& force);
+    FalconCommand command(const Vec3& force);
+    Vec3 living(ForceSlot& forces, Nanoseconds now);
     static void in_done(usb::Transfer* transfer);
     static void out_done(usb::Transfer* transfer);
+    static void last_done(usb::Transfer* transfer);
+    bool is_any_in_flight() const;
     void note(usb::TransferStatus status);
     void wait(Nanoseconds until, int* until_done = nullptr);
 
@@ -71,14 +80,19 @@ private:
     std::string id_;
     std::vector<std::uint8_t> received_;  // while it starts: what has come and was not asked for yet
     std::array<Queued, transfers_each_way> in_, out_;
+    Queued last_;  // of the watchdog: a packet without a force
+    std::atomic<bool> is_last_in_flight_{false};
     FalconStream<FalconReport> stream_;
     FalconArm arm_;
     FalconReport report_;
-    Vec3 sent_{0.0};              // force of the last packet (unit: newtons)
-    int owed_ = 0;                // packets that may be sent: one for each that has come
-    Nanoseconds heard_ = 0;       // the last whole packet
-    int heard_in_wait_ = 0;       // set from within the callbacks: there is something to look at
+    Vec3 sent_{0.0};        // force of the last packet (unit: newtons)
+    double carried_ = 0.0;  // of the weight (unit: newtons)
+    bool is_loop_alive_ = false;
+    int owed_ = 0;           // packets that may be sent: one for each that has come
+    Nanoseconds heard_ = 0;  // the last whole packet
+    int heard_in_wait_ = 0;  // set from within the callbacks: there is something to look at
     bool gone_ = false;
+    const std::atomic<bool>* stop_ = nullptr;  // while it starts
 };
 
 }  // namespace tactus

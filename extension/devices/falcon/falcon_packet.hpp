@@ -34,8 +34,8 @@ FalconPacket falcon_encode(const FalconCommand& command);
 // As the device does it, for who plays one.
 FalconPacket falcon_encode(const FalconReport& report);
 
-// Bytes as they come, in pieces of any size, with or without gaps: whole packets out. What is no packet is left out,
-// never believed.
+// Bytes as they come, in pieces of any size, with or without gaps: whole packets out. What is no packet is
+// left out, never believed.
 template <typename Message>
 class FalconStream {
 public:

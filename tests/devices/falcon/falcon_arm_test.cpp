@@ -50,7 +50,8 @@ TEST(FalconArm, TheMeanForceHasTheDirectionThatWasAsked) {
             const auto counts = arm.counts(wanted);
             for (int leg = 0; leg < 3; ++leg) {
                 ASSERT_LE(std::abs(counts[static_cast<std::size_t>(leg)]), data.max_counts);
-                mean[leg] += 1e-3 * counts[static_cast<std::size_t>(leg)] * data.torque_a_count * data.geometry.gear;
+                mean[leg] +=
+                    1e-3 * counts[static_cast<std::size_t>(leg)] * data.torque_a_count * data.geometry.gear;
             }
         }
         const Vec3 force = glm::transpose(shared::numeric_jacobian(data.geometry, read)) * mean;

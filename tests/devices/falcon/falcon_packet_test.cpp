@@ -39,7 +39,8 @@ TEST(FalconPacket, WhatIsSentInPiecesComesOutWhole) {
         bytes.insert(bytes.end(), packet.begin(), packet.end());
     }
     for (std::size_t at = 0; at < bytes.size();) {
-        const std::size_t size = std::min<std::size_t>(1 + static_cast<std::size_t>(random.below(62)), bytes.size() - at);
+        const std::size_t size =
+            std::min<std::size_t>(1 + static_cast<std::size_t>(random.below(62)), bytes.size() - at);
         stream.take(std::span(bytes).subspan(at, size));
         at += size;
         for (FalconReport report; stream.next(report);) {
