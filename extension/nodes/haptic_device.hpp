@@ -22,7 +22,7 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
-    enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC, DRIVER_FALCON };
+    enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC, DRIVER_FALCON = 16 };
 
     TACTUS_PROPERTIES(HapticDevice)
 

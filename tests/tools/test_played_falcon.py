@@ -15,7 +15,7 @@ PLAYER = cache.clone() / "build/template_debug/tests/play_falcon"
 @pytest.mark.skipif(not PLAYER.is_file(), reason="umockdev is not installed")
 def test_the_hand_that_holds_a_falcon_feels_the_ground(tmp_path):
     firmware, figures = tmp_path / "firmware.bin", tmp_path / "figures.json"
-    device = {"driver": 4, "firmware": str(firmware), "force_limit": 6.0}
+    device = {"driver": 16, "firmware": str(firmware), "force_limit": 6.0}
     command = [
         PLAYER, f"--firmware={firmware}", f"--figures={figures}", "--",
         godot.command(), "--headless", "--path", FOLDER, "--",
