@@ -1,6 +1,6 @@
 extends "nodes_case.gd"
-## Devices with a driver of their own: nothing of it is there until a scene picks one, and a device that cannot work is
-## a state with a way out.
+## Devices with a driver of their own: nothing of it is there until a scene picks one, and a device that
+## cannot work is a state with a way out.
 
 
 func _is_loaded(library: String) -> bool:
