@@ -29,7 +29,7 @@ using namespace tactus;
 
 Vec3 way_of_the_user(double seconds) {
     const double turn = 2.0 * 3.14159265358979 * seconds / 10.0;
-    return {0.025 * std::cos(turn), -0.012 + 0.02 * std::sin(3.0 * turn), 0.025 * std::sin(turn)};
+    return {0.025 * std::cos(turn), 0.006 + 0.02 * std::sin(5.0 * turn), 0.025 * std::sin(turn)};
 }
 
 // Moves the hand until the program has ended; its exit code.
