@@ -92,6 +92,8 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
+    bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
+    double mass(SessionHandle handle) const;                         // as the model has it (unit: kilograms)
     void set_factors(SessionHandle handle, const BodyFactors& factors);
     const Vec3& gravity() const { return gravity_; }
     // Whether the owner has changed what is touched, or what touches, since this was asked last.
