@@ -95,6 +95,7 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
+    bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
     double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
     const Vec3& gravity() const { return gravity_; }

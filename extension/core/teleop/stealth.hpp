@@ -8,7 +8,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/teleop/body_motion.hpp"
@@ -47,21 +49,41 @@ struct StealthSettings {
     double tank = 0.02;  // most energy that touch has taken and hiding may spend (unit: joules), >= 0
 };
 
-// How fast corrections come that are each too small to notice. They come where the model drifts, and the
-// drift takes back what they bring: fading as fast as they come changes nothing that can be felt.
+// How fast corrections come, one after the other. They come where the model drifts, and the drift takes back
+// what they bring: fading as fast as they come changes nothing that can be felt. One large correction is no
+// drift: the largest within the window does not count.
 class DriftRate {
 public:
-    // A correction has brought `change`; of that, no more than `unnoticed` counts (unit: newtons).
-    void carried(const StealthSettings& settings, double change, double unnoticed) {
-        rate_ += std::min(change, unnoticed) / settings.window;
+    // A correction has brought `change` (unit: newtons).
+    void carried(double change) {
+        newest_ = (newest_ + 1) % count;
+        changes_[newest_] = {change, 0.0};
     }
-    void pass(const StealthSettings& settings, double seconds) {
-        rate_ *= std::exp(-seconds / settings.window);
+    void pass(double seconds) {
+        for (Change& change : changes_) {
+            change.age += seconds;
+        }
     }
-    double rate() const { return rate_; }  // (unit: newtons per second)
+    // (unit: newtons per second)
+    double rate(const StealthSettings& settings) const {
+        double sum = 0.0, largest = 0.0;
+        for (const Change& change : changes_) {
+            if (change.age <= settings.window) {
+                sum += change.size;
+                largest = std::max(largest, change.size);
+            }
+        }
+        return (sum - largest) / settings.window;
+    }
 
 private:
-    double rate_ = 0.0;
+    static constexpr std::size_t count = 32;  // a state every few ticks brings one correction
+    struct Change {
+        double size = 0.0;  // (unit: newtons)
+        double age = 0.0;   // (unit: seconds)
+    };
+    std::array<Change, count> changes_{};
+    std::size_t newest_ = 0;
 };
 
 // The change of a force of this size that can just be noticed (unit: newtons).

@@ -30,19 +30,23 @@ TEST(DriftRate, ComesToTheRateOfManySmallCorrections) {
     DriftRate drift;
     // 20 mN every 5 ms are 4 N/s.
     for (int tick = 0; tick < 2000; ++tick) {
-        drift.pass(settings, 0.001);
+        drift.pass(0.001);
         if (tick % 5 == 0) {
-            drift.carried(settings, 0.02, 1.0);
+            drift.carried(0.02);
         }
     }
-    EXPECT_NEAR(drift.rate(), 4.0, 0.4);
+    EXPECT_NEAR(drift.rate(settings), 4.0, 0.4);
 }
 
-TEST(DriftRate, OneLargeCorrectionCountsNoMoreThanASmallOne) {
+TEST(DriftRate, OneLargeCorrectionIsNoDrift) {
     const StealthSettings settings;
     DriftRate drift;
-    drift.carried(settings, 2.0, 0.05);
-    EXPECT_DOUBLE_EQ(drift.rate(), 0.05 / settings.window);
+    drift.carried(2.0);
+    EXPECT_EQ(drift.rate(settings), 0.0);
+    drift.carried(0.05);
+    EXPECT_NEAR(drift.rate(settings), 0.05 / settings.window, 1e-12);
+    drift.pass(2.0 * settings.window);
+    EXPECT_EQ(drift.rate(settings), 0.0);
 }
 
 }  // namespace
