@@ -43,7 +43,7 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
     if (in.stiffness <= 0.0) {
         tank_.let_go();
     }
-    drift_.pass(in.seconds);
+    drift_.pass(settings, in.seconds);
     if (modelled < modelled_before_) {
         // As the hand moves away and the model's force with it, so does what is hidden.
         hidden_ *= modelled / modelled_before_;

@@ -8,9 +8,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 
 #include "core/teleop/body_motion.hpp"
@@ -51,39 +49,24 @@ struct StealthSettings {
 
 // How fast corrections come, one after the other. They come where the model drifts, and the drift takes back
 // what they bring: fading as fast as they come changes nothing that can be felt. One large correction is no
-// drift: the largest within the window does not count.
+// drift: the largest of those within the window does not count.
 class DriftRate {
 public:
     // A correction has brought `change` (unit: newtons).
     void carried(double change) {
-        newest_ = (newest_ + 1) % count;
-        changes_[newest_] = {change, 0.0};
+        sum_ += change;
+        largest_ = std::max(largest_, change);
     }
-    void pass(double seconds) {
-        for (Change& change : changes_) {
-            change.age += seconds;
-        }
+    void pass(const StealthSettings& settings, double seconds) {
+        const double left = std::exp(-seconds / settings.window);
+        sum_ *= left;
+        largest_ *= left;
     }
     // (unit: newtons per second)
-    double rate(const StealthSettings& settings) const {
-        double sum = 0.0, largest = 0.0;
-        for (const Change& change : changes_) {
-            if (change.age <= settings.window) {
-                sum += change.size;
-                largest = std::max(largest, change.size);
-            }
-        }
-        return (sum - largest) / settings.window;
-    }
+    double rate(const StealthSettings& settings) const { return (sum_ - largest_) / settings.window; }
 
 private:
-    static constexpr std::size_t count = 32;  // a state every few ticks brings one correction
-    struct Change {
-        double size = 0.0;  // (unit: newtons)
-        double age = 0.0;   // (unit: seconds)
-    };
-    std::array<Change, count> changes_{};
-    std::size_t newest_ = 0;
+    double sum_ = 0.0, largest_ = 0.0;  // of what has come, each less by its age (unit: newtons)
 };
 
 // The change of a force of this size that can just be noticed (unit: newtons).
