@@ -117,7 +117,9 @@ func test_what_another_driver_needs_is_not_shown() -> void:
 		for property: Dictionary in device.get_property_list():
 			if property.usage & PROPERTY_USAGE_EDITOR:
 				shown.append(property.name)
-		check_equal("steering_speed" in shown, driver != HapticDevice.DRIVER_NODE, "speed, driver %d" % driver)
+		check_equal(
+			"steering_speed" in shown, driver != HapticDevice.DRIVER_NODE, "speed, driver %d" % driver
+		)
 		check_equal("gamepad" in shown, driver == HapticDevice.DRIVER_GAMEPAD, "gamepad, driver %d" % driver)
 		check_equal("target" in shown, driver == HapticDevice.DRIVER_NODE, "target, driver %d" % driver)
 		check(not "path" in shown and not "wheel_step" in shown, "driver %d" % driver)
