@@ -77,7 +77,7 @@ double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in,
     const double unnoticed = unnoticed_change(settings, felt, in.seconds);
     // No more is hidden than is felt: it would be a force of its own.
     const double bound = std::max(just_noticeable(settings, modelled), settings.bound * modelled);
-    if (size > bound) {
+    if (size > bound || state_ == FeltState::letting_go) {
         if (state_ != FeltState::letting_go) {
             state_ = FeltState::letting_go;
             begins_to_let_go_ = true;

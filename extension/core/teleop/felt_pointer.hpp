@@ -8,7 +8,6 @@
 //     together    -> bridged      the model has changed and `hidden` makes up for it
 //     bridged     -> together     it has faded
 //     bridged     -> letting_go   more is hidden than is felt, or nothing is touched any more
-//     letting_go  -> bridged      what is hidden is within its bound again
 //     letting_go  -> together     it is gone
 //     together    -> carried      a second pointer is carried along with the object
 //     (session/carried_pointer.hpp)

@@ -79,7 +79,7 @@ TEST(FeltPointer, WhatIsTooLargeIsLetGoAndSaysSo) {
         ASSERT_LT(++ticks, 400);
     } while (pointer.state() == FeltState::letting_go);
     EXPECT_LE(largest_change, 3.0 * tick / settings.let_go_seconds * 1.001);
-    EXPECT_LT(glm::length(last), just_noticeable(settings, 0.0));
+    EXPECT_EQ(last, Vec3(0.0)) << "nothing of it lingers";
     EXPECT_GE(ticks, 100);
 }
 
