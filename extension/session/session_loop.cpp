@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <span>
 
 #include "core/geometry/surface_query.hpp"
 #include "physics/limits.hpp"
@@ -117,9 +118,11 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         const TraceScope scope(trace, TickStage::publish_snapshot);
         publish(now);
     }
-    if (recording_) {
+    if (recording_count_ > 0) {
         const TraceScope scope(trace, TickStage::append_record);
-        append_record(now);
+        for (const Recording& recording : std::span(recordings_).first(recording_count_)) {
+            append_record(recording, now);
+        }
     }
     return std::exchange(status_, 0u);
 }
@@ -515,24 +518,24 @@ void SessionLoop::publish(Nanoseconds now) {
     snapshots_.publish();
 }
 
-void SessionLoop::append_record(Nanoseconds now) {
-    if (recorded_proxy_ >= most_proxies || !proxies_[recorded_proxy_].proxy) {
+void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
+    if (recording.proxy >= most_proxies || !proxies_[recording.proxy].proxy) {
         return;
     }
-    const ProxyState& state = proxies_[recorded_proxy_].state;
+    const ProxyState& state = proxies_[recording.proxy].state;
     SessionRecord row;
     row.time = now;
-    row.proxy = recorded_proxy_;
+    row.proxy = recording.proxy;
     row.hand = state.hand;
     row.proxy_position = state.position;
     row.force = state.force;
     row.proxy_status = state.status;
     row.contacts = static_cast<std::uint32_t>(state.contact_count);
-    if (const Body* object = body(recorded_object_)) {
+    if (const Body* object = body(recording.object)) {
         row.object_position = scene_.body(object->slot).pose.position;
         row.object_rotation = scene_.body(object->slot).pose.rotation;
     }
-    if (!recording_->append(row)) {
+    if (!recording.ring->append(row)) {
         status_ |= session_record_lost;
     }
 }

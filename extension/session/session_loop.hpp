@@ -125,6 +125,11 @@ public:
     void follow_still(SessionLoop& other);
 
 private:
+    struct Recording {
+        RecorderRing<SessionRecord>* ring = nullptr;
+        SessionHandle proxy = no_handle;
+        SessionHandle object = no_handle;
+    };
     struct DeviceSlot {
         Device* device = nullptr;
         Workspace workspace;
@@ -166,6 +171,7 @@ private:
     bool carry_out(command::SetProxy& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
     bool carry_out(command::Record& c, Retired&);
+    bool carry_out(command::EndRecording& c, Retired&);
     bool carry_out(command::Attach& c, Retired& retired);
 
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
@@ -190,7 +196,7 @@ private:
     SafetySample safety_sample(const DeviceSlot& slot, std::size_t index) const;
     void step_physics();
     void publish(Nanoseconds now);
-    void append_record(Nanoseconds now);
+    void append_record(const Recording& recording, Nanoseconds now);
     void describe(ProxySlot& slot, const ProxyTick& tick);
 
     SessionSettings settings_;
@@ -214,9 +220,8 @@ private:
     std::array<DeviceSlot, most_devices> devices_;
     std::array<ProxySlot, most_proxies> proxies_;
     std::unique_ptr<TeleopSide> side_;  // null: nobody at the far side
-    RecorderRing<SessionRecord>* recording_ = nullptr;
-    SessionHandle recorded_proxy_ = no_handle;
-    SessionHandle recorded_object_ = no_handle;
+    std::array<Recording, max_recordings> recordings_;
+    std::size_t recording_count_ = 0;
     Vec3 gravity_;                // (unit: meters per second squared)
     bool touch_changed_ = false;  // see take_touch_change()
     bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew

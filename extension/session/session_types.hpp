@@ -19,6 +19,7 @@ using SessionHandle = std::uint32_t;
 constexpr SessionHandle no_handle = 0xffff'ffffu;
 
 constexpr std::size_t most_devices = 8;
+constexpr std::size_t max_recordings = 8;
 constexpr std::size_t most_proxies = 16;
 
 struct SessionSettings {
