@@ -134,7 +134,7 @@ private:
         Device* device = nullptr;
         Workspace workspace;
         DeviceSample sample;
-        Vec3 clutch_offset{0.0};  // in the world: what the clutch has taken out so far (unit: meters)
+        Vec3 offset{0.0};         // in the world: what clutch and edge have made of it so far (unit: meters)
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
@@ -183,6 +183,7 @@ private:
     void show_state(SessionHandle handle);
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
+    void place_hand(DeviceSlot& slot) const;
     void touch_all(Nanoseconds now);
     void fade_jumps();
     void press_all();
