@@ -190,8 +190,13 @@ void HapticDevice::take_state(const DeviceState& state) {
 Workspace HapticDevice::workspace() const {
     const Transform3D transform = get_global_transform();
     const double volume = std::abs(static_cast<double>(transform.basis.determinant()));
-    return {pose_of(transform), std::cbrt(volume), force_limit_, clutch_,
-            static_cast<std::uint32_t>(dead_man_buttons_)};
+    return {pose_of(transform),
+            std::cbrt(volume),
+            force_limit_,
+            clutch_,
+            static_cast<std::uint32_t>(dead_man_buttons_),
+            force_scale_,
+            edge_speed_};
 }
 
 Vec3 HapticDevice::start() const {

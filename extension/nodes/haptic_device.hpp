@@ -91,6 +91,8 @@ private:
     godot::NodePath target_;
     ArmSettings arm_settings_;
     double force_limit_ = 8.0;
+    double force_scale_ = 1.0;
+    double edge_speed_ = 0.0;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
 
