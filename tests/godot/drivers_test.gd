@@ -5,7 +5,9 @@ extends "nodes_case.gd"
 
 ## The file has no length: it is read as far as it goes.
 func _is_loaded(library: String) -> bool:
-	var maps := FileAccess.open("/proc/self/maps", FileAccess.READ).get_buffer(1 << 22).get_string_from_ascii()
+	var maps := (
+		FileAccess.open("/proc/self/maps", FileAccess.READ).get_buffer(1 << 22).get_string_from_ascii()
+	)
 	check(maps.contains("libtactus"), "the list of what is loaded lacks this extension")
 	return maps.contains(library)
 
