@@ -12,17 +12,20 @@ using namespace godot;
 
 namespace {
 
-// Bodies that are looked at in a frame whatever was told: as many as cost a few hundredths of a millisecond,
-// and in a large scene so many that each has its turn within about a second.
-constexpr std::size_t min_turns = 12;
-constexpr std::size_t frames_a_round = 96;
+// Bodies that are looked at in a frame whatever was told: so many that each has its turn within so many
+// frames, but no more than cost a tenth of a millisecond.
+struct Turns {
+    std::size_t frames_a_round;
+    std::size_t min, max;
+
+    std::size_t in_a_frame(std::size_t count) const {
+        return std::min(count, std::clamp(count / frames_a_round, min, max));
+    }
+};
+constexpr Turns looks{96, 4, 32};
 
 // Speeds are cheaper to ask for, and a throw should not wait.
-constexpr std::size_t frames_a_round_of_speeds = 16;
-
-std::size_t turns(std::size_t count, std::size_t frames) {
-    return std::min(count, std::max(min_turns, count / frames));
-}
+constexpr Turns looks_at_speeds{16, 12, 256};
 
 void collect(const Node& node, std::vector<CollisionObject3D*>& bodies, std::vector<Joint3D*>& joints,
              std::vector<Node*>& others) {
@@ -62,7 +65,7 @@ BodyMirror* BodyMirrors::of(std::uint64_t node) const {
 }
 
 BodyMirror* BodyMirrors::of_handle(SessionHandle handle) const {
-    return handle < by_handle_.size() ? by_handle_[handle] : nullptr;
+    return handle < by_handle_.size() ? by_handle_[handle].mirror : nullptr;
 }
 
 // Mirrors of what has come; those of what has gone are let go.
@@ -105,9 +108,13 @@ void BodyMirrors::find(const Node& root, Session& session, Complaints& complaint
     match(bodies_, bodies, session);
     by_node_.clear();
     building_.clear();
-    std::ranges::fill(by_handle_, nullptr);
+    rigid_.clear();
+    std::ranges::fill(by_handle_, Shown{});
     for (const auto& mirror : bodies_) {
         by_node_[mirror->id()] = mirror.get();
+        if (mirror->can_be_thrown()) {
+            rigid_.push_back(mirror.get());
+        }
         take_handle(*mirror, no_handle);
     }
     handles_changed_ = true;
@@ -122,11 +129,11 @@ void BodyMirrors::say_kind(const Node& node, Complaints& complaints) {
 void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
     if (mirror.handle() != before) {
         handles_changed_ = true;
-        if (before != no_handle && by_handle_[before] == &mirror) {
-            by_handle_[before] = nullptr;
+        if (before != no_handle && by_handle_[before].mirror == &mirror) {
+            by_handle_[before] = {};
         }
         if (mirror.handle() != no_handle) {
-            by_handle_[mirror.handle()] = &mirror;
+            by_handle_[mirror.handle()] = {&mirror, mirror.twin().shown_change()};
         }
     }
     mirror.twin().is_building() ? static_cast<void>(building_.insert(&mirror))
@@ -195,15 +202,13 @@ void BodyMirrors::look_at_bodies(Session& session, const MirrorContext& context,
             look_at(*mirror, session, context, seconds, complaints);
         }
     }
-    for (std::size_t i = turns(bodies_.size(), frames_a_round); i > 0; --i) {
+    for (std::size_t i = looks.in_a_frame(bodies_.size()); i > 0; --i) {
         next_body_ = next_body_ + 1 < bodies_.size() ? next_body_ + 1 : 0;
         look_at(*bodies_[next_body_], session, context, seconds, complaints);
     }
-    for (std::size_t i = turns(bodies_.size(), frames_a_round_of_speeds); i > 0; --i) {
-        next_rigid_ = next_rigid_ + 1 < bodies_.size() ? next_rigid_ + 1 : 0;
-        if (bodies_[next_rigid_]->is_thrown()) {
-            bodies_[next_rigid_]->follow_speed(session, context);
-        }
+    for (std::size_t i = looks_at_speeds.in_a_frame(rigid_.size()); i > 0; --i) {
+        next_rigid_ = next_rigid_ + 1 < rigid_.size() ? next_rigid_ + 1 : 0;
+        rigid_[next_rigid_]->follow_speed(session, context);
     }
 }
 
@@ -212,7 +217,7 @@ void BodyMirrors::look_at_joints(Session& session, Complaints& complaints) {
         return node != nullptr ? of(node->get_instance_id()) : nullptr;
     };
     const bool all = std::exchange(handles_changed_, false) || !in_turn_;
-    for (std::size_t i = all ? joints_.size() : turns(joints_.size(), frames_a_round); i > 0; --i) {
+    for (std::size_t i = all ? joints_.size() : looks.in_a_frame(joints_.size()); i > 0; --i) {
         next_joint_ = next_joint_ + 1 < joints_.size() ? next_joint_ + 1 : 0;
         JointMirror& joint = *joints_[next_joint_];
         joint.synchronise(session, mirror_of);
@@ -265,8 +270,23 @@ std::uint64_t BodyMirrors::node_of(SessionHandle body) const {
 }
 
 void BodyMirrors::show(const BodyState& state, std::uint64_t tick) {
-    if (BodyMirror* mirror = of_handle(state.handle)) {
-        mirror->apply(state, tick);
+    BodyMirror* const mirror = of_handle(state.handle);
+    if (mirror == nullptr) {
+        return;
+    }
+    Shown& shown = by_handle_[state.handle];
+    bool is_elsewhere = false;
+    if (shown.change != state.changed_at) {
+        const BodyMirror::Applied applied = mirror->apply(state, tick);
+        is_elsewhere = applied == BodyMirror::Applied::elsewhere;
+        if (applied == BodyMirror::Applied::yes) {
+            shown = {mirror, state.changed_at, true};
+        }
+    } else if (std::exchange(shown.moves, false)) {
+        is_elsewhere = mirror->come_to_rest();
+    }
+    if (is_elsewhere) {
+        news_->moved.push_back(mirror->id());
     }
 }
 

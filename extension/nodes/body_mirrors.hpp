@@ -76,7 +76,15 @@ private:
     std::vector<std::unique_ptr<BodyMirror>> bodies_;
     std::vector<std::unique_ptr<JointMirror>> joints_;
     std::unordered_map<std::uint64_t, BodyMirror*> by_node_;
-    std::vector<BodyMirror*> by_handle_;
+    // By the session's handle, with the change (BodyState::changed_at) that is shown: a body at rest costs no
+    // look at anything else.
+    struct Shown {
+        BodyMirror* mirror = nullptr;
+        std::uint64_t change = 0;
+        bool moves = false;
+    };
+    std::vector<Shown> by_handle_;
+    std::vector<BodyMirror*> rigid_;  // of them all, those that can be thrown
     std::unordered_set<BodyMirror*> building_;
     std::vector<std::uint64_t> touched_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
