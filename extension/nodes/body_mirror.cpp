@@ -53,7 +53,7 @@ void BodyMirror::listen(CollisionObject3D& node, const Ref<PhysicsMaterial>& mat
 }
 
 // Reads the body as it is and has a twin of it built: at once where that takes no time.
-void BodyMirror::plan(Session& session, const MirrorContext& context) {
+void BodyMirror::plan(const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
     place_problem_.clear();
@@ -71,16 +71,29 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     }
     twin_.plan({std::move(form), read_values(node, material, context.defaults), read_makings(node),
                 remembered(), is_rigid(node)},
-               *context.workers);
-    take_ready(session, context);
+               context.workers);
+    hand_over(context);
 }
 
-void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
+void BodyMirror::hand_over(const MirrorContext& context) {
     CollisionObject3D* node = body();
-    if (node != nullptr && twin_.take_ready(session, context.takes_effect)) {
+    if (node != nullptr && twin_.take_ready(context.session, context.takes_effect)) {
         hold_still_in_godot(*node);
         remember_place(*node);
-        twin_.stand_at(session, remembered());
+        twin_.stand_at(context.session, remembered());
+    }
+}
+
+void BodyMirror::take_ready(const MirrorContext& context) {
+    hand_over(context);
+    say_problems(context.complaints);
+}
+
+void BodyMirror::say_problems(Complaints& complaints) const {
+    if (const CollisionObject3D* node = body()) {
+        for (const std::string& problem : problems()) {
+            complaints.say(*node, problem);
+        }
     }
 }
 
@@ -105,8 +118,7 @@ std::vector<std::string> BodyMirror::problems() const {
     return all;
 }
 
-void BodyMirror::send_place(const Transform3D& place, Session& session, double seconds,
-                            std::uint64_t takes_effect) {
+void BodyMirror::send_place(const Transform3D& place, const MirrorContext& context) {
     if (place == place_) {
         place_problem_.clear();
         return;
@@ -114,7 +126,7 @@ void BodyMirror::send_place(const Transform3D& place, Session& session, double s
     place_problem_ = problem_of_place(place);
     if (place_problem_.empty()) {
         place_ = place;
-        twin_.set_pose(session, pose_of(place_), seconds, takes_effect);
+        twin_.set_pose(context.session, pose_of(place_), context.seconds, context.takes_effect);
     }
 }
 
@@ -126,51 +138,53 @@ bool BodyMirror::has_other_speed() const {
            !(linear == linear_velocity_ && angular == angular_velocity_);
 }
 
-void BodyMirror::send_speed(Session& session, std::uint64_t takes_effect) {
+void BodyMirror::send_speed(const MirrorContext& context) {
     if (rigid_ != nullptr && twin_.values().motion == Motion::Dynamic && has_other_speed()) {
         linear_velocity_ = rigid_->get_linear_velocity();
         angular_velocity_ = rigid_->get_angular_velocity();
-        twin_.set_velocity(session, from_godot(linear_velocity_), from_godot(angular_velocity_),
-                           takes_effect);
+        twin_.set_velocity(context.session, from_godot(linear_velocity_), from_godot(angular_velocity_),
+                           context.takes_effect);
     }
 }
 
-void BodyMirror::synchronise(Session& session, const MirrorContext& context, double seconds) {
+void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) {
     CollisionObject3D* node = body();
     if (node == nullptr) {
         return;
     }
     const Transform3D place = node->get_global_transform();
-    if (needs_a_new_twin(*node, place, context.shapes_changed)) {
-        plan(session, context);
-    } else {
-        take_ready(session, context);
-    }
+    needs_a_new_twin(*node, place, shapes_changed) ? plan(context) : hand_over(context);
     if (handle() != no_handle) {
         hold_still_in_godot(*node);
         const Ref<PhysicsMaterial> material = material_of(*node);
-        twin_.set_values(session, read_values(*node, material, context.defaults));
+        twin_.set_values(context.session, read_values(*node, material, context.defaults));
         if (material_ != (material.is_valid() ? material->get_instance_id() : 0)) {
             listen(*node, material, context);
         }
-        send_place(place, session, seconds, context.takes_effect);
-        send_speed(session, context.takes_effect);
+        send_place(place, context);
+        send_speed(context);
+        if (twin_.values().motion != Motion::Dynamic) {
+            come_to_rest();
+        }
     }
+    say_problems(context.complaints);
 }
 
-bool BodyMirror::follow(Session& session, const MirrorContext& context, double seconds) {
+void BodyMirror::follow(const MirrorContext& context) {
     CollisionObject3D* node = handle() != no_handle ? body() : nullptr;
     if (node == nullptr) {
-        return false;
+        return;
     }
-    send_place(node->get_global_transform(), session, seconds, context.takes_effect);
-    send_speed(session, context.takes_effect);
-    return !place_problem_.empty();
+    send_place(node->get_global_transform(), context);
+    send_speed(context);
+    if (!place_problem_.empty()) {
+        context.complaints.say(*node, place_problem_);
+    }
 }
 
-void BodyMirror::follow_speed(Session& session, const MirrorContext& context) {
+void BodyMirror::follow_speed(const MirrorContext& context) {
     if (handle() != no_handle && is_there()) {
-        send_speed(session, context.takes_effect);
+        send_speed(context);
     }
 }
 

@@ -11,18 +11,20 @@
 
 #include "nodes/body_reading.hpp"
 #include "nodes/body_watch.hpp"
-#include "nodes/conversions.hpp"
+#include "nodes/messages.hpp"
 #include "world/body_twin.hpp"
 
 namespace tactus {
 
 // What all mirrors of a world share in one synchronise().
 struct MirrorContext {
+    Session& session;
+    Complaints& complaints;
+    Workers& workers;  // for bodies of many triangles
     BodyDefaults defaults;
-    std::shared_ptr<BodyNews> news;  // where what Godot tells of the bodies goes
-    bool shapes_changed = false;     // a resource of the body has changed since the last time
+    double seconds = 0.0;            // what moved on Godot's side since the last time took so long for it
     std::uint64_t takes_effect = 0;  // the first tick that has certainly taken what is sent now
-    Workers* workers = nullptr;      // for bodies of many triangles
+    std::shared_ptr<BodyNews> news;  // where what Godot tells of the bodies goes
 };
 
 class BodyMirror {
@@ -34,18 +36,19 @@ public:
     const BodyTwin& twin() const { return twin_; }
     godot::CollisionObject3D* body() const { return is_there() ? body_ : nullptr; }  // null: it is gone
 
-    // Brings the session up to date. What moved on Godot's side since the last call took `seconds` for it.
-    void synchronise(Session& session, const MirrorContext& context, double seconds);
-
-    // Its place and speed alone. Whether problems() may be other ones now.
-    bool follow(Session& session, const MirrorContext& context, double seconds);
+    // Brings the session up to date, and says what is wrong. `shapes_changed`: a resource of the body has
+    // changed since the last time.
+    void synchronise(const MirrorContext& context, bool shapes_changed);
+    // Its place and speed alone.
+    void follow(const MirrorContext& context);
     // Its speed alone, which Godot tells nobody of.
-    void follow_speed(Session& session, const MirrorContext& context);
+    void follow_speed(const MirrorContext& context);
     bool can_be_thrown() const { return rigid_ != nullptr; }
+    bool moves() const { return moves_; }
     bool has_haptic_mesh() const { return !twin_.planned().form.touched.empty(); }
 
-    // Hands over a twin that has become ready.
-    void take_ready(Session& session, const MirrorContext& context);
+    // Hands over a twin that has become ready, and says what is wrong with it.
+    void take_ready(const MirrorContext& context);
 
     // `tick` is the tick of the snapshot that the state is from.
     enum class Applied {
@@ -64,14 +67,15 @@ public:
     std::vector<std::string> problems() const;
 
 private:
-    void plan(Session& session, const MirrorContext& context);
+    void plan(const MirrorContext& context);
+    void hand_over(const MirrorContext& context);
+    void say_problems(Complaints& complaints) const;
     bool needs_a_new_twin(godot::CollisionObject3D& body, const godot::Transform3D& place,
                           bool shapes_changed);
     void listen(godot::CollisionObject3D& node, const godot::Ref<godot::PhysicsMaterial>& material,
                 const MirrorContext& context);
-    void send_place(const godot::Transform3D& place, Session& session, double seconds,
-                    std::uint64_t takes_effect);
-    void send_speed(Session& session, std::uint64_t takes_effect);
+    void send_place(const godot::Transform3D& place, const MirrorContext& context);
+    void send_speed(const MirrorContext& context);
     bool is_there() const { return godot::UtilityFunctions::is_instance_id_valid(static_cast<int64_t>(id_)); }
     // Than when the node was seen or set last; while it is there, and rigid.
     bool has_other_speed() const;

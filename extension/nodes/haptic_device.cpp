@@ -17,6 +17,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -44,17 +45,12 @@ bool takes_mouse(const Control& control) {
            static_cast<double>(own.x * own.y) > covers_view * static_cast<double>(view.x * view.y);
 }
 
-const Control* control_over_view(const Node& node) {
-    const auto* control = Object::cast_to<Control>(&node);
-    if (control != nullptr && takes_mouse(*control)) {
-        return control;
-    }
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        if (const Control* below = control_over_view(*node.get_child(i))) {
-            return below;
-        }
-    }
-    return nullptr;
+const Node* control_over_view(const Node& scene) {
+    const auto takes_it = [](const Node& node) {
+        const auto* control = Object::cast_to<Control>(&node);
+        return control != nullptr && takes_mouse(*control);
+    };
+    return takes_it(scene) ? &scene : find_below(scene, takes_it);
 }
 
 }  // namespace
@@ -83,16 +79,6 @@ void HapticDevice::arm_changed() {
     if (arm_ != nullptr) {
         arm_->change(arm_settings_);
     }
-}
-
-Vector3 HapticDevice::get_hand_position() const {
-    return to_godot(state_.position);
-}
-Vector3 HapticDevice::get_hand_velocity() const {
-    return to_godot(state_.velocity);
-}
-Vector3 HapticDevice::get_force() const {
-    return to_godot(state_.force);
 }
 
 String HapticDevice::problem() const {
@@ -135,7 +121,7 @@ String HapticDevice::problem_of_mouse() const {
                "make "
                "it current";
     }
-    const Control* over = nullptr;
+    const Node* over = nullptr;
     if (is_edited) {
         over = control_over_view(*scene);
     } else if (const Control* hovered = get_viewport()->gui_get_hovered_control();
@@ -153,19 +139,12 @@ String HapticDevice::hindrance() const {
 
 PackedStringArray HapticDevice::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    const String wrong = problem();
-    if (!wrong.is_empty()) {
-        warnings.push_back("This HapticDevice does nothing: " + wrong + ".");
-    }
+    warn(warnings, "This HapticDevice does nothing", problem());
     if (!is_inside_tree()) {
         return warnings;
     }
-    if (const String hindered = hindrance(); !hindered.is_empty()) {
-        warnings.push_back("The hand of this HapticDevice will not move: " + hindered + ".");
-    }
-    if (const String lost = problem_without_world(*this); !lost.is_empty()) {
-        warnings.push_back("This HapticDevice does nothing: " + lost + ".");
-    }
+    warn(warnings, "The hand of this HapticDevice will not move", hindrance());
+    warn(warnings, "This HapticDevice does nothing", problem_without_world(*this));
     const Vector3 scale = get_global_transform().basis.get_scale().abs();
     if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
         std::abs(scale.x - scale.z) > even_scale * scale.x) {
