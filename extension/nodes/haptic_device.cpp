@@ -25,12 +25,6 @@ using namespace godot;
 
 namespace {
 
-// The hand of a mouse stays at least this far in front of the camera (unit: meters).
-constexpr double nearest_depth = 0.02;
-
-// No hand goes farther from the origin (unit: meters).
-constexpr double farthest_hand = 1e6;
-
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
@@ -214,19 +208,14 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     if (mouse_ == nullptr || camera == nullptr) {
         return;
     }
-    const Vec3 eye = from_godot(camera->project_ray_origin(screen_position));
-    const Vec3 ray = from_godot(camera->project_ray_normal(screen_position));
-    const Vec3 forward = -from_godot(camera->get_global_transform().basis.get_column(2).normalized());
-    const double depth = std::max(nearest_depth, glm::dot(mouse_target_ - eye, forward) + depth_change);
-    const double slant = glm::dot(ray, forward);
-    if (!(slant > 0.0)) {
+    const ScreenRay ray{from_godot(camera->project_ray_origin(screen_position)),
+                        from_godot(camera->project_ray_normal(screen_position)),
+                        -from_godot(camera->get_global_transform().basis.get_column(2).normalized())};
+    const std::optional<Vec3> target = under_pointer(ray, mouse_target_, depth_change);
+    if (!target) {
         return;
     }
-    const Vec3 target = eye + ray * (depth / slant);
-    if (!(glm::length(target) < farthest_hand)) {
-        return;  // a camera that is nowhere sees no place
-    }
-    mouse_target_ = target;
+    mouse_target_ = *target;
     const Workspace mapping = workspace();
     const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
     mouse_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});
