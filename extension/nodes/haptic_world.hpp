@@ -18,6 +18,7 @@ namespace tactus {
 
 class HapticRecorder;
 class WorldRun;
+struct BodyPush;
 
 // Its subtree is what can be touched. While the scene plays, it runs the haptic loop with a physics world of
 // its own, and moves the RigidBody3D nodes of its subtree.

@@ -29,7 +29,9 @@ TEST(DeviceTwin, StaysWithItsPortAndIsAnotherOneWithAnother) {
     EXPECT_EQ(twin.synchronise(session, port, {}, retired), "");
     const SessionHandle first = twin.handle();
     EXPECT_NE(first, no_handle);
-    twin.synchronise(session, port, {.scale = 2.0}, retired);
+    Workspace larger;
+    larger.scale = 2.0;
+    twin.synchronise(session, port, larger, retired);
     EXPECT_EQ(twin.handle(), first);
     twin.synchronise(session, std::make_shared<StandInDevice>(), {}, retired);
     EXPECT_NE(twin.handle(), first);
