@@ -69,10 +69,11 @@ void BodyMirror::plan(const MirrorContext& context) {
     if (form.touchable) {
         hold_still_in_godot(node);
     }
-    twin_.plan({std::move(form), read_values(node, material, context.defaults), read_makings(node),
-                remembered(), is_rigid(node)},
-               context.workers);
-    hand_over(context);
+    BodyPlan plan{std::move(form), read_values(node, material, context.defaults), read_makings(node),
+                  remembered(), is_rigid(node)};
+    if (twin_.plan(std::move(plan), context.workers)) {
+        hand_over(context);
+    }
 }
 
 void BodyMirror::hand_over(const MirrorContext& context) {

@@ -1,6 +1,7 @@
 #include "nodes/body_mirrors.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
@@ -111,8 +112,12 @@ void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
             by_handle_[mirror.handle()] = {&mirror, mirror.twin().shown_change(), mirror.moves()};
         }
     }
-    mirror.twin().is_building() ? static_cast<void>(building_.insert(&mirror))
-                                : static_cast<void>(building_.erase(&mirror));
+    const bool is_listed = std::ranges::find(building_, &mirror) != building_.end();
+    if (mirror.twin().is_building() && !is_listed) {
+        building_.push_back(&mirror);
+    } else if (!mirror.twin().is_building() && is_listed) {
+        std::erase(building_, &mirror);
+    }
 }
 
 // Whoever changes a mirror may have given it another handle.
@@ -190,8 +195,7 @@ void BodyMirrors::synchronise(const Node& root, MirrorContext context) {
     if (!in_turn_ && !building_.empty()) {
         context.workers.wait();
     }
-    const std::vector<BodyMirror*> waiting(building_.begin(), building_.end());
-    for (BodyMirror* mirror : waiting) {
+    for (BodyMirror* mirror : std::vector(building_)) {
         change(*mirror, [&](BodyMirror& one) { one.take_ready(context); });
     }
     look_at_joints(context);

@@ -10,7 +10,6 @@
 #include <godot_cpp/classes/joint3d.hpp>
 #include <memory>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "nodes/body_mirror.hpp"
@@ -77,8 +76,8 @@ private:
         bool moves = false;
     };
     std::vector<Shown> by_handle_;
-    std::vector<BodyMirror*> rigid_;  // of them all, those that can be thrown
-    std::unordered_set<BodyMirror*> building_;
+    std::vector<BodyMirror*> rigid_;     // of them all, those that can be thrown
+    std::vector<BodyMirror*> building_;  // in the order in which they were planned
     std::vector<std::uint64_t> touched_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
     bool is_first_look_ = true;

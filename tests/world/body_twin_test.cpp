@@ -258,5 +258,15 @@ TEST(BodyForm, AnOpenMeshIsNotTouchedFromOneSide) {
     EXPECT_TRUE(built.buildable);
 }
 
+TEST(BodyTwin, WhatIsBuiltAtOnceDependsOnThePlanAlone) {
+    Workers workers;
+    BodyTwin twin;
+    EXPECT_TRUE(twin.plan(box_plan(), workers));
+    EXPECT_FALSE(twin.plan(mesh_plan(40, 0.0), workers));
+    workers.wait();
+    EXPECT_FALSE(twin.plan(mesh_plan(40, 0.1), workers)) << "however fast the workers are";
+    workers.wait();
+}
+
 }  // namespace
 }  // namespace tactus
