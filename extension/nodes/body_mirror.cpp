@@ -52,7 +52,9 @@ void BodyMirror::listen(CollisionObject3D& node, const Ref<PhysicsMaterial>& mat
     BodyWatch::listen_to(watch_, resources);
 }
 
-// Reads the body as it is and has a twin of it built: at once where that takes no time.
+// Reads the body as it is and has a twin of it built: at once where that takes no time. What the workers
+// build is handed over where everybody's is, or the order of bodies, which physics computes in, would depend
+// on how fast they are.
 void BodyMirror::plan(const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
@@ -154,7 +156,9 @@ void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) 
         return;
     }
     const Transform3D place = node->get_global_transform();
-    needs_a_new_twin(*node, place, shapes_changed) ? plan(context) : hand_over(context);
+    if (needs_a_new_twin(*node, place, shapes_changed)) {
+        plan(context);
+    }
     if (handle() != no_handle) {
         hold_still_in_godot(*node);
         const Ref<PhysicsMaterial> material = material_of(*node);

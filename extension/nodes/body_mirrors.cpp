@@ -112,11 +112,9 @@ void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
             by_handle_[mirror.handle()] = {&mirror, mirror.twin().shown_change(), mirror.moves()};
         }
     }
-    const bool is_listed = std::ranges::find(building_, &mirror) != building_.end();
-    if (mirror.twin().is_building() && !is_listed) {
+    std::erase(building_, &mirror);
+    if (mirror.twin().is_building()) {
         building_.push_back(&mirror);
-    } else if (!mirror.twin().is_building() && is_listed) {
-        std::erase(building_, &mirror);
     }
 }
 

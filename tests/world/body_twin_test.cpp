@@ -83,7 +83,7 @@ struct Scene {
 TEST(BodyTwin, AFewTrianglesAreThereAtOnce) {
     Scene scene;
     BodyTwin twin;
-    twin.plan(box_plan(), scene.workers);
+    EXPECT_TRUE(twin.plan(box_plan(), scene.workers));
     EXPECT_TRUE(twin.take_ready(scene.session, 1));
     EXPECT_NE(twin.handle(), no_handle);
     EXPECT_FALSE(twin.is_building());
@@ -93,7 +93,7 @@ TEST(BodyTwin, AFewTrianglesAreThereAtOnce) {
 TEST(BodyTwin, ManyTrianglesAreBuiltByTheWorkers) {
     Scene scene;
     BodyTwin twin;
-    twin.plan(mesh_plan(40, 0.01), scene.workers);
+    EXPECT_FALSE(twin.plan(mesh_plan(40, 0.01), scene.workers));
     EXPECT_TRUE(twin.is_building());
     scene.workers.wait();
     EXPECT_EQ(twin.handle(), no_handle) << "nobody has taken it yet";
@@ -256,16 +256,6 @@ TEST(BodyForm, AnOpenMeshIsNotTouchedFromOneSide) {
     ASSERT_EQ(built.problems.size(), 1u);
     EXPECT_NE(built.problems.front().find("touched from both sides"), std::string::npos);
     EXPECT_TRUE(built.buildable);
-}
-
-TEST(BodyTwin, WhatIsBuiltAtOnceDependsOnThePlanAlone) {
-    Workers workers;
-    BodyTwin twin;
-    EXPECT_TRUE(twin.plan(box_plan(), workers));
-    EXPECT_FALSE(twin.plan(mesh_plan(40, 0.0), workers));
-    workers.wait();
-    EXPECT_FALSE(twin.plan(mesh_plan(40, 0.1), workers)) << "however fast the workers are";
-    workers.wait();
 }
 
 }  // namespace
