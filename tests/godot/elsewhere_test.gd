@@ -41,7 +41,7 @@ func _process(_delta: float) -> void:
 			"device": world.get_node("HapticDevice").get_warnings()}))
 """
 
-## A node for each fault that the editor knows of, and what its warning says. The ball is moved while somebody looks.
+## A node for each fault that the editor knows of, and what its warning says; the ball moves meanwhile.
 const FAULTS := """[gd_scene format=3]
 [ext_resource type="Script" path="res://look_at_faults.gd" id="look"]
 [sub_resource type="SphereShape3D" id="ball"]
