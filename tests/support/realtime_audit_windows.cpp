@@ -13,14 +13,24 @@ namespace tactus::testing {
 
 namespace {
 
-// Set apart from C++'s own thread_local, which allocates here when a thread first asks for it.
-DWORD watching_slot() {
-    static const DWORD slot = TlsAlloc();
-    return slot;
-}
+// Of this thread's scope. Neither C++'s own thread_local, which allocates here when a thread first asks for it,
+// nor a static of a function, whose guard takes a lock: both would come back here.
+std::atomic<DWORD> watching_slot{TLS_OUT_OF_INDEXES};
 
 AuditScope* watching() {
-    return static_cast<AuditScope*>(TlsGetValue(watching_slot()));
+    const DWORD slot = watching_slot.load(std::memory_order_acquire);
+    return slot == TLS_OUT_OF_INDEXES ? nullptr : static_cast<AuditScope*>(TlsGetValue(slot));
+}
+
+void watch(AuditScope* scope) {
+    if (watching_slot.load(std::memory_order_acquire) == TLS_OUT_OF_INDEXES) {
+        DWORD none = TLS_OUT_OF_INDEXES;
+        const DWORD made = TlsAlloc();
+        if (!watching_slot.compare_exchange_strong(none, made)) {
+            TlsFree(made);
+        }
+    }
+    TlsSetValue(watching_slot.load(std::memory_order_acquire), scope);
 }
 
 // Every lock that is taken while an audit of locks runs. Its own lock is the system's: the wrapped ones would
@@ -148,12 +158,12 @@ AuditScope::AuditScope() {
     if (watching() != nullptr) {
         std::abort();
     }
-    TlsSetValue(watching_slot(), this);
+    watch(this);
 }
 
 void AuditScope::finish() {
     if (watching_) {
-        TlsSetValue(watching_slot(), nullptr);
+        watch(nullptr);
         watching_ = false;
     }
 }
