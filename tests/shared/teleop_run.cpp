@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
@@ -52,6 +53,7 @@ private:
     void distort(ObjectDescription& description) const;
     void happen(const TeleopEvent& event);
     void tell_anew(const std::string& name);
+    void tick_far_side(Nanoseconds now);
     void note_model(std::size_t tick);
     void note_answer();
     void note_energy(std::size_t tick);
@@ -77,6 +79,7 @@ private:
     Vec3 far_hand_{0.0}, far_force_{0.0};
     double largest_step_ = 0.0;
     std::uint64_t answered_ = 0;
+    Nanoseconds away_until_ = 0;  // the far side starts anew then; 0: it does not
 };
 
 TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
@@ -202,9 +205,7 @@ void TeleopRun::happen(const TeleopEvent& event) {
             break;
         }
         case Kind::restart:
-            attach_far_side(13);
-            teller_ = EnvironmentTeller(far_port_);
-            describe_all();
+            away_until_ = from_seconds(event.at + event.amount);
             return;
         case Kind::cut:
             at_far_.cut = at_far_.cut || event.amount != 2.0;
@@ -313,6 +314,19 @@ void TeleopRun::note_energy(std::size_t tick) {
     far_force_ = truth_.device.force;
 }
 
+void TeleopRun::tick_far_side(Nanoseconds now) {
+    if (now <= std::max(experiment_.late, away_until_)) {
+        drop_all(at_far_, now);
+        return;
+    }
+    if (std::exchange(away_until_, 0) != 0) {
+        attach_far_side(13);
+        teller_ = EnvironmentTeller(far_port_);
+        describe_all();
+    }
+    truth_.tick(now + experiment_.phase);
+}
+
 TeleopFigures TeleopRun::run(TeleopBins* bins) {
     bool waiting_for_touch = experiment_.correct_from_touch;
     std::vector<TeleopEvent> events = experiment_.events;
@@ -328,11 +342,7 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
         if (experiment_.uses_arm) {
             local_.tick(now);
         }
-        if (now > experiment_.late) {
-            truth_.tick(now + experiment_.phase);
-        } else {
-            drop_all(at_far_, now);
-        }
+        tick_far_side(now);
         operator_port_->statistics.refresh();
         far_port_->statistics.refresh();
         if (experiment_.discovers) {
