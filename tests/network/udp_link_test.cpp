@@ -224,6 +224,9 @@ TEST(UdpLink, WhatIsNotSealedForTheSessionIsNotEvenSeen) {
     if (!filters) {
         GTEST_SKIP() << "this system filters no sockets";
     }
+    if (testing::under_qemu()) {
+        GTEST_SKIP() << "QEMU does not hand on how much the system has dropped";
+    }
     Pair pair(true);
     ASSERT_TRUE(eventually([&] {
         pair.first.send(bytes(3, 1), 0);

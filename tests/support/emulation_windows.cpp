@@ -9,4 +9,8 @@ bool under_wine() {
     return GetProcAddress(GetModuleHandleW(L"ntdll.dll"), "wine_get_version") != nullptr;
 }
 
+bool under_qemu() {
+    return false;
+}
+
 }  // namespace tactus::testing
