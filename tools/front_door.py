@@ -14,15 +14,14 @@ def main(command: str, arguments: list[str]) -> int:
 
 
 def needed(command: str, arguments: list[str]) -> list[Step]:
-    plan = steps.dependencies()
     if command == "test" and (emulated := [platforms.tested_by(argument) for argument in arguments]) and any(emulated):
-        # This machine's own programs are asked whether they compute the same.
-        return plan + steps.for_platforms([platform for platform in emulated if platform])
+        return steps.for_platforms([platform for platform in emulated if platform])
+    plan = steps.dependencies()
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
     if command == "bench" or any(argument.startswith("--sanitize") for argument in arguments):
         return plan
     if command == "addon":
-        plan += steps.for_platforms(platforms.named_in(arguments))
+        plan += steps.of_platforms(platforms.named_in(arguments))
     if command in ("setup", "export", "addon", "test"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]

@@ -31,6 +31,11 @@ def dependencies() -> list[Step]:
 
 
 def for_platforms(platforms: list[Platform]) -> list[Step]:
+    """What programs for other platforms need, and this machine's own, which are asked whether they compute the same."""
+    return dependencies() + of_platforms(platforms)
+
+
+def of_platforms(platforms: list[Platform]) -> list[Step]:
     """What other platforms need besides."""
     steps = []
     for one in platforms:
