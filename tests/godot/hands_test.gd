@@ -204,8 +204,17 @@ func test_more_listeners_than_there_is_room_for_are_told() -> void:
 	var feedback := _tapping_world(1000.0)
 	expect_error("eight recorders and feedbacks listen to this world already")
 	for _i in 8:
-		feedback.get_parent().add_child(HapticFeedback.new())
+		var other := HapticFeedback.new()
+		other.sound = false
+		feedback.get_parent().add_child(other)
 	await _strongest(feedback, 0.05)
+
+
+## Godot's mixer lets go of a sound some time after its player has gone.
+func _the_mixer_is_done() -> void:
+	for node in get_children():
+		node.queue_free()
+	await until(func() -> bool: return false, 0.3)
 
 
 func test_feedback_without_a_proxy_says_so() -> void:
@@ -216,3 +225,4 @@ func test_feedback_without_a_proxy_says_so() -> void:
 	await frames(2)
 	world.advance(0.01)
 	check("\n".join(feedback.get_warnings()).contains("is silent"), str(feedback.get_warnings()))
+	await _the_mixer_is_done()
