@@ -12,6 +12,7 @@
 
 #include "devices/drivers.hpp"
 #include "devices/path_device.hpp"
+#include "devices/robot_table.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
@@ -206,6 +207,11 @@ std::shared_ptr<Device> HapticDevice::port() {
         port_ = mouse_;
         mouse_target_ = from_godot(get_global_position());
     }
+    if (port_ == nullptr && driver() == DRIVER_EMULATED_ROBOT) {
+        RobotTable::Settings table;
+        table.height = table_height_;
+        port_ = std::make_shared<EmulatedRobot>(EmulatedRobotSettings{}, std::make_shared<RobotTable>(table));
+    }
     if (port_ == nullptr && is_driven()) {
         driven_ = open_driver();
         port_ = driven_;
@@ -221,7 +227,10 @@ std::shared_ptr<DriverDevice> HapticDevice::open_driver() const {
         const PackedByteArray image = FileAccess::get_file_as_bytes(firmware_);
         settings.firmware.assign(image.ptr(), image.ptr() + image.size());
     }
-    return std::make_shared<DriverDevice>(make_driver(DriverKind::falcon, std::move(settings)));
+    const DriverKind kind = driver() == DRIVER_FALCON            ? DriverKind::falcon
+                            : driver() == DRIVER_FORCE_DIMENSION ? DriverKind::force_dimension
+                                                                 : DriverKind::openhaptics;
+    return std::make_shared<DriverDevice>(make_driver(kind, std::move(settings)));
 }
 
 String HapticDevice::get_device_id() const {
@@ -315,10 +324,11 @@ void HapticDevice::_validate_property(PropertyInfo& property) const {
     const bool of_mouse = property.name == StringName("wheel_step");
     const bool of_falcon =
         property.name == StringName("firmware") || property.name == StringName("gravity_compensation");
+    const bool of_robot = property.name == StringName("table_height");
     const bool of_driver = property.name == StringName("device_id");
     const bool of_arm = String(property.name).begins_with("arm_");
     if ((of_path && !follows_path() && driver_ != DRIVER_AUTOMATIC) ||
-        (of_falcon && driver() != DRIVER_FALCON) || (of_driver && !is_driven()) ||
+        (of_falcon && driver() != DRIVER_FALCON) || (of_driver && !is_driven()) || (of_robot && driver() != DRIVER_EMULATED_ROBOT) ||
         (of_mouse && driver() != DRIVER_MOUSE) || (of_arm && driver() != DRIVER_ARM)) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }

@@ -22,7 +22,16 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
-    enum Driver : int64_t { DRIVER_PATH, DRIVER_MOUSE, DRIVER_ARM, DRIVER_AUTOMATIC, DRIVER_FALCON = 16 };
+    enum Driver : int64_t {
+        DRIVER_PATH,
+        DRIVER_MOUSE,
+        DRIVER_ARM,
+        DRIVER_AUTOMATIC,
+        DRIVER_FALCON = 16,
+        DRIVER_FORCE_DIMENSION,
+        DRIVER_OPENHAPTICS,
+        DRIVER_EMULATED_ROBOT
+    };
 
     TACTUS_PROPERTIES(HapticDevice)
 
@@ -64,7 +73,7 @@ private:
     void arm_changed();
     // The one that is meant where that is left open.
     Driver driver() const;
-    bool is_driven() const { return driver() >= DRIVER_FALCON; }
+    bool is_driven() const { return driver() >= DRIVER_FALCON && driver() <= DRIVER_OPENHAPTICS; }
     std::shared_ptr<DriverDevice> open_driver() const;
     bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
     godot::String problem_of_mouse() const;
@@ -77,6 +86,7 @@ private:
     godot::String firmware_;
     godot::String device_id_;
     double gravity_compensation_ = 0.0;
+    double table_height_ = -0.01;
     double force_limit_ = 8.0;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
