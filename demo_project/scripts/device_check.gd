@@ -26,6 +26,7 @@ const DRIVERS := {
 	"Novint Falcon": HapticDevice.DRIVER_FALCON,
 	"Force Dimension": HapticDevice.DRIVER_FORCE_DIMENSION,
 	"3D Systems Touch": HapticDevice.DRIVER_OPENHAPTICS,
+	"Haply Inverse3": HapticDevice.DRIVER_INVERSE3,
 	"Mouse": HapticDevice.DRIVER_MOUSE,
 }
 

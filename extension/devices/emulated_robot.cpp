@@ -19,7 +19,8 @@ constexpr double longest_tick = 0.01;
 
 }  // namespace
 
-EmulatedRobot::EmulatedRobot(const EmulatedRobotSettings& settings, std::shared_ptr<RobotSurroundings> surroundings)
+EmulatedRobot::EmulatedRobot(const EmulatedRobotSettings& settings,
+                             std::shared_ptr<RobotSurroundings> surroundings)
     : settings_(settings),
       surroundings_(std::move(surroundings)),
       arm_(settings.data),
@@ -52,7 +53,8 @@ DeviceSample EmulatedRobot::read(Nanoseconds now) {
 // What of a command the motors can do is what a driver would have sent.
 void EmulatedRobot::write(Nanoseconds, const Vec3& force) {
     const auto counts = arm_.counts(force);
-    torques_ = Vec3(counts[0], counts[1], counts[2]) * (settings_.data.torque_a_count * settings_.data.geometry.gear);
+    torques_ = Vec3(counts[0], counts[1], counts[2]) *
+               (settings_.data.torque_a_count * settings_.data.geometry.gear);
 }
 
 FalconReport EmulatedRobot::encoders() {
@@ -61,7 +63,8 @@ FalconReport EmulatedRobot::encoders() {
     FalconReport report;
     report.homed = 7;
     for (int leg = 0; leg < 3; ++leg) {
-        shown_[leg] = std::clamp(shown_[leg], angles[leg] - 0.5 * settings_.backlash, angles[leg] + 0.5 * settings_.backlash);
+        shown_[leg] = std::clamp(shown_[leg], angles[leg] - 0.5 * settings_.backlash,
+                                 angles[leg] + 0.5 * settings_.backlash);
         const double turned = (shown_[leg] - data.zero_angles[leg]) * data.counts_a_turn * data.geometry.gear;
         report.encoders[static_cast<std::size_t>(leg)] =
             static_cast<std::int16_t>(std::lround(turned / (360.0 * delta_degrees)));
@@ -73,7 +76,8 @@ void EmulatedRobot::step(double seconds) {
     const DeltaGeometry& geometry = settings_.data.geometry;
     const DeltaPose pose = delta_pose(geometry, place_);
     const Mat3 jacobian = delta_jacobian(pose);
-    const Mat3 mass = Mat3(settings_.body.mass) + settings_.leg_inertia * (glm::transpose(jacobian) * jacobian);
+    const Mat3 mass =
+        Mat3(settings_.body.mass) + settings_.leg_inertia * (glm::transpose(jacobian) * jacobian);
     const Vec3 force = delta_force(pose, torques_) + contact_ - friction_of(settings_.body, velocity_);
     velocity_ += seconds * (glm::inverse(mass) * force);
     const Vec3 next = place_ + seconds * velocity_;

@@ -1,5 +1,6 @@
-// A robot that is not there: a delta arm with a Falcon's geometry, encoders and motors, with friction and backlash,
-// that is pushed by its motors and by what it runs into. Behind the same port as the driver of a real one.
+// A robot that is not there: a delta arm with a Falcon's geometry, encoders and motors, with friction and
+// backlash, that is pushed by its motors and by what it runs into. Behind the same port as the driver of a
+// real one.
 //
 // With the platform's place p, angles theta of the legs, their Jacobian J = d theta / d p and torques tau:
 //     (m I + I_leg J^T J) p'' = J^T tau - f(p') + h
@@ -27,8 +28,9 @@ public:
 struct EmulatedRobotSettings {
     FalconData data;
     RobotBody body{0.15, 1.0, 0.15};  // of platform and grip
-    double leg_inertia = 1.2e-4;      // of a leg with its motor behind the gear (unit: kilogram square meters), >= 0
-    double backlash = 5e-4;           // of a leg's gear (unit: radians), >= 0
+    double leg_inertia =
+        1.2e-4;              // of a leg with its motor behind the gear (unit: kilogram square meters), >= 0
+    double backlash = 5e-4;  // of a leg's gear (unit: radians), >= 0
 };
 
 class EmulatedRobot final : public Device {
@@ -50,11 +52,11 @@ private:
     EmulatedRobotSettings settings_;
     std::shared_ptr<RobotSurroundings> surroundings_;
     FalconArm arm_;
-    Vec3 middle_;              // of the workspace, in the arm's own frame
+    Vec3 middle_;  // of the workspace, in the arm's own frame
     Vec3 place_, velocity_{0.0};
-    Vec3 shown_;               // angles before the gears' play (unit: radians)
-    Vec3 torques_{0.0};        // of the legs (unit: newton meters)
-    Vec3 contact_{0.0};        // (unit: newtons)
+    Vec3 shown_;         // angles before the gears' play (unit: radians)
+    Vec3 torques_{0.0};  // of the legs (unit: newton meters)
+    Vec3 contact_{0.0};  // (unit: newtons)
     Nanoseconds previous_ = 0;
     bool started_ = false;
 };

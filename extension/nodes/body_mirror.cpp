@@ -53,7 +53,9 @@ void BodyMirror::listen(CollisionObject3D& node, const Ref<PhysicsMaterial>& mat
     BodyWatch::listen_to(watch_, resources);
 }
 
-// Reads the body as it is and has a twin of it built: at once where that takes no time.
+// Reads the body as it is and has a twin of it built: at once where that takes no time. What the workers
+// build is handed over where everybody's is, or the order of bodies, which physics computes in, would depend
+// on how fast they are.
 void BodyMirror::plan(Session& session, const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
@@ -70,10 +72,12 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     if (form.touchable) {
         hold_still_in_godot(node);
     }
-    twin_.plan({std::move(form), read_values(node, material, context.defaults), read_makings(node),
-                remembered(), is_rigid(node)},
-               *context.workers);
-    take_ready(session, context);
+    const bool ready = twin_.plan({std::move(form), read_values(node, material, context.defaults),
+                                   read_makings(node), remembered(), is_rigid(node)},
+                                  *context.workers);
+    if (ready) {
+        take_ready(session, context);
+    }
 }
 
 void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
@@ -141,8 +145,6 @@ void BodyMirror::synchronise(Session& session, const MirrorContext& context, dou
     const Transform3D place = node->get_global_transform();
     if (needs_a_new_twin(*node, place, context.shapes_changed)) {
         plan(session, context);
-    } else {
-        take_ready(session, context);
     }
     if (handle() != no_handle) {
         hold_still_in_godot(*node);

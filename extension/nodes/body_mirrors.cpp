@@ -1,6 +1,7 @@
 #include "nodes/body_mirrors.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
@@ -129,8 +130,10 @@ void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
             by_handle_[mirror.handle()] = &mirror;
         }
     }
-    mirror.twin().is_building() ? static_cast<void>(building_.insert(&mirror))
-                                : static_cast<void>(building_.erase(&mirror));
+    std::erase(building_, &mirror);
+    if (mirror.twin().is_building()) {
+        building_.push_back(&mirror);
+    }
 }
 
 void BodyMirrors::say_problems(const BodyMirror& mirror, Complaints& complaints) {
@@ -245,8 +248,7 @@ void BodyMirrors::synchronise(const Node& root, Session& session, const MirrorCo
 }
 
 void BodyMirrors::take_ready(Session& session, const MirrorContext& context, Complaints& complaints) {
-    const std::vector<BodyMirror*> waiting(building_.begin(), building_.end());
-    for (BodyMirror* mirror : waiting) {
+    for (BodyMirror* mirror : std::vector(building_)) {
         const SessionHandle before = mirror->handle();
         mirror->take_ready(session, context);
         take_handle(*mirror, before);

@@ -10,7 +10,6 @@
 #include <godot_cpp/classes/joint3d.hpp>
 #include <memory>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "nodes/body_mirror.hpp"
@@ -77,7 +76,7 @@ private:
     std::vector<std::unique_ptr<JointMirror>> joints_;
     std::unordered_map<std::uint64_t, BodyMirror*> by_node_;
     std::vector<BodyMirror*> by_handle_;
-    std::unordered_set<BodyMirror*> building_;
+    std::vector<BodyMirror*> building_;  // in the order in which they were planned
     std::vector<std::uint64_t> touched_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
     bool is_first_look_ = true;

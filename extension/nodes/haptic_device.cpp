@@ -1,13 +1,11 @@
 #include "nodes/haptic_device.hpp"
 
 #include <cmath>
-#include <godot_cpp/classes/control.hpp>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
-#include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 
 #include "devices/drivers.hpp"
@@ -15,6 +13,7 @@
 #include "devices/robot_table.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/hand_input.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
@@ -36,38 +35,17 @@ constexpr double farthest_hand = 1e6;
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
-// The share of the view that a control covers which nobody means to click beside.
-constexpr double covers_view = 0.9;
-
-// Whether the control takes all that the mouse does over most of the view.
-bool takes_mouse(const Control& control) {
-    const Vector2 own = control.get_global_rect().size;
-    const Vector2 view = control.get_viewport_rect().size;
-    return control.get_mouse_filter() == Control::MOUSE_FILTER_STOP && control.is_visible_in_tree() &&
-           static_cast<double>(own.x * own.y) > covers_view * static_cast<double>(view.x * view.y);
-}
-
-const Control* control_over_view(const Node& node) {
-    const auto* control = Object::cast_to<Control>(&node);
-    if (control != nullptr && takes_mouse(*control)) {
-        return control;
-    }
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        if (const Control* below = control_over_view(*node.get_child(i))) {
-            return below;
-        }
-    }
-    return nullptr;
-}
-
 }  // namespace
 
 void HapticDevice::changed() {
     path_problem_ = path_.is_valid() ? path_->get_problem() : String();
     port_.reset();
-    mouse_.reset();
+    follower_.reset();
     arm_.reset();
     driven_.reset();
+    steered_ = Vec3(0.0);
+    set_process_internal(!Engine::get_singleton()->is_editor_hint() &&
+                         (is_steered() || driver() == DRIVER_NODE));
     update_configuration_warnings();
 }
 
@@ -87,6 +65,11 @@ void HapticDevice::arm_changed() {
     if (arm_ != nullptr) {
         arm_->change(arm_settings_);
     }
+}
+
+Node3D* HapticDevice::target_node() const {
+    return is_inside_tree() && !target_.is_empty() ? Object::cast_to<Node3D>(get_node_or_null(target_))
+                                                   : nullptr;
 }
 
 Vector3 HapticDevice::get_hand_position() const {
@@ -109,11 +92,17 @@ String HapticDevice::problem() const {
     }
     if (driver() == DRIVER_FALCON && firmware_.is_empty()) {
         return "the Falcon needs its firmware at every start: set 'firmware' to the maker's image "
-               "(novint.bin, "
-               "from its own software)";
+               "(novint.bin, from its own software)";
     }
     if (driver() == DRIVER_FALCON && !FileAccess::file_exists(firmware_)) {
         return "there is no file '" + firmware_ + "': set 'firmware' to the maker's image (novint.bin)";
+    }
+    if (driver() == DRIVER_NODE && target_node() == nullptr) {
+        return target_.is_empty()
+                   ? String(
+                         "the driver follows a node and there is none: set 'target' to a "
+                         "Node3D, or choose another driver")
+                   : "its target '" + String(target_) + "' is not a Node3D of the scene: set 'target' anew";
     }
     return is_inside_tree() ? to_godot(problem_of_place(get_global_transform())) : String();
 }
@@ -140,30 +129,13 @@ String HapticDevice::get_state_text() const {
            (wall.is_empty() ? String() : "; " + wall);
 }
 
-String HapticDevice::problem_of_mouse() const {
-    const bool is_edited = Engine::get_singleton()->is_editor_hint();
-    const Node* scene = is_edited ? get_tree()->get_edited_scene_root() : nullptr;
-    const bool has_camera = is_edited ? scene != nullptr && !scene->find_children("*", "Camera3D").is_empty()
-                                      : get_viewport()->get_camera_3d() != nullptr;
-    if (!has_camera) {
-        return "the mouse needs a camera to move the hand before: add a Camera3D that sees the hand, and "
-               "make "
-               "it current";
-    }
-    const Control* over = nullptr;
-    if (is_edited) {
-        over = control_over_view(*scene);
-    } else if (const Control* hovered = get_viewport()->gui_get_hovered_control();
-               hovered != nullptr && takes_mouse(*hovered)) {
-        over = hovered;
-    }
-    return over == nullptr ? String()
-                           : "the control '" + String(over->get_name()) +
-                                 "' lies over the view and takes the mouse: set its 'mouse_filter' to Ignore";
-}
-
 String HapticDevice::hindrance() const {
-    return is_inside_tree() && driver() == DRIVER_MOUSE ? problem_of_mouse() : String();
+    if (!is_inside_tree()) {
+        return String();
+    }
+    return driver() == DRIVER_MOUSE     ? problem_of_mouse(*this)
+           : driver() == DRIVER_GAMEPAD ? problem_of_gamepad(gamepad_)
+                                        : String();
 }
 
 PackedStringArray HapticDevice::_get_configuration_warnings() const {
@@ -202,11 +174,6 @@ std::shared_ptr<Device> HapticDevice::port() {
         arm_ = std::make_shared<SimulatedArm>(path_->hand_path(), arm_settings_);
         port_ = arm_;
     }
-    if (port_ == nullptr && driver() == DRIVER_MOUSE) {
-        mouse_ = std::make_shared<MouseDevice>(MouseDevice::Settings{});
-        port_ = mouse_;
-        mouse_target_ = from_godot(get_global_position());
-    }
     if (port_ == nullptr && driver() == DRIVER_EMULATED_ROBOT) {
         RobotTable::Settings table;
         table.height = table_height_;
@@ -215,6 +182,13 @@ std::shared_ptr<Device> HapticDevice::port() {
     if (port_ == nullptr && is_driven()) {
         driven_ = open_driver();
         port_ = driven_;
+    }
+    if (port_ == nullptr) {
+        const Workspace mapping = workspace();
+        mouse_target_ = start();
+        follower_ = std::make_shared<FollowingDevice>(
+            FollowingDevice::Settings{.rest = tactus::to_local(mapping.pose, mouse_target_) / mapping.scale});
+        port_ = follower_;
     }
     return port_;
 }
@@ -229,7 +203,8 @@ std::shared_ptr<DriverDevice> HapticDevice::open_driver() const {
     }
     const DriverKind kind = driver() == DRIVER_FALCON            ? DriverKind::falcon
                             : driver() == DRIVER_FORCE_DIMENSION ? DriverKind::force_dimension
-                                                                 : DriverKind::openhaptics;
+                            : driver() == DRIVER_OPENHAPTICS     ? DriverKind::openhaptics
+                                                                 : DriverKind::inverse3;
     return std::make_shared<DriverDevice>(make_driver(kind, std::move(settings)));
 }
 
@@ -257,11 +232,19 @@ void HapticDevice::take_state(const DeviceState& state) {
 Workspace HapticDevice::workspace() const {
     const Transform3D transform = get_global_transform();
     const double volume = std::abs(static_cast<double>(transform.basis.determinant()));
-    return {pose_of(transform), std::cbrt(volume), force_limit_, clutch_,
-            static_cast<std::uint32_t>(dead_man_buttons_)};
+    return {pose_of(transform),
+            std::cbrt(volume),
+            force_limit_,
+            clutch_,
+            static_cast<std::uint32_t>(dead_man_buttons_),
+            force_scale_,
+            edge_speed_};
 }
 
 Vec3 HapticDevice::start() const {
+    if (const Node3D* led_by = driver() == DRIVER_NODE ? target_node() : nullptr) {
+        return from_godot(led_by->get_global_position());
+    }
     const Workspace mapping = workspace();
     const bool is_followed = follows_path() && path_.is_valid() && path_problem_.is_empty();
     const Vec3 hand = is_followed ? sample_path(path_->hand_path(), 0).position : Vec3(0.0);
@@ -274,7 +257,7 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
         return;
     }
     Camera3D* camera = is_inside_tree() ? get_viewport()->get_camera_3d() : nullptr;
-    if (mouse_ == nullptr || camera == nullptr) {
+    if (driver() != DRIVER_MOUSE || follower_ == nullptr || camera == nullptr) {
         return;
     }
     const Vec3 eye = from_godot(camera->project_ray_origin(screen_position));
@@ -292,11 +275,29 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     mouse_target_ = target;
     const Workspace mapping = workspace();
     const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
-    mouse_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});
+    follower_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});
+}
+
+void HapticDevice::lead_hand(double seconds) {
+    if (follower_ == nullptr) {
+        return;
+    }
+    const Workspace mapping = workspace();
+    if (is_steered()) {
+        const SteeringInput input = driver() == DRIVER_KEYBOARD ? read_keyboard() : read_gamepad(gamepad_);
+        const Vec3 deflection = direction_to_local(mapping.pose, from_view(*this, input.deflection));
+        steered_ = steered(steered_, deflection, steering_, seconds);
+        follower_->aim({steered_, input.buttons});
+    } else if (const Node3D* led_by = target_node()) {
+        const Vec3 place = from_godot(led_by->get_global_position());
+        if (glm::length(place) < farthest_hand) {
+            follower_->aim({tactus::to_local(mapping.pose, place) / mapping.scale, buttons_of(*led_by)});
+        }
+    }
 }
 
 void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {
-    if (mouse_ == nullptr || Engine::get_singleton()->is_editor_hint()) {
+    if (Engine::get_singleton()->is_editor_hint()) {
         return;
     }
     if (const auto* motion = Object::cast_to<InputEventMouseMotion>(event.ptr())) {
@@ -316,20 +317,24 @@ void HapticDevice::_notification(int what) {
         Roll<HapticDevice>::leave(this);
         changed();
         clear_state();
+    } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
+        lead_hand(get_process_delta_time());
     }
 }
 
 void HapticDevice::_validate_property(PropertyInfo& property) const {
-    const bool of_path = property.name == StringName("path");
-    const bool of_mouse = property.name == StringName("wheel_step");
-    const bool of_falcon =
-        property.name == StringName("firmware") || property.name == StringName("gravity_compensation");
-    const bool of_robot = property.name == StringName("table_height");
-    const bool of_driver = property.name == StringName("device_id");
-    const bool of_arm = String(property.name).begins_with("arm_");
-    if ((of_path && !follows_path() && driver_ != DRIVER_AUTOMATIC) ||
-        (of_falcon && driver() != DRIVER_FALCON) || (of_driver && !is_driven()) || (of_robot && driver() != DRIVER_EMULATED_ROBOT) ||
-        (of_mouse && driver() != DRIVER_MOUSE) || (of_arm && driver() != DRIVER_ARM)) {
+    const String name = property.name;
+    const bool is_of_another = (name == "path" && !follows_path() && driver_ != DRIVER_AUTOMATIC) ||
+                               (name == "wheel_step" && driver() != DRIVER_MOUSE) ||
+                               (name.begins_with("arm_") && driver() != DRIVER_ARM) ||
+                               (name.begins_with("steering") && !is_steered()) ||
+                               (name == "gamepad" && driver() != DRIVER_GAMEPAD) ||
+                               (name == "target" && driver() != DRIVER_NODE) ||
+                               (name == "firmware" && driver() != DRIVER_FALCON) ||
+                               (name == "gravity_compensation" && driver() != DRIVER_FALCON) ||
+                               (name == "table_height" && driver() != DRIVER_EMULATED_ROBOT) ||
+                               (name == "device_id" && !is_driven());
+    if (is_of_another) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }
 }

@@ -4,12 +4,14 @@
 #include <godot_cpp/classes/input_event.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/node_path.hpp>
 #include <memory>
 
 #include "core/ports/device.hpp"
 #include "devices/driver_device.hpp"
-#include "devices/mouse_device.hpp"
+#include "devices/following_device.hpp"
 #include "devices/simulated_arm.hpp"
+#include "devices/steering.hpp"
 #include "nodes/haptic_path.hpp"
 #include "nodes/properties.hpp"
 #include "session/session_types.hpp"
@@ -27,10 +29,18 @@ public:
         DRIVER_MOUSE,
         DRIVER_ARM,
         DRIVER_AUTOMATIC,
+        DRIVER_KEYBOARD,
+        DRIVER_GAMEPAD,
+        DRIVER_NODE,
         DRIVER_FALCON = 16,
         DRIVER_FORCE_DIMENSION,
         DRIVER_OPENHAPTICS,
+        DRIVER_INVERSE3,
         DRIVER_EMULATED_ROBOT
+    };
+    enum Steering : int64_t {
+        STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
+        STEERING_POSITION = static_cast<int64_t>(SteeringMode::position)
     };
 
     TACTUS_PROPERTIES(HapticDevice)
@@ -73,32 +83,42 @@ private:
     void arm_changed();
     // The one that is meant where that is left open.
     Driver driver() const;
-    bool is_driven() const { return driver() >= DRIVER_FALCON && driver() <= DRIVER_OPENHAPTICS; }
+    bool is_driven() const { return driver() >= DRIVER_FALCON && driver() <= DRIVER_INVERSE3; }
     std::shared_ptr<DriverDevice> open_driver() const;
     bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
-    godot::String problem_of_mouse() const;
+    bool is_steered() const { return driver() == DRIVER_KEYBOARD || driver() == DRIVER_GAMEPAD; }
+    godot::Node3D* target_node() const;
+    // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
+    void lead_hand(double seconds);
 
     Driver driver_ = DRIVER_AUTOMATIC;
     godot::Ref<HapticPath> path_;
     godot::String path_problem_;  // why it cannot be followed; empty where it can
     double wheel_step_ = 0.01;
+    int gamepad_ = 0;
+    SteeringSettings steering_;
+    godot::NodePath target_;
     ArmSettings arm_settings_;
     godot::String firmware_;
     godot::String device_id_;
     double gravity_compensation_ = 0.0;
     double table_height_ = -0.01;
     double force_limit_ = 8.0;
+    double force_scale_ = 1.0;
+    double edge_speed_ = 0.0;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
 
     std::shared_ptr<Device> port_;
-    std::shared_ptr<MouseDevice> mouse_;    // the same as port_ where the driver is the mouse
-    std::shared_ptr<SimulatedArm> arm_;     // the same as port_ where the driver is the arm
-    std::shared_ptr<DriverDevice> driven_;  // the same as port_ where it has a driver of its own
-    Vec3 mouse_target_{0.0};                // in the scene (unit: meters)
+    std::shared_ptr<FollowingDevice> follower_;  // the same as port_ where the hand is told where to be
+    std::shared_ptr<SimulatedArm> arm_;          // the same as port_ where the driver is the arm
+    std::shared_ptr<DriverDevice> driven_;       // the same as port_ where it has a driver of its own
+    Vec3 mouse_target_{0.0};                     // in the scene (unit: meters)
+    Vec3 steered_{0.0};                          // in the device's own frame (unit: meters)
     DeviceState state_;
 };
 
 }  // namespace tactus
 
 VARIANT_ENUM_CAST(tactus::HapticDevice::Driver);
+VARIANT_ENUM_CAST(tactus::HapticDevice::Steering);

@@ -9,6 +9,7 @@
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
+#include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
@@ -277,6 +278,8 @@ void HapticWorld::node_removed(Node* node) {
         run_->forget(proxy);
     } else if (auto* recorder = Object::cast_to<HapticRecorder>(node)) {
         run_->forget(recorder);
+    } else if (auto* feedback = Object::cast_to<HapticFeedback>(node)) {
+        run_->forget(feedback);
     } else if (auto* link = Object::cast_to<MMTLink>(node)) {
         run_->forget(link);
         if (link->is_networked() && is_ancestor_of(link)) {

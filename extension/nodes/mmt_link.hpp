@@ -27,7 +27,12 @@ class MMTLink : public godot::Node {
     GDCLASS(MMTLink, godot::Node)
 
 public:
-    enum Scenario : int64_t { SCENARIO_SINGLE = 1, SCENARIO_TRADITIONAL = 2, SCENARIO_ROBOT = 3, SCENARIO_MMT = 4 };
+    enum Scenario : int64_t {
+        SCENARIO_SINGLE = 1,
+        SCENARIO_TRADITIONAL = 2,
+        SCENARIO_ROBOT = 3,
+        SCENARIO_MMT = 4
+    };
     enum Side : int64_t { SIDE_OPERATOR, SIDE_TELEOPERATOR };
     enum State : int64_t {
         STATE_OFF = static_cast<int64_t>(LinkState::off),

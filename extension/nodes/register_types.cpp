@@ -5,6 +5,7 @@
 
 #include "nodes/body_watch.hpp"
 #include "nodes/haptic_device.hpp"
+#include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_path.hpp"
@@ -32,6 +33,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticDevice);
     GDREGISTER_CLASS(ProxyPointer);
     GDREGISTER_CLASS(HapticRecorder);
+    GDREGISTER_CLASS(HapticFeedback);
     GDREGISTER_CLASS(NetworkConditions);
     GDREGISTER_CLASS(TeleopTuning);
     GDREGISTER_CLASS(MMTLink);

@@ -6,6 +6,7 @@
 
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
@@ -21,6 +22,9 @@ namespace {
 double project_number(const char* name, double otherwise) {
     return ProjectSettings::get_singleton()->get_setting(name, otherwise);
 }
+
+constexpr const char* too_many_recordings =
+    "eight recorders and feedbacks listen to this world already: take one of them away";
 
 // Where another hand is put in the place of the device's own.
 class StandInDevice final : public Device {
@@ -126,6 +130,7 @@ void WorldRun::synchronise(double seconds) {
     hands_->synchronise(session_, complaints_);
     look_at_scene();
     synchronise_recorder();
+    synchronise_feedback();
     if (!session_.collect()) {
         retired_.clear();
         hands_->forget_retired();
@@ -283,7 +288,32 @@ void WorldRun::synchronise_recorder() {
     if (proxy != no_handle && (proxy != recorded_proxy_ || object != recorded_object_)) {
         recorded_proxy_ = proxy;
         recorded_object_ = object;
-        session_.record(recorder_->recording().ring().get(), proxy, object);
+        if (!session_.record(*recorder_->recording().ring(), proxy, object)) {
+            complaints_.say(*recorder_, too_many_recordings);
+        }
+    }
+}
+
+void WorldRun::synchronise_feedback() {
+    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
+        const bool is_known = std::ranges::find(listeners_, feedback, &Listener::node) != listeners_.end();
+        if (!is_known && HapticWorld::of(feedback) == &world_) {
+            listeners_.push_back({feedback, feedback->ring(), no_handle});
+        }
+    }
+    for (Listener& listener : listeners_) {
+        if (const String problem = listener.node->problem(); !problem.is_empty()) {
+            complaints_.say(*listener.node, problem);
+        }
+        const SessionHandle proxy = hands_->handle_of(listener.node->proxy_node());
+        if (proxy == no_handle || proxy == listener.proxy) {
+            continue;
+        }
+        if (session_.record(*listener.ring, proxy, no_handle)) {
+            listener.proxy = proxy;
+        } else {
+            complaints_.say(*listener.node, too_many_recordings);
+        }
     }
 }
 
@@ -304,11 +334,21 @@ void WorldRun::forget(HapticRecorder* recorder) {
     if (recorder_ == nullptr || recorder != recorder_) {
         return;
     }
-    session_.record(nullptr, no_handle, no_handle);
     if (recorder_->is_recording()) {
+        session_.end_recording(*recorder_->recording().ring());
         retired_.push_back(recorder_->recording().ring());
     }
     recorder_ = nullptr;
+}
+
+void WorldRun::forget(HapticFeedback* feedback) {
+    for (const Listener& listener : listeners_) {
+        if (listener.node == feedback) {
+            session_.end_recording(*listener.ring);
+            retired_.push_back(listener.ring);
+        }
+    }
+    std::erase_if(listeners_, [feedback](const Listener& listener) { return listener.node == feedback; });
 }
 
 void WorldRun::forget(MMTLink* link) {

@@ -19,6 +19,7 @@
 namespace tactus {
 
 class HapticDevice;
+class HapticFeedback;
 class HapticRecorder;
 class HapticWorld;
 class MMTLink;
@@ -63,6 +64,7 @@ public:
     void forget(HapticDevice* device) { hands_->forget(device, session_); }
     void forget(ProxyPointer* proxy) { hands_->forget(proxy, session_); }
     void forget(HapticRecorder* recorder);
+    void forget(HapticFeedback* feedback);
     void forget(MMTLink* link);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder* recorder);
@@ -90,6 +92,7 @@ private:
     void synchronise_bodies(double seconds);
     void look_at_scene();
     void synchronise_recorder();
+    void synchronise_feedback();
     void start_links();
     void synchronise_links();
     void tell_far_side(Nanoseconds now);
@@ -99,6 +102,13 @@ private:
     struct OwnLink {
         MMTLink* node = nullptr;  // null: it has left
         std::unique_ptr<WorldLink> link;
+    };
+
+    // A node that hears every tick of a proxy.
+    struct Listener {
+        HapticFeedback* node = nullptr;
+        std::shared_ptr<RecorderRing<SessionRecord>> ring;
+        SessionHandle proxy = no_handle;
     };
 
     HapticWorld& world_;
@@ -117,6 +127,7 @@ private:
     HapticRecorder* recorder_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
     SessionHandle recorded_object_ = no_handle;
+    std::vector<Listener> listeners_;
     std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
     BodyDefaults defaults_;
     std::uint32_t looks_ = 0;  // synchronise() so far

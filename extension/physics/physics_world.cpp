@@ -446,6 +446,12 @@ bool PhysicsWorld::awake(BodyId id) const {
     return body != nullptr && (body->IsActive() || impl_->far.holds(*body));
 }
 
+bool PhysicsWorld::touching(BodyId first, BodyId second) const {
+    const JPH::Body* a = impl_->find(first);
+    const JPH::Body* b = impl_->find(second);
+    return a != nullptr && b != nullptr && impl_->system.WereBodiesInContact(a->GetID(), b->GetID());
+}
+
 std::uint64_t PhysicsWorld::memory_overflows() const {
     return impl_->memory.overflows();
 }

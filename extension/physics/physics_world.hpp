@@ -182,7 +182,8 @@ public:
     double mass(BodyId id) const;                                // (unit: kilograms); 0 for what cannot move
     Motion motion(BodyId id) const;
     bool awake(BodyId id) const;
-    std::uint64_t memory_overflows() const;  // see step_memory_full; since the world was made
+    bool touching(BodyId first, BodyId second) const;  // each other, in the last step
+    std::uint64_t memory_overflows() const;            // see step_memory_full; since the world was made
 
 private:
     std::size_t save_state(std::span<std::byte> memory, bool everything) const;

@@ -80,7 +80,8 @@ StreamSocket::State StreamSocket::send(std::span<const std::uint8_t> bytes) {
             ::send(handle, reinterpret_cast<const char*>(bytes.data()), static_cast<int>(bytes.size()), 0);
         if (sent > 0) {
             bytes = bytes.subspan(static_cast<std::size_t>(sent));
-        } else if (sent == 0 || WSAGetLastError() != WSAEWOULDBLOCK || !ready(handle, POLLWRNORM, send_time)) {
+        } else if (sent == 0 || WSAGetLastError() != WSAEWOULDBLOCK ||
+                   !ready(handle, POLLWRNORM, send_time)) {
             return State::gone;
         }
     }

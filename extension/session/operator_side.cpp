@@ -18,9 +18,11 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
       past_(room.most_tracked, room.samples),
       resimulator_(session, room.samples, room.samples_a_memento, room.memento_bytes, room.replays),
       estimates_(room.most_tracked, ParameterEstimate(settings.estimate)),
+      alone_since_(room.most_tracked, 0),
       filters_(session.most_bodies),
       body_of_object_(session.most_bodies, no_handle),
       object_of_body_(session.most_bodies, no_object) {
+    pupils_.reserve(room.most_tracked);
     targets_.reserve(session.most_bodies);
     hands_.reserve(most_proxies);
     for (std::size_t i = 0; i < std::min(room.pointers, pointers_.size()); ++i) {
@@ -184,6 +186,7 @@ void OperatorSide::forget_body(SessionHandle body) {
 void OperatorSide::forget_place(std::uint32_t place) {
     past_.forget(place);
     estimates_[place].forget(settings().estimate);
+    alone_since_[place] = sample_;
 }
 
 namespace {
@@ -437,38 +440,6 @@ void OperatorSide::derive_targets(SessionLoop& loop, bool only_without_past) {
         targets_.push_back(target);
     }
     truths_.settle();
-}
-
-// From one truth of a body to the next, the model's has come from nearly the same state.
-void OperatorSide::learn(SessionLoop& loop) {
-    if (!(settings().estimate.gain > 0.0)) {
-        return;
-    }
-    for (const SessionHandle body : truths_.fresh()) {
-        const Truth& truth = truths_.of(body);
-        const std::uint32_t place = truths_.place_of(body);
-        const BodyMotion* const start = past_.motion(place, truth.sample_before);
-        const BodyMotion* const end = past_.motion(place, truth.sample);
-        const SessionLoop::Body* const known = loop.body(body);
-        if (!known || known->motion != Motion::Dynamic || !start || !end ||
-            truth.sample <= truth.sample_before || truth.sample - truth.sample_before >= past_.samples()) {
-            continue;
-        }
-        const bool from_truth = resimulator_.goes_on_from(body) == truth.sample_before;
-        MotionLesson lesson;
-        lesson.truth_before = truth.before.linear_velocity;
-        lesson.truth = truth.motion.linear_velocity;
-        lesson.model_before = from_truth ? truth.before.linear_velocity : start->linear_velocity;
-        lesson.model = end->linear_velocity;
-        lesson.pushed = past_.pushed(place, truth.sample_before, truth.sample);
-        lesson.seconds = static_cast<double>(truth.sample - truth.sample_before) * seconds_;
-        lesson.fell = loop.gravity() * lesson.seconds;
-        ParameterEstimate& estimate = estimates_[place];
-        estimate.learn(settings().estimate, lesson);
-        const BodyFactors factors{estimate.mass_factor(), estimate.friction_factor()};
-        loop.set_factors(body, factors);
-        resimulator_.twin()->set_factors(body, factors);
-    }
 }
 
 // ---

@@ -6,8 +6,8 @@
 // present state, by a formula (derivation.hpp) or by doing the past again (resimulator.hpp). The model is put
 // right at once; what the hand feels of it goes through one place (felt_pointer.hpp).
 //
-// operator_side.cpp hears and compares, operator_touch.cpp puts right and gives the hand its force,
-// operator_sending.cpp tells the far side.
+// operator_side.cpp hears and compares, operator_learning.cpp learns what bodies weigh and how they slide,
+// operator_touch.cpp puts right and gives the hand its force, operator_sending.cpp tells the far side.
 #pragma once
 
 #include "core/teleop/felt_pointer.hpp"
@@ -64,6 +64,17 @@ private:
         Nanoseconds sent_at = 0;
     };
 
+    // A body of the model that moves by itself, while something is learnt about it.
+    struct Pupil {
+        SessionHandle body = no_handle;
+        std::uint32_t place = 0;
+        std::size_t group = 0;  // the first of those that touch each other
+        double mass = 0.0;      // (unit: kilograms)
+        bool has_lesson = false;
+        SampleSequence from = no_sample, to = no_sample;
+        MotionLesson lesson;
+    };
+
     const TeleopSettings& settings() const { return channel_.settings(); }
 
     // --- operator_side.cpp
@@ -90,7 +101,12 @@ private:
     void find_targets(SessionLoop& loop, Nanoseconds now);
     void derive_targets(SessionLoop& loop, bool only_without_past);
     DerivationInput derivation_input(const Truth& truth, const BodyMotion& then, const BodyMotion& now) const;
+
+    // --- operator_learning.cpp
     void learn(SessionLoop& loop);
+    void gather_pupils(SessionLoop& loop);
+    bool lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const;
+    void teach(SessionLoop& loop, std::size_t group);
 
     // --- operator_touch.cpp
     bool lands(SessionLoop& loop, Nanoseconds now);
@@ -121,6 +137,8 @@ private:
     Resimulator resimulator_;
     TraditionalTouch traditional_;
     std::vector<ParameterEstimate> estimates_;  // by place
+    std::vector<SampleSequence> alone_since_;   // by place: the body has touched no other that moves since
+    std::vector<Pupil> pupils_;                 // of this tick
     std::vector<PoseFilter> filters_;           // by body
     FarEyes eyes_;
     std::vector<SessionHandle> body_of_object_;

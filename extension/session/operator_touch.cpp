@@ -168,7 +168,7 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
     slot.state.hand = slot.hand;
     carried.fade(way);
     if (!carried.apart()) {
-        pointer.felt.hide(settings().stealth, force, slot.force);
+        pointer.felt.hide(force, slot.force);
         return slot.force;
     }
     return force;
@@ -243,14 +243,13 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
 // the force has changed by beyond what the hand's own way can have made of it.
 void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
                                 bool changed) {
-    const StealthSettings& stealth = settings().stealth;
     if (corrected_) {
         CorrectionCost& cost = statistics_.cost;
         const Vec3 before = pointer.uncorrected + pointer.felt.hidden();
         if (settings().correction == Correction::stealthy_direction) {
-            pointer.felt.hide(stealth, pointer.uncorrected, modelled);
+            pointer.felt.hide(pointer.uncorrected, modelled);
         } else if (settings().correction == Correction::stealthy_magnitude) {
-            pointer.felt.hide_size(stealth, pointer.uncorrected, modelled);
+            pointer.felt.hide_size(pointer.uncorrected, modelled);
         } else if (settings().correction == Correction::passive) {
             pointer.update.changed(pointer.uncorrected, modelled, stiffness);
         }
@@ -261,7 +260,7 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
         const double off = glm::distance(expected, modelled);
         const double natural = 2.0 * stiffness * glm::length(way) + no_force;
         if (off > natural) {
-            pointer.felt.hide(stealth, expected, modelled);
+            pointer.felt.hide(expected, modelled);
         }
     }
 }

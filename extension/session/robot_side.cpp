@@ -90,7 +90,8 @@ void RobotSide::play(const SessionLoop& loop, Pointer& pointer, const SessionLoo
         pointer.observer.reset();
     }
     // Forces keep their size in the scene, ways do not.
-    pointer.contact = pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
+    pointer.contact =
+        pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
     const Wall coupling = safe_wall({seconds_, robot.capabilities.delay}, robot.capabilities.damping / scale,
                                     {wanted_coupling.stiffness / scale, wanted_coupling.damping / scale});
@@ -144,7 +145,8 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < most_proxies; ++i) {
         Pointer& pointer = pointers_[i];
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
-            statistics_.energy.far_J += pointer.holds ? glm::dot(pointer.contact, slot.hand - pointer.had_hand) : 0.0;
+            statistics_.energy.far_J +=
+                pointer.holds ? glm::dot(pointer.contact, slot.hand - pointer.had_hand) : 0.0;
             pointer.had_hand = slot.hand;
         }
     }
@@ -166,8 +168,8 @@ void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
         sample.pointer = static_cast<std::uint16_t>(i);
         sample.true_at = channel_.link().local_time(now);
         sample.newest_operator_sample = pointer.played.sequence;
-        sample.force = glm::clamp(direction_to_local(settings().frame, pointer.contact), -plausible::max_force,
-                                  plausible::max_force);
+        sample.force = glm::clamp(direction_to_local(settings().frame, pointer.contact),
+                                  -plausible::max_force, plausible::max_force);
         sample.proxy = to_local(settings().frame, loop.proxy(i).hand);
         sample.object = no_object;
     }

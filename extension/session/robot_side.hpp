@@ -1,5 +1,6 @@
-// The far side of scenario 3: the environment is a real one, and a robot goes there where the operator's hand is. The
-// devices of this side's session are the robots, one for each pointer; bodies of the session are only shown.
+// The far side of scenario 3: the environment is a real one, and a robot goes there where the operator's hand
+// is. The devices of this side's session are the robots, one for each pointer; bodies of the session are only
+// shown.
 //
 //     operator's place -> stand-in (C') -> target within the workspace -> drive -> HandSafety -> robot
 //     robot's place, force of its motors -> momentum observer -> contact force -> operator
@@ -30,12 +31,12 @@ private:
         OperatorSample played;
         FarPassivity passivity;
         ContactObserver observer;
-        bool holds = false;   // an operator's hand is there and the robot answers
-        Vec3 target{0.0};     // in this side's scene (unit: meters)
-        Vec3 velocity{0.0};   // of the target (unit: meters per second)
-        Wall coupling;        // of the robot to the target
-        Vec3 contact{0.0};    // on the robot, in this side's scene (unit: newtons)
-        Vec3 had_hand{0.0};   // one tick ago (unit: meters)
+        bool holds = false;  // an operator's hand is there and the robot answers
+        Vec3 target{0.0};    // in this side's scene (unit: meters)
+        Vec3 velocity{0.0};  // of the target (unit: meters per second)
+        Wall coupling;       // of the robot to the target
+        Vec3 contact{0.0};   // on the robot, in this side's scene (unit: newtons)
+        Vec3 had_hand{0.0};  // one tick ago (unit: meters)
         Vec3 force_sent{0.0};
         Nanoseconds force_sent_at = 0;
     };

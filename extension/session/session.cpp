@@ -1,5 +1,6 @@
 #include "session/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 
@@ -95,11 +96,11 @@ TouchMaterial with_texture(TouchMaterial material, const HeightImage* image) {
 }
 
 std::string check_workspace(const Workspace& w) {
-    return limits::is_pose(w.pose) && w.scale > 0.0 && w.scale <= limits::farthest && w.force_limit >= 0.0
+    return limits::is_pose(w.pose) && w.scale > 0.0 && w.scale <= limits::farthest && w.force_limit >= 0.0 &&
+                   w.force_scale > 0.0 && w.edge_speed >= 0.0
                ? ""
-               : "the device's workspace has no place, no scale above 0 or no force limit: reset its "
-                 "transform "
-                 "and its limit";
+               : "the device's workspace has no place, no scale above 0, no force limit or no edge speed: "
+                 "reset its transform and these";
 }
 
 std::string check_proxy(const ProxyDescription& d) {
@@ -184,6 +185,7 @@ struct Session::Impl {
 
     HandlePool bodies, devices, proxies, joints;
     bool has_twin = false;  // the side that was attached last has one
+    std::vector<RecorderRing<SessionRecord>*> recorded;
     std::deque<Command> backlog;
 };
 
@@ -386,8 +388,21 @@ void Session::remove_proxy(SessionHandle proxy) {
     }
 }
 
-void Session::record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object) {
-    impl_->send(command::Record{ring, proxy, object});
+bool Session::record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, SessionHandle object) {
+    if (std::ranges::find(impl_->recorded, &ring) == impl_->recorded.end()) {
+        if (impl_->recorded.size() == max_recordings) {
+            return false;
+        }
+        impl_->recorded.push_back(&ring);
+    }
+    impl_->send(command::Record{&ring, proxy, object});
+    return true;
+}
+
+void Session::end_recording(RecorderRing<SessionRecord>& ring) {
+    if (std::erase(impl_->recorded, &ring) > 0) {
+        impl_->send(command::EndRecording{&ring});
+    }
 }
 
 void Session::attach(std::unique_ptr<TeleopSide> side) {

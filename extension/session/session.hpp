@@ -110,8 +110,10 @@ public:
     void remove_proxy(SessionHandle proxy);
 
     // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner
-    // drains. One recording at a time; null stops. The ring must live until the change has been carried out.
-    void record(RecorderRing<SessionRecord>* ring, SessionHandle proxy, SessionHandle object);
+    // drains; again for the same ring: of another proxy or object. The ring must live until its end has been
+    // carried out. False where as many are recorded as can be (max_recordings).
+    bool record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, SessionHandle object);
+    void end_recording(RecorderRing<SessionRecord>& ring);
 
     // A side of a teleoperation (operator_side.hpp, teleoperator_side.hpp), in place of the one before; null:
     // none. Before anything else is added, or a twin does not know it.

@@ -350,9 +350,19 @@ bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
 }
 
 bool SessionLoop::carry_out(command::Record& c, Retired&) {
-    recording_ = c.ring;
-    recorded_proxy_ = c.proxy;
-    recorded_object_ = c.object;
+    const auto recorded = std::span(recordings_).first(recording_count_);
+    const auto same = std::ranges::find(recorded, c.ring, &Recording::ring);
+    Recording& recording = same != recorded.end() ? *same : recordings_[recording_count_++];
+    recording = {c.ring, c.proxy, c.object};
+    return false;
+}
+
+bool SessionLoop::carry_out(command::EndRecording& c, Retired&) {
+    const auto recorded = std::span(recordings_).first(recording_count_);
+    const auto ended = std::ranges::find(recorded, c.ring, &Recording::ring);
+    if (ended != recorded.end()) {
+        *ended = recordings_[--recording_count_];
+    }
     return false;
 }
 
@@ -385,6 +395,7 @@ struct Duplicate {
     }
     bool operator()(command::MoveBody&) { return false; }
     bool operator()(command::Record&) { return false; }
+    bool operator()(command::EndRecording&) { return false; }
     bool operator()(command::Attach&) { return false; }
     template <typename Plain>
     bool operator()(Plain& c) {

@@ -117,6 +117,9 @@ struct Record {
     RecorderRing<SessionRecord>* ring;
     SessionHandle proxy, object;
 };
+struct EndRecording {
+    RecorderRing<SessionRecord>* ring;
+};
 struct Attach {
     std::unique_ptr<TeleopSide> side;  // null: detach
 };
@@ -125,14 +128,13 @@ struct Attach {
 
 namespace tactus {
 
-using Command =
-    std::variant<command::AddBody, command::RemoveBody, command::DeformBody, command::TeleportBody,
-                 command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial,
-                 command::SetBodySurface, command::SetBodyLayers, command::SetBodyMotion,
-                 command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-                 command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
-                 command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy,
-                 command::SetProxy, command::RemoveProxy, command::Record, command::Attach>;
+using Command = std::variant<
+    command::AddBody, command::RemoveBody, command::DeformBody, command::TeleportBody, command::MoveBody,
+    command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
+    command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
+    command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity, command::AddDevice,
+    command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy, command::RemoveProxy,
+    command::Record, command::EndRecording, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

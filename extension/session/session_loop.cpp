@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <span>
 
 #include "core/geometry/surface_query.hpp"
 #include "physics/limits.hpp"
@@ -45,10 +46,6 @@ Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
     const double share = 1.0 / ticks;
     return {from.position + (to.position - from.position) * share,
             glm::slerp(from.rotation, to.rotation, share)};
-}
-
-Vec3 into_scene(const Workspace& workspace, const Vec3& point) {
-    return to_parent(workspace.pose, workspace.scale * point);
 }
 
 }  // namespace
@@ -117,9 +114,11 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         const TraceScope scope(trace, TickStage::publish_snapshot);
         publish(now);
     }
-    if (recording_) {
+    if (recording_count_ > 0) {
         const TraceScope scope(trace, TickStage::append_record);
-        append_record(now);
+        for (const Recording& recording : std::span(recordings_).first(recording_count_)) {
+            append_record(recording, now);
+        }
     }
     return std::exchange(status_, 0u);
 }
@@ -195,17 +194,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
             slot.sample.velocity = Vec3(0.0);  // nonsense: it stays where it was
             slot.sample.connected = false;
         }
-        const Vec3 before = slot.hand;
-        const Vec3 reached = into_scene(slot.workspace, slot.sample.position);
-        if (slot.workspace.clutch && slot.was_held) {
-            slot.clutch_offset = before - reached;
-        }
-        slot.was_held = slot.workspace.clutch;
-        slot.hand = reached + slot.clutch_offset;
-        slot.hand_velocity =
-            slot.workspace.clutch
-                ? Vec3(0.0)
-                : direction_to_parent(slot.workspace.pose, slot.sample.velocity * slot.workspace.scale);
+        place_hand(slot);
         slot.force = Vec3(0.0);
     }
     for (ProxySlot& slot : proxies_) {
@@ -214,6 +203,21 @@ void SessionLoop::read_devices(Nanoseconds now) {
             slot.hand_velocity = devices_[slot.description.device].hand_velocity;
         }
     }
+}
+
+void SessionLoop::place_hand(DeviceSlot& slot) const {
+    const Vec3 reached = into_scene(slot.workspace, slot.sample.position);
+    const bool held = slot.workspace.clutch;
+    Vec3 drift(0.0);
+    if (held && slot.was_held) {
+        slot.offset = slot.hand - reached;
+    } else if (!held && slot.sample.connected) {
+        drift = drift_at_edge(slot.workspace, slot.capabilities.radius, slot.sample.position);
+        slot.offset += drift * seconds_;
+    }
+    slot.was_held = held;
+    slot.hand = reached + slot.offset;
+    slot.hand_velocity = held ? Vec3(0.0) : velocity_in_scene(slot.workspace, slot.sample.velocity) + drift;
 }
 
 void SessionLoop::touch_all(Nanoseconds now) {
@@ -243,7 +247,8 @@ void SessionLoop::fade_jumps() {
             step.stiffness = std::max(step.stiffness, material.stiffness);
             step.damping = std::max(step.damping, material.damping);
         }
-        const double limit = devices_[slot.description.device].workspace.force_limit;
+        const Workspace& workspace = devices_[slot.description.device].workspace;
+        const double limit = workspace.force_limit / workspace.force_scale;
         slot.state.force = slot.fading.felt(slot.force, limit, slot.jumped, step);
     }
 }
@@ -275,9 +280,8 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     }
     const ProxyTick tick = slot.proxy->move(scene_, slot.hand);
     HandForce& force = slot.parts;
-    // The device's own way is shorter by the scale: its damping counts for less in the scene.
     DeviceSlot& device = devices_[slot.description.device];
-    const double damping = device.capabilities.damping / device.workspace.scale;
+    const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
                           {{seconds_, device.capabilities.delay}, damping});
     slot.pressed = force.total;
@@ -393,11 +397,12 @@ void SessionLoop::write_devices(Nanoseconds now) {
         }
         const Vec3 asked = slot.force;
         const SafetySample sample = safety_sample(slot, i);
-        slot.safe = slot.safety.pass(
-            settings_of(slot.capabilities, slot.workspace, side_ ? side_->limits() : local_touch, side_ && side_->drives()),
-            sample);
+        slot.safe =
+            slot.safety.pass(settings_of(slot.capabilities, slot.workspace,
+                                         side_ ? side_->limits() : local_touch, side_ && side_->drives()),
+                             sample);
         if (slot.safe.force != sample.wanted) {
-            slot.force = direction_to_parent(slot.workspace.pose, slot.safe.force);
+            slot.force = force_in_scene(slot.workspace, slot.safe.force);
         }
         slot.refused = asked - slot.force;
         const bool limited = slot.safe.limited != 0;
@@ -415,7 +420,7 @@ void SessionLoop::write_devices(Nanoseconds now) {
 // means to add. Over a link without a model nothing is known of that, and everything is held to be passive.
 SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t index) const {
     SafetySample sample;
-    sample.wanted = direction_to_local(slot.workspace.pose, slot.force);
+    sample.wanted = force_on_device(slot.workspace, slot.force);
     sample.position = slot.heard.position;
     sample.velocity = slot.heard.velocity;
     sample.buttons = slot.heard.buttons;
@@ -426,7 +431,7 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
         if (proxy.proxy && proxy.description.device == index && (!side_ || side_->simulates())) {
             const double added = seconds_ * glm::dot(proxy.state.force - proxy.pressed, slot.hand_velocity);
             sample.source +=
-                (std::max(0.0, added) + std::max(0.0, proxy.parts.source)) / slot.workspace.scale;
+                energy_on_device(slot.workspace, std::max(0.0, added) + std::max(0.0, proxy.parts.source));
         }
         if (proxy.proxy && proxy.description.device == index) {
             sample.own_change += proxy.own_change;
@@ -511,7 +516,7 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.hand,
                                                slot.workspace.pose.rotation * slot.sample.rotation,
                                                slot.hand_velocity,
-                                               slot.force,
+                                               slot.force * slot.workspace.force_scale,
                                                slot.sample.buttons,
                                                slot.sample.connected,
                                                slot.safe.state,
@@ -524,24 +529,24 @@ void SessionLoop::publish(Nanoseconds now) {
     snapshots_.publish();
 }
 
-void SessionLoop::append_record(Nanoseconds now) {
-    if (recorded_proxy_ >= most_proxies || !proxies_[recorded_proxy_].proxy) {
+void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
+    if (recording.proxy >= most_proxies || !proxies_[recording.proxy].proxy) {
         return;
     }
-    const ProxyState& state = proxies_[recorded_proxy_].state;
+    const ProxyState& state = proxies_[recording.proxy].state;
     SessionRecord row;
     row.time = now;
-    row.proxy = recorded_proxy_;
+    row.proxy = recording.proxy;
     row.hand = state.hand;
     row.proxy_position = state.position;
     row.force = state.force;
     row.proxy_status = state.status;
     row.contacts = static_cast<std::uint32_t>(state.contact_count);
-    if (const Body* object = body(recorded_object_)) {
+    if (const Body* object = body(recording.object)) {
         row.object_position = scene_.body(object->slot).pose.position;
         row.object_rotation = scene_.body(object->slot).pose.rotation;
     }
-    if (!recording_->append(row)) {
+    if (!recording.ring->append(row)) {
         status_ |= session_record_lost;
     }
 }

@@ -103,6 +103,7 @@ public:
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
     bool asleep(SessionHandle handle);
+    bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
     double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
     const Vec3& gravity() const { return gravity_; }
@@ -133,11 +134,16 @@ public:
     void follow_still(SessionLoop& other);
 
 private:
+    struct Recording {
+        RecorderRing<SessionRecord>* ring = nullptr;
+        SessionHandle proxy = no_handle;
+        SessionHandle object = no_handle;
+    };
     struct DeviceSlot {
         Device* device = nullptr;
         Workspace workspace;
         DeviceSample sample;
-        Vec3 clutch_offset{0.0};  // in the world: what the clutch has taken out so far (unit: meters)
+        Vec3 offset{0.0};         // in the world: what clutch and edge have made of it so far (unit: meters)
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
         Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
@@ -174,6 +180,7 @@ private:
     bool carry_out(command::SetProxy& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
     bool carry_out(command::Record& c, Retired&);
+    bool carry_out(command::EndRecording& c, Retired&);
     bool carry_out(command::Attach& c, Retired& retired);
 
     void start_travel(SessionHandle handle, const Pose& target, double seconds);
@@ -185,6 +192,7 @@ private:
     void show_state(SessionHandle handle);
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
+    void place_hand(DeviceSlot& slot) const;
     void touch_all(Nanoseconds now);
     void fade_jumps();
     void press_all();
@@ -198,7 +206,7 @@ private:
     SafetySample safety_sample(const DeviceSlot& slot, std::size_t index) const;
     void step_physics();
     void publish(Nanoseconds now);
-    void append_record(Nanoseconds now);
+    void append_record(const Recording& recording, Nanoseconds now);
     void describe(ProxySlot& slot, const ProxyTick& tick);
 
     SessionSettings settings_;
@@ -222,9 +230,8 @@ private:
     std::array<DeviceSlot, most_devices> devices_;
     std::array<ProxySlot, most_proxies> proxies_;
     std::unique_ptr<TeleopSide> side_;  // null: nobody at the far side
-    RecorderRing<SessionRecord>* recording_ = nullptr;
-    SessionHandle recorded_proxy_ = no_handle;
-    SessionHandle recorded_object_ = no_handle;
+    std::array<Recording, max_recordings> recordings_;
+    std::size_t recording_count_ = 0;
     Vec3 gravity_;                // (unit: meters per second squared)
     bool touch_changed_ = false;  // see take_touch_change()
     bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew

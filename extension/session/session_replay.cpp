@@ -19,6 +19,10 @@ bool SessionLoop::asleep(SessionHandle handle) {
     return !physics_.awake(bodies_[handle].id);
 }
 
+bool SessionLoop::touching(SessionHandle first, SessionHandle second) const {
+    return physics_.touching(bodies_[first].id, bodies_[second].id);
+}
+
 void SessionLoop::set_factors(SessionHandle handle, const BodyFactors& factors) {
     physics_.set_factors(bodies_[handle].id, factors);
 }

@@ -11,6 +11,7 @@
 #include "core/safety/hand_safety.hpp"
 #include "core/safety/stiffness_limit.hpp"
 #include "physics/physics_world.hpp"
+#include "session/hand_mapping.hpp"
 
 namespace tactus {
 
@@ -19,6 +20,7 @@ using SessionHandle = std::uint32_t;
 constexpr SessionHandle no_handle = 0xffff'ffffu;
 
 constexpr std::size_t most_devices = 8;
+constexpr std::size_t max_recordings = 8;
 constexpr std::size_t most_proxies = 16;
 
 struct SessionSettings {
@@ -31,16 +33,6 @@ struct SessionSettings {
     // four: it is awake at first, and its contacts are new.
     std::uint32_t commands_per_tick = 64;
     PhysicsSettings physics;
-};
-
-// Where a device's workspace stands in the scene. A point p of the device is at pose * (scale * p). Forces
-// are turned with the pose and keep their size.
-struct Workspace {
-    Pose pose;
-    double scale = 1.0;          // > 0
-    double force_limit = 8.0;    // longest force the device is given (unit: newtons)
-    bool clutch = false;         // held: the hand in the scene stays where it is while the device moves
-    std::uint32_t dead_man = 0;  // buttons, any of which must be held for a force; 0: none
 };
 
 struct ProxyDescription {

@@ -19,7 +19,7 @@ std::uint64_t next_revision() {
 
 }  // namespace
 
-void BodyTwin::plan(BodyPlan plan, Workers& workers) {
+bool BodyTwin::plan(BodyPlan plan, Workers& workers) {
     plan_ = std::move(plan);
     if (handle_ == no_handle) {
         place_ = plan_.place;
@@ -30,7 +30,7 @@ void BodyTwin::plan(BodyPlan plan, Workers& workers) {
     if (triangle_count(plan_.form) <= max_triangles_at_once) {
         job->built = build_body(job->plan, run_serially);
         job->done = true;
-        return;
+        return true;
     }
     workers.add([job, run = workers.runner()] {
         // Nobody else holds it: nobody waits for it any more.
@@ -39,6 +39,7 @@ void BodyTwin::plan(BodyPlan plan, Workers& workers) {
         }
         job->done.store(true, std::memory_order_release);
     });
+    return false;
 }
 
 bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {

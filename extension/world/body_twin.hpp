@@ -35,8 +35,8 @@ public:
     // Why it cannot be touched, or only in part; as it was found when it was built.
     const std::vector<std::string>& problems() const { return problems_; }
 
-    // Has one built: here where that takes no time, else by the workers.
-    void plan(BodyPlan plan, Workers& workers);
+    // Has one built: here where that takes no time, which is when it is true, else by the workers.
+    bool plan(BodyPlan plan, Workers& workers);
     // Hands over one that has become ready: true where it is new in the session by that, and stands where it
     // was planned. `takes_effect`: the first tick that has certainly taken what is sent now.
     bool take_ready(Session& session, std::uint64_t takes_effect);

@@ -53,9 +53,11 @@ void report_kinematics(Report& report, int places) {
                 all.force_size_error);
 }
 
-// How well the arm holds the hand, over a plane through its axis: device_conditioning.csv. Empty: no sound place.
+// How well the arm holds the hand, over a plane through its axis: device_conditioning.csv. Empty: no sound
+// place.
 void write_conditioning() {
-    std::FILE* const csv = std::fopen((result_path("device").parent_path() / "device_conditioning.csv").c_str(), "w");
+    std::FILE* const csv =
+        std::fopen((result_path("device").parent_path() / "device_conditioning.csv").c_str(), "w");
     if (!csv) {
         return;
     }

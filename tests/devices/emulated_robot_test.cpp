@@ -23,7 +23,9 @@ struct Rig {
     DeviceSample sample;
     Nanoseconds now = 0;
 
-    explicit Rig(const EmulatedRobotSettings& settings = {}) : robot(settings, floor) { sample = robot.read(0); }
+    explicit Rig(const EmulatedRobotSettings& settings = {}) : robot(settings, floor) {
+        sample = robot.read(0);
+    }
 
     // Held at `target` by a spring and a damper.
     void hold(const Vec3& target, int ticks) {

@@ -5,7 +5,8 @@
 // The user goes round the thesis's way: a circle in 10 s, with a sine upon it. --firmware: where the dummy
 // image is written that this Falcon takes; --figures: where it says, when the program has ended, what the
 // device has seen.
-#include <spawn.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,7 +29,7 @@ using namespace tactus;
 
 Vec3 way_of_the_user(double seconds) {
     const double turn = 2.0 * 3.14159265358979 * seconds / 10.0;
-    return {0.025 * std::cos(turn), -0.012 + 0.02 * std::sin(3.0 * turn), 0.025 * std::sin(turn)};
+    return {0.025 * std::cos(turn), 0.006 + 0.02 * std::sin(5.0 * turn), 0.025 * std::sin(turn)};
 }
 
 // Moves the hand until the program has ended; its exit code.
@@ -67,10 +68,12 @@ int main(int count, char** arguments) {
         .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size()));
     shared::PlayedUsb falcon(settings);
     falcon.plug();
-    pid_t program = 0;
-    if (posix_spawnp(&program, *(end + 1), nullptr, nullptr, &*(end + 1), environ) != 0) {
+    const pid_t program = fork();
+    if (program == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive what it touches
+        execvp(*(end + 1), &*(end + 1));
         std::perror(*(end + 1));
-        return 1;
+        _exit(127);
     }
     double largest_force = 0.0;
     const int code = play_for(falcon, program, largest_force);

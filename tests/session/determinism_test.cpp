@@ -65,7 +65,7 @@ Outcome run(ForceLaw law) {
     description.force_law = law;
     rig.session.set_proxy(rig.proxy, description);
     RecorderRing<SessionRecord> ring(256);
-    rig.session.record(&ring, rig.proxy, first);
+    rig.session.record(ring, rig.proxy, first);
     Outcome outcome;
     Hash hash;
     Vec3 start(0.0);

@@ -106,6 +106,24 @@ TEST(Mmt, ReSimulationWithStealthBeatsPoseAlone) {
     EXPECT_LT(ours.at("box_right_after_letting_go_s"), 0.15);
 }
 
+// What bodies do to each other teaches nothing about either.
+TEST(Mmt, AWrongStackIsLessWrongForBeingCorrected) {
+    TeleopScene stack = scene(true);
+    TeleopCase wrong = with_delay(100.0, 5.0);
+    wrong.object = "Box";
+    wrong.wrong["Ground"].friction = wrong.wrong["Box"].friction = 0.3;
+    wrong.wrong["Box"].mass = 3.0;
+    for (const char* const name : {"Box2", "Box3"}) {
+        const double height = stack.bodies.back().addition.description.pose.position.y + 0.15;
+        stack.bodies.push_back(body(name, BoxShape{Vec3(0.075)}, {0.0, height, 0.25}, Motion::Dynamic));
+        wrong.wrong[name] = wrong.wrong["Box"];
+    }
+    const TeleopFigures corrected = run_teleop(stack, wrong);
+    wrong.settings.correction = Correction::none;
+    const TeleopFigures never = run_teleop(stack, wrong);
+    EXPECT_LT(corrected.at("force_error_mean_N"), 0.5 * never.at("force_error_mean_N"));
+}
+
 TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
     TeleopCase lossy = wrong_box(100.0);
     lossy.forth.loss = lossy.back.loss = 0.5;

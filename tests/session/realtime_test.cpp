@@ -37,7 +37,7 @@ TEST(SessionRealtime, ATickAllocatesNothingWaitsForNobodyAndCallsNoSystem) {
     SessionRig rig;
     fill(rig);
     RecorderRing<SessionRecord> ring(4096);
-    rig.session.record(&ring, rig.proxy, 1);
+    rig.session.record(ring, rig.proxy, 1);
     rig.session.settle();
     AuditScope audit;
     for (int i = 0; i < 2'000; ++i) {

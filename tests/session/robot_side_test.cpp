@@ -58,7 +58,8 @@ TEST(RobotSide, WithAControllerTheHandIsGivenLessThanItPutIn) {
     TeleopCase free = robot_case(0.1);
     TeleopCase passive = free;
     passive.settings.passivity = Passivity::time_domain;
-    EXPECT_LT(run_teleop(scene(), passive)["energy_created_J"], run_teleop(scene(), free)["energy_created_J"] + 1e-9);
+    EXPECT_LT(run_teleop(scene(), passive)["energy_created_J"],
+              run_teleop(scene(), free)["energy_created_J"] + 1e-9);
 }
 
 }  // namespace

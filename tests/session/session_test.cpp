@@ -1,5 +1,6 @@
 #include "session/session.hpp"
 
+#include <deque>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
@@ -526,7 +527,7 @@ TEST(Session, RecordsEveryTickOldestFirstAndCountsWhatIsLost) {
     SessionRig rig;
     const SessionHandle box = rig.add(body(BoxShape{Vec3(0.1)}, {0.0, -0.2, 0.0}, Motion::Kinematic));
     RecorderRing<SessionRecord> ring(64);
-    rig.session.record(&ring, rig.proxy, box);
+    rig.session.record(ring, rig.proxy, box);
     rig.device.position = {0.3, 0.5, 0.1};
     rig.ticks(40);
     Nanoseconds expected = 0;
@@ -542,11 +543,35 @@ TEST(Session, RecordsEveryTickOldestFirstAndCountsWhatIsLost) {
     }
     EXPECT_TRUE(status & session_record_lost);
     EXPECT_EQ(ring.take_lost(), 200u - ring.capacity());
-    rig.session.record(nullptr, no_handle, no_handle);
+    rig.session.end_recording(ring);
     rig.tick();
     ring.drain([](const SessionRecord&) {});
     rig.ticks(5);
     EXPECT_EQ(ring.drain([](const SessionRecord&) {}), 0u);
+}
+
+TEST(Session, SeveralRecordingsGoOnSideBySide) {
+    SessionRig rig;
+    std::deque<RecorderRing<SessionRecord>> rings;
+    for (std::size_t i = 0; i < max_recordings; ++i) {
+        EXPECT_TRUE(rig.session.record(rings.emplace_back(64), rig.proxy, no_handle));
+    }
+    RecorderRing<SessionRecord> too_many(64);
+    EXPECT_FALSE(rig.session.record(too_many, rig.proxy, no_handle));
+    EXPECT_TRUE(rig.session.record(rings.front(), rig.proxy, no_handle)) << "again is no other one";
+    rig.ticks(5);
+    rig.session.end_recording(rings[2]);
+    rig.ticks(5);
+    const auto rows = [](RecorderRing<SessionRecord>& ring) {
+        return ring.drain([](const SessionRecord&) {});
+    };
+    for (std::size_t i = 0; i < max_recordings; ++i) {
+        EXPECT_EQ(rows(rings[i]), i == 2 ? 5u : 10u) << i;
+    }
+    EXPECT_TRUE(rig.session.record(too_many, rig.proxy, no_handle)) << "there is room again";
+    rig.ticks(3);
+    EXPECT_EQ(rows(too_many), 3u);
+    EXPECT_EQ(rows(rings[2]), 0u);
 }
 
 TEST(Session, SettledBodiesAreThereAtTheFirstTick) {

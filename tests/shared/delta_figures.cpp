@@ -1,11 +1,11 @@
 #include "shared/delta_figures.hpp"
 
-#include <numbers>
-#include <limits>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
 
 #include "shared/random_values.hpp"
 

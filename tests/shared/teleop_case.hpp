@@ -47,7 +47,7 @@ struct TeleopEvent {
         correct,   // states are believed from now on
         scheme,    // corrections are brought in by the scheme `amount`, see Correction
         scenario,  // 2 or 4, `amount`
-        restart,   // of the far side
+        restart,   // the far side goes away, and comes back after `amount` seconds
         cut,       // nothing gets through any more: forth (1), back (2) or both ways (3), `amount`
     };
     double at = 0.0;  // (unit: seconds)

@@ -1,5 +1,5 @@
-// The far side of scenario 3 in experiments: a session whose device is an emulated robot, in a world that is a session
-// of its own and knows nothing of the link.
+// The far side of scenario 3 in experiments: a session whose device is an emulated robot, in a world that is
+// a session of its own and knows nothing of the link.
 #pragma once
 
 #include <memory>
@@ -47,7 +47,8 @@ public:
         ProxyDescription pointer;
         pointer.device = session_.add_device(robot_, Workspace{}).handle;
         session_.add_proxy(pointer);
-        session_.attach(std::make_unique<RobotSide>(session_.settings(), settings, link, std::move(port), endpoint));
+        session_.attach(
+            std::make_unique<RobotSide>(session_.settings(), settings, link, std::move(port), endpoint));
     }
 
     void tick(Nanoseconds now) {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
@@ -48,13 +49,13 @@ private:
     EndpointSettings endpoint(Side side, std::uint64_t epoch) const;
     void attach_far_side(std::uint64_t epoch);
     std::unique_ptr<Device> far_hand();
-    void tick_far_side(Nanoseconds now);
     void describe_all();
     const TeleopBody* body_named(const std::string& name) const;
     SessionHandle object_id(const TeleopBody& body) const;
     void distort(ObjectDescription& description) const;
     void happen(const TeleopEvent& event);
     void tell_anew(const std::string& name);
+    void tick_far_side(Nanoseconds now);
     void note_model(std::size_t tick);
     void note_answer();
     void note_energy(std::size_t tick);
@@ -82,6 +83,7 @@ private:
     Vec3 far_hand_{0.0}, far_force_{0.0};
     double largest_step_ = 0.0;
     std::uint64_t answered_ = 0;
+    Nanoseconds away_until_ = 0;  // the far side starts anew then; 0: it does not
 };
 
 TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
@@ -143,14 +145,6 @@ std::unique_ptr<Device> TeleopRun::far_hand() {
     auto tip = std::make_unique<RobotTip>();
     tip_ = tip.get();
     return tip;
-}
-
-void TeleopRun::tick_far_side(Nanoseconds now) {
-    if (robot_) {
-        robot_->tick(now);
-    } else {
-        truth_.tick(now);
-    }
 }
 
 void TeleopRun::attach_far_side(std::uint64_t epoch) {
@@ -230,9 +224,7 @@ void TeleopRun::happen(const TeleopEvent& event) {
             break;
         }
         case Kind::restart:
-            attach_far_side(13);
-            teller_ = EnvironmentTeller(far_port_);
-            describe_all();
+            away_until_ = from_seconds(event.at + event.amount);
             return;
         case Kind::cut:
             at_far_.cut = at_far_.cut || event.amount != 2.0;
@@ -342,6 +334,23 @@ void TeleopRun::note_energy(std::size_t tick) {
     far_force_ = truth_.device.force;
 }
 
+void TeleopRun::tick_far_side(Nanoseconds now) {
+    if (now <= std::max(experiment_.late, away_until_)) {
+        drop_all(at_far_, now);
+        return;
+    }
+    if (std::exchange(away_until_, 0) != 0) {
+        attach_far_side(13);
+        teller_ = EnvironmentTeller(far_port_);
+        describe_all();
+    }
+    if (robot_) {
+        robot_->tick(now + experiment_.phase);
+    } else {
+        truth_.tick(now + experiment_.phase);
+    }
+}
+
 TeleopFigures TeleopRun::run(TeleopBins* bins) {
     bool waiting_for_touch = experiment_.correct_from_touch;
     std::vector<TeleopEvent> events = experiment_.events;
@@ -357,11 +366,7 @@ TeleopFigures TeleopRun::run(TeleopBins* bins) {
         if (experiment_.uses_arm) {
             local_.tick(now);
         }
-        if (now > experiment_.late) {
-            tick_far_side(now + experiment_.phase);
-        } else {
-            drop_all(at_far_, now);
-        }
+        tick_far_side(now);
         operator_port_->statistics.refresh();
         far_port_->statistics.refresh();
         if (experiment_.discovers) {

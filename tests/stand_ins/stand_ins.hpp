@@ -1,5 +1,5 @@
-// Libraries of the same names and C symbols as the vendors', for tests: what the driver says is checked, and what the
-// device says comes from the test. Shared by the stand-in and its test through one function.
+// Libraries of the same names and C symbols as the vendors', for tests: what the driver says is checked, and
+// what the device says comes from the test. Shared by the stand-in and its test through one function.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@ struct ForceDimension {
     std::atomic<unsigned> buttons{0};
     std::atomic<bool> is_open{false}, forces_on{false}, braked{false};
     std::atomic<int> set_forces{0};
-    std::atomic<int> wrong_calls{0};    // with another device, before it is open, without forces enabled
+    std::atomic<int> wrong_calls{0};  // with another device, before it is open, without forces enabled
 };
 
 // Of libHD. One device.
@@ -27,7 +27,7 @@ struct OpenHaptics {
     std::atomic<int> buttons{0};
     std::atomic<bool> is_open{false}, ticks{false};
     std::atomic<int> frames{0};
-    std::atomic<int> wrong_calls{0};    // outside of a frame, of another device, unknown names
+    std::atomic<int> wrong_calls{0};  // outside of a frame, of another device, unknown names
 };
 
 }  // namespace tactus::stand_ins

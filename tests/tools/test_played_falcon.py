@@ -22,7 +22,7 @@ def test_the_hand_that_holds_a_falcon_feels_the_ground(tmp_path):
         "--scene=res://static_testbed.tscn", "--case=falcon", f"--output={tmp_path}", "--duration=6", "--warmup=2",
         *(f"--device.{name}={json.dumps(value)}" for name, value in device.items()),
     ]  # fmt: skip
-    done = subprocess.run(command, text=True, capture_output=True, timeout=120)
+    done = subprocess.run(command, text=True, capture_output=True, timeout=60)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     record = records.read(tmp_path / "falcon.csv")
     # The hand was moved by the device, and was pushed back by what the scene's ground is worth.

@@ -83,7 +83,7 @@ struct Scene {
 TEST(BodyTwin, AFewTrianglesAreThereAtOnce) {
     Scene scene;
     BodyTwin twin;
-    twin.plan(box_plan(), scene.workers);
+    EXPECT_TRUE(twin.plan(box_plan(), scene.workers));
     EXPECT_TRUE(twin.take_ready(scene.session, 1));
     EXPECT_NE(twin.handle(), no_handle);
     EXPECT_FALSE(twin.is_building());
@@ -93,7 +93,7 @@ TEST(BodyTwin, AFewTrianglesAreThereAtOnce) {
 TEST(BodyTwin, ManyTrianglesAreBuiltByTheWorkers) {
     Scene scene;
     BodyTwin twin;
-    twin.plan(mesh_plan(40, 0.01), scene.workers);
+    EXPECT_FALSE(twin.plan(mesh_plan(40, 0.01), scene.workers));
     EXPECT_TRUE(twin.is_building());
     scene.workers.wait();
     EXPECT_EQ(twin.handle(), no_handle) << "nobody has taken it yet";

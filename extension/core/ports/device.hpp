@@ -24,10 +24,10 @@ struct DeviceCapabilities {
     double max_damping = 0.0;  // that may be rendered on top (the same unit)
     double delay = 0.0;        // from a place's reading to its force, besides the tick (unit: seconds)
     // Of what moves with the hand, as a drive that moves it needs it.
-    double mass = 0.0;         // (unit: kilograms); 0: unknown
-    double viscous = 0.0;      // friction (unit: newton seconds per meter)
-    double coulomb = 0.0;      // friction (unit: newtons)
-    double ramp = 0.0;         // until a force that begins is there (unit: seconds)
+    double mass = 0.0;     // (unit: kilograms); 0: unknown
+    double viscous = 0.0;  // friction (unit: newton seconds per meter)
+    double coulomb = 0.0;  // friction (unit: newtons)
+    double ramp = 0.0;     // until a force that begins is there (unit: seconds)
 };
 
 struct DeviceSample {

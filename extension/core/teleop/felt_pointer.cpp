@@ -19,19 +19,18 @@ constexpr double nearly_noticed = 0.95;
 
 }  // namespace
 
-void FeltPointer::hide(const StealthSettings& settings, const Vec3& before, const Vec3& after) {
+void FeltPointer::hide(const Vec3& before, const Vec3& after) {
     const Vec3 change = before - after;
     hidden_ += change;
     modelled_before_ = glm::length(after);
-    drift_.carried(settings, glm::length(change),
-                   settings.share * just_noticeable(settings, glm::length(before)));
+    drift_.carried(glm::length(change));
 }
 
-void FeltPointer::hide_size(const StealthSettings& settings, const Vec3& before, const Vec3& after) {
+void FeltPointer::hide_size(const Vec3& before, const Vec3& after) {
     const double now = glm::length(after);
     const double felt = glm::length(before + hidden_);
     const Vec3 kept = now > 0.0 ? after * (felt / now) : before + hidden_;
-    hide(settings, before, after);
+    hide(before, after);
     hidden_ = kept - after;
 }
 
@@ -45,6 +44,10 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         tank_.let_go();
     }
     drift_.pass(settings, in.seconds);
+    if (modelled < modelled_before_) {
+        // As the hand moves away and the model's force with it, so does what is hidden.
+        hidden_ *= modelled / modelled_before_;
+    }
     if (hidden_ != Vec3(0.0)) {
         const double most = fading(settings, in, glm::length(in.modelled + hidden_));
         const double before = glm::length(hidden_);
@@ -72,27 +75,26 @@ double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in,
     const double size = glm::length(hidden_);
     const double modelled = glm::length(in.modelled);
     const double unnoticed = unnoticed_change(settings, felt, in.seconds);
-    // No more is hidden than is felt: it would be a force of its own. As the hand moves away and the model's
-    // force with it, so does what is hidden.
+    // No more is hidden than is felt: it would be a force of its own.
     const double bound = std::max(just_noticeable(settings, modelled), settings.bound * modelled);
-    if (size > bound) {
+    if (size > bound || state_ == FeltState::letting_go) {
         if (state_ != FeltState::letting_go) {
             state_ = FeltState::letting_go;
             begins_to_let_go_ = true;
             letting_go_rate_ = 0.0;
         }
         letting_go_rate_ = std::max(letting_go_rate_, size / settings.let_go_seconds);
-        const double with_modelled = settings.bound * std::max(0.0, modelled_before_ - modelled);
-        return std::max({unnoticed, letting_go_rate_ * in.seconds, with_modelled});
+        return std::max(unnoticed, letting_go_rate_ * in.seconds);
     }
     state_ = FeltState::bridged;
     // Where a model drifts, fading as fast as corrections come changes nothing that can be felt; somewhat
     // faster, so that what has gathered gets less.
-    constexpr double catching_up = 1.2;
+    constexpr double catching_up = 1.5;
     // What the hand's own way changes of the force hides some more, all in all still less than is noticed.
     const double masked = settings.masked * std::abs(modelled_before_ - modelled);
     const double most = nearly_noticed * just_noticeable(settings, felt) * in.seconds / settings.window;
-    return std::max(unnoticed, std::min(unnoticed + masked, most)) + catching_up * drift_.rate() * in.seconds;
+    return std::max(unnoticed, std::min(unnoticed + masked, most)) +
+           catching_up * drift_.rate(settings) * in.seconds;
 }
 
 void FeltPointer::forget() {

@@ -8,7 +8,6 @@
 //     together    -> bridged      the model has changed and `hidden` makes up for it
 //     bridged     -> together     it has faded
 //     bridged     -> letting_go   more is hidden than is felt, or nothing is touched any more
-//     letting_go  -> bridged      what is hidden is within its bound again
 //     letting_go  -> together     it is gone
 //     together    -> carried      a second pointer is carried along with the object
 //     (session/carried_pointer.hpp)
@@ -37,9 +36,9 @@ struct FeltInput {
 class FeltPointer {
 public:
     // The model has changed under the hand: in this tick `modelled` is `after`, and would have been `before`.
-    void hide(const StealthSettings& settings, const Vec3& before, const Vec3& after);
+    void hide(const Vec3& before, const Vec3& after);
     // The same, but only the size of what is felt is kept.
-    void hide_size(const StealthSettings& settings, const Vec3& before, const Vec3& after);
+    void hide_size(const Vec3& before, const Vec3& after);
 
     // One tick: the force on the hand (unit: newtons).
     Vec3 feel(const StealthSettings& settings, const FeltInput& input);
@@ -58,7 +57,7 @@ private:
 
     Vec3 hidden_{0.0};
     FeltState state_ = FeltState::together;
-    DriftRate drift_;               // of what corrections bring (unit: newtons per second)
+    DriftRate drift_;               // of what corrections bring
     double modelled_before_ = 0.0;  // size of the modelled force, one tick ago (unit: newtons)
     double letting_go_rate_ = 0.0;  // (unit: newtons per second)
     double faded_ = 0.0;

@@ -8,8 +8,8 @@ namespace tactus {
 
 namespace {
 
-// Below it friction is held to grow with speed: at rest it takes whatever it is given, which nobody can tell from
-// contact (unit: meters per second).
+// Below it friction is held to grow with speed: at rest it takes whatever it is given, which nobody can tell
+// from contact (unit: meters per second).
 constexpr double creeping = 0.01;
 
 Vec3 shortened(const Vec3& v, double most) {
@@ -34,7 +34,8 @@ Vec3 next_target(const Vec3& before, const Vec3& hand, double speed, const Vec3&
     return before + shortened(reachable - before, speed * seconds);
 }
 
-Vec3 ContactObserver::observe(const RobotBody& body, const Vec3& drive, const Vec3& velocity, double seconds) {
+Vec3 ContactObserver::observe(const RobotBody& body, const Vec3& drive, const Vec3& velocity,
+                              double seconds) {
     const Vec3 momentum = body.mass * velocity;
     if (!begun_) {
         begun_ = true;

@@ -47,21 +47,26 @@ struct StealthSettings {
     double tank = 0.02;  // most energy that touch has taken and hiding may spend (unit: joules), >= 0
 };
 
-// How fast corrections come that are each too small to notice. They come where the model drifts, and the
-// drift takes back what they bring: fading as fast as they come changes nothing that can be felt.
+// How fast corrections come, one after the other. They come where the model drifts, and the drift takes back
+// what they bring: fading as fast as they come changes nothing that can be felt. One large correction is no
+// drift: the largest of those within the window does not count.
 class DriftRate {
 public:
-    // A correction has brought `change`; of that, no more than `unnoticed` counts (unit: newtons).
-    void carried(const StealthSettings& settings, double change, double unnoticed) {
-        rate_ += std::min(change, unnoticed) / settings.window;
+    // A correction has brought `change` (unit: newtons).
+    void carried(double change) {
+        sum_ += change;
+        largest_ = std::max(largest_, change);
     }
     void pass(const StealthSettings& settings, double seconds) {
-        rate_ *= std::exp(-seconds / settings.window);
+        const double left = std::exp(-seconds / settings.window);
+        sum_ *= left;
+        largest_ *= left;
     }
-    double rate() const { return rate_; }  // (unit: newtons per second)
+    // (unit: newtons per second)
+    double rate(const StealthSettings& settings) const { return (sum_ - largest_) / settings.window; }
 
 private:
-    double rate_ = 0.0;
+    double sum_ = 0.0, largest_ = 0.0;  // of what has come, each less by its age (unit: newtons)
 };
 
 // The change of a force of this size that can just be noticed (unit: newtons).

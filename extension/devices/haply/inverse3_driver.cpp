@@ -72,7 +72,8 @@ JsonValue Inverse3Driver::device_in(const JsonValue& state) const {
 bool Inverse3Driver::take(const JsonValue& state, DeviceSample& sample) {
     const JsonValue device = device_in(state);
     Vec3 position, velocity;
-    if (!device["state"]["cursor_position"].vector(position) || !device["state"]["cursor_velocity"].vector(velocity)) {
+    if (!device["state"]["cursor_position"].vector(position) ||
+        !device["state"]["cursor_velocity"].vector(velocity)) {
         return false;
     }
     sample.position = from_device(position - middle);
@@ -101,7 +102,8 @@ void Inverse3Driver::send(const Vec3& force) {
     const Vec3 theirs = to_device(force);
     char text[512];
     std::snprintf(text, sizeof text,
-                  "{\"session\":{},\"inverse3\":[{\"device_id\":\"%.32s\",\"commands\":{\"set_cursor_force\":{\"vector\":"
+                  "{\"session\":{},\"inverse3\":[{\"device_id\":\"%.32s\",\"commands\":{\"set_cursor_force\":"
+                  "{\"vector\":"
                   "{\"x\":%.6f,\"y\":%.6f,\"z\":%.6f},\"execute\":true}}}]}",
                   id_.c_str(), theirs.x, theirs.y, theirs.z);
     socket_.send(text);
@@ -112,7 +114,8 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
     SleepTimer timer;
     for (;;) {
         const Nanoseconds before = monotonic_now();
-        const Nanoseconds wake = sent_ == Vec3(0.0) || forces.end() == 0 ? until : std::min(until, forces.end() + 1);
+        const Nanoseconds wake =
+            sent_ == Vec3(0.0) || forces.end() == 0 ? until : std::min(until, forces.end() + 1);
         const bool came = socket_.receive(text_, std::max<Nanoseconds>(0, wake - before));
         if (socket_.is_gone()) {
             return Exchange::lost;
@@ -154,9 +157,10 @@ DeviceCapabilities Inverse3Driver::capabilities() const {
 }
 
 std::string Inverse3Driver::advice() const {
-    return !is_powered_      ? "the Inverse3 has no power: plug in its supply"
-           : !is_calibrated_ ? "the Inverse3 does not know where it is yet: put its cursor into the calibration dock"
-                             : "";
+    return !is_powered_ ? "the Inverse3 has no power: plug in its supply"
+           : !is_calibrated_
+               ? "the Inverse3 does not know where it is yet: put its cursor into the calibration dock"
+               : "";
 }
 
 }  // namespace tactus

@@ -1,5 +1,5 @@
-// Haply's Inverse3, with or without a VerseGrip, by Haply's service on this machine (version 3.5 and later): JSON over a
-// WebSocket, one message with a force for each that brings a state.
+// Haply's Inverse3, with or without a VerseGrip, by Haply's service on this machine (version 3.5 and later):
+// JSON over a WebSocket, one message with a force for each that brings a state.
 //
 // Threads: see driver.hpp.
 #pragma once
@@ -15,7 +15,8 @@ public:
     static constexpr std::uint16_t usual_port = 10001;
 
     // `id`: the device's own; empty: the first that the service has.
-    explicit Inverse3Driver(std::string id, std::uint16_t port = usual_port) : wanted_(std::move(id)), port_(port) {}
+    explicit Inverse3Driver(std::string id, std::uint16_t port = usual_port)
+        : wanted_(std::move(id)), port_(port) {}
     ~Inverse3Driver() override { close(); }
 
     std::string open(const std::atomic<bool>& stop) override;

@@ -1,5 +1,5 @@
-// JSON as a service speaks it, read by jansson: C, its interface unchanged since version 2.0 of 2011, in every
-// distribution. Loaded when a device needs it.
+// JSON as a service speaks it, read by jansson: C, its interface unchanged since version 2.0 of 2011, in
+// every distribution. Loaded when a device needs it.
 //
 // Threads: one at a time.
 #pragma once
@@ -13,8 +13,8 @@ namespace tactus {
 
 class JsonReader;
 
-// A place in a document that is there for as long as its reader reads nothing else. A place that does not exist has
-// nothing in it.
+// A place in a document that is there for as long as its reader reads nothing else. A place that does not
+// exist has nothing in it.
 class JsonValue {
 public:
     JsonValue operator[](const char* key) const;

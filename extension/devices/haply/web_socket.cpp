@@ -24,7 +24,8 @@ std::string WebSocket::load() {
     if (wslay_.queue != nullptr) {
         return {};
     }
-    if (!library_.load({"libwslay.so.1", "libwslay.dylib", "libwslay.dll"}, "wslay_event_context_client_init")) {
+    if (!library_.load({"libwslay.so.1", "libwslay.dylib", "libwslay.dll"},
+                       "wslay_event_context_client_init")) {
         return "wslay is not installed: install it (Debian: apt-get install libwslay1)";
     }
     const bool all = library_.find("wslay_event_context_client_init", wslay_.init) &&
@@ -59,10 +60,12 @@ std::string WebSocket::open(std::uint16_t port) {
         if (got.state == StreamSocket::State::done) {
             return static_cast<Size>(got.bytes);
         }
-        socket.wslay_.set_error(context, got.state == StreamSocket::State::nothing ? would_block : callback_failed);
+        socket.wslay_.set_error(context,
+                                got.state == StreamSocket::State::nothing ? would_block : callback_failed);
         return -1;
     };
-    callbacks.send = [](Context* context, const std::uint8_t* bytes, std::size_t size, int, void* self) -> Size {
+    callbacks.send = [](Context* context, const std::uint8_t* bytes, std::size_t size, int,
+                        void* self) -> Size {
         WebSocket& socket = *static_cast<WebSocket*>(self);
         if (socket.socket_.send({bytes, size}) == StreamSocket::State::done) {
             return static_cast<Size>(size);
@@ -96,14 +99,16 @@ std::string WebSocket::open(std::uint16_t port) {
     return {};
 }
 
-// RFC 6455, 4.1. The key only shows that the service read the request; to a service of this machine any will do.
+// RFC 6455, 4.1. The key only shows that the service read the request; to a service of this machine any will
+// do.
 std::string WebSocket::shake_hands(std::uint16_t port) {
     if (const std::string why = socket_.connect_here(port); !why.empty()) {
         return "nobody answers at port " + std::to_string(port) + " of this machine: " + why;
     }
-    const std::string request = "GET / HTTP/1.1\r\nHost: localhost:" + std::to_string(port) +
-                                "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                                "Sec-WebSocket-Key: dGFjdHVzLWhhcHRpY3MhIQ==\r\nSec-WebSocket-Version: 13\r\n\r\n";
+    const std::string request =
+        "GET / HTTP/1.1\r\nHost: localhost:" + std::to_string(port) +
+        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: dGFjdHVzLWhhcHRpY3MhIQ==\r\nSec-WebSocket-Version: 13\r\n\r\n";
     const std::string no_web_socket = "port " + std::to_string(port) + " of this machine is no WebSocket's";
     if (socket_.send({reinterpret_cast<const std::uint8_t*>(request.data()), request.size()}) !=
         StreamSocket::State::done) {

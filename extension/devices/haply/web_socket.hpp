@@ -1,6 +1,7 @@
-// The client's end of a WebSocket to a service of this machine. Frames are made and read by wslay, which speaks the
-// protocol and nothing else: no thread, no socket, no wait of its own, and it is in every distribution (aria2 uses it).
-// Loaded when a device needs it; what is used of its interface (1.1) is declared here.
+// The client's end of a WebSocket to a service of this machine. Frames are made and read by wslay, which
+// speaks the protocol and nothing else: no thread, no socket, no wait of its own, and it is in every
+// distribution (aria2 uses it). Loaded when a device needs it; what is used of its interface (1.1) is
+// declared here.
 //
 // Threads: one at a time.
 #pragma once

@@ -27,22 +27,26 @@ std::string ForceDimensionDriver::load() {
     if (dhd_.stop != nullptr) {
         return {};
     }
-    if (!library_.load({"libdrd.so.3", "libdrd.so", "libdhd.so.3", "libdhd.so", "drd64.dll", "dhd64.dll", "libdrd.dylib",
-                        "libdhd.dylib"},
+    if (!library_.load({"libdrd.so.3", "libdrd.so", "libdhd.so.3", "libdhd.so", "drd64.dll", "dhd64.dll",
+                        "libdrd.dylib", "libdhd.dylib"},
                        "dhdGetDeviceCount")) {
-        return "Force Dimension's library is not installed: install its SDK, so that libdrd or libdhd is where the "
+        return "Force Dimension's library is not installed: install its SDK, so that libdrd or libdhd is "
+               "where the "
                "system looks for libraries";
     }
-    const bool all = library_.find("dhdGetDeviceCount", dhd_.device_count) && library_.find("dhdOpenID", dhd_.open_id) &&
-                     library_.find("dhdClose", dhd_.close) && library_.find("dhdGetSystemType", dhd_.system_type) &&
-                     library_.find("dhdGetSystemName", dhd_.system_name) &&
-                     library_.find("dhdEnableForce", dhd_.enable_force) &&
-                     library_.find("dhdGetPosition", dhd_.get_position) &&
-                     library_.find("dhdGetLinearVelocity", dhd_.get_velocity) &&
-                     library_.find("dhdSetForce", dhd_.set_force) && library_.find("dhdGetButtonMask", dhd_.get_buttons) &&
-                     library_.find("dhdSetGravityCompensation", dhd_.set_gravity_compensation) &&
-                     library_.find("dhdErrorGetLastStr", dhd_.last_error) && library_.find("dhdStop", dhd_.stop);
-    return all ? "" : "Force Dimension's library is of a version that lacks what is needed: install SDK 3.9 or later";
+    const bool all =
+        library_.find("dhdGetDeviceCount", dhd_.device_count) && library_.find("dhdOpenID", dhd_.open_id) &&
+        library_.find("dhdClose", dhd_.close) && library_.find("dhdGetSystemType", dhd_.system_type) &&
+        library_.find("dhdGetSystemName", dhd_.system_name) &&
+        library_.find("dhdEnableForce", dhd_.enable_force) &&
+        library_.find("dhdGetPosition", dhd_.get_position) &&
+        library_.find("dhdGetLinearVelocity", dhd_.get_velocity) &&
+        library_.find("dhdSetForce", dhd_.set_force) && library_.find("dhdGetButtonMask", dhd_.get_buttons) &&
+        library_.find("dhdSetGravityCompensation", dhd_.set_gravity_compensation) &&
+        library_.find("dhdErrorGetLastStr", dhd_.last_error) && library_.find("dhdStop", dhd_.stop);
+    return all ? ""
+               : "Force Dimension's library is of a version that lacks what is needed: install SDK 3.9 or "
+                 "later";
 }
 
 std::string ForceDimensionDriver::open(const std::atomic<bool>&) {
@@ -50,8 +54,9 @@ std::string ForceDimensionDriver::open(const std::atomic<bool>&) {
         return problem;
     }
     const int count = dhd_.device_count();
-    std::string problem = wanted_.empty() ? "no device of Force Dimension is plugged in: plug it in, with its power"
-                                          : "the device " + wanted_ + " is not plugged in";
+    std::string problem = wanted_.empty()
+                              ? "no device of Force Dimension is plugged in: plug it in, with its power"
+                              : "the device " + wanted_ + " is not plugged in";
     for (int i = 0; i < count && !is_open_; ++i) {
         if (std::string why = open_one(i); !why.empty()) {
             problem = std::move(why);

@@ -51,21 +51,27 @@ std::string OpenHapticsDriver::load() {
         return "OpenHaptics is not installed: install 3D Systems' OpenHaptics and its device driver";
     }
     const bool all =
-        library_.find("hdInitDevice", hd_.init_device) && library_.find("hdDisableDevice", hd_.disable_device) &&
-        library_.find("hdMakeCurrentDevice", hd_.make_current) && library_.find("hdBeginFrame", hd_.begin_frame) &&
-        library_.find("hdEndFrame", hd_.end_frame) && library_.find("hdEnable", hd_.enable) &&
-        library_.find("hdGetDoublev", hd_.get_doubles) && library_.find("hdGetIntegerv", hd_.get_integers) &&
-        library_.find("hdGetString", hd_.get_string) && library_.find("hdSetDoublev", hd_.set_doubles) &&
-        library_.find("hdStartScheduler", hd_.start_scheduler) && library_.find("hdStopScheduler", hd_.stop_scheduler) &&
-        library_.find("hdScheduleAsynchronous", hd_.schedule) && library_.find("hdUnschedule", hd_.unschedule) &&
+        library_.find("hdInitDevice", hd_.init_device) &&
+        library_.find("hdDisableDevice", hd_.disable_device) &&
+        library_.find("hdMakeCurrentDevice", hd_.make_current) &&
+        library_.find("hdBeginFrame", hd_.begin_frame) && library_.find("hdEndFrame", hd_.end_frame) &&
+        library_.find("hdEnable", hd_.enable) && library_.find("hdGetDoublev", hd_.get_doubles) &&
+        library_.find("hdGetIntegerv", hd_.get_integers) && library_.find("hdGetString", hd_.get_string) &&
+        library_.find("hdSetDoublev", hd_.set_doubles) &&
+        library_.find("hdStartScheduler", hd_.start_scheduler) &&
+        library_.find("hdStopScheduler", hd_.stop_scheduler) &&
+        library_.find("hdScheduleAsynchronous", hd_.schedule) &&
+        library_.find("hdUnschedule", hd_.unschedule) &&
         library_.find("hdCheckCalibration", hd_.check_calibration) &&
-        library_.find("hdUpdateCalibration", hd_.update_calibration) && library_.find("hdGetError", hd_.get_error);
+        library_.find("hdUpdateCalibration", hd_.update_calibration) &&
+        library_.find("hdGetError", hd_.get_error);
     return all ? "" : "the installed OpenHaptics lacks what is needed: install version 3.4 or later";
 }
 
 std::string OpenHapticsDriver::problem_of(const Error& error) const {
-    return "OpenHaptics refuses the device '" + (wanted_.empty() ? std::string("Default Device") : wanted_) + "' (error " +
-           std::to_string(error.code) + "): plug it in, and pair it in the maker's set-up under that name";
+    return "OpenHaptics refuses the device '" + (wanted_.empty() ? std::string("Default Device") : wanted_) +
+           "' (error " + std::to_string(error.code) +
+           "): plug it in, and pair it in the maker's set-up under that name";
 }
 
 std::string OpenHapticsDriver::open(const std::atomic<bool>&) {
@@ -151,7 +157,8 @@ void OpenHapticsDriver::serve_frame() {
     }
     served_.sample.position = millimeters * position;
     served_.sample.velocity = millimeters * velocity;
-    const Mat3 turn(Vec3(transform[0], transform[1], transform[2]), Vec3(transform[4], transform[5], transform[6]),
+    const Mat3 turn(Vec3(transform[0], transform[1], transform[2]),
+                    Vec3(transform[4], transform[5], transform[6]),
                     Vec3(transform[8], transform[9], transform[10]));
     served_.sample.rotation = glm::normalize(glm::quat_cast(turn));
     served_.sample.buttons = static_cast<std::uint32_t>(buttons);
@@ -190,9 +197,10 @@ void OpenHapticsDriver::let_go() {
 }
 
 std::string OpenHapticsDriver::advice() const {
-    return calibration_ == hd_calibration_by_hand ? "the device does not know where it is yet: put its stylus into the "
-                                                    "inkwell until its light stays on"
-                                                  : "";
+    return calibration_ == hd_calibration_by_hand
+               ? "the device does not know where it is yet: put its stylus into the "
+                 "inkwell until its light stays on"
+               : "";
 }
 
 }  // namespace tactus

@@ -1,7 +1,7 @@
 // 3D Systems' Touch and Touch X (once SensAble's Phantom), by OpenHaptics' HDAPI.
 //
-// Threads: see driver.hpp. The library ticks by itself: what may be asked and said within its frame is only copied there,
-// by serve(), on its own thread, which is the one that looks at the forces.
+// Threads: see driver.hpp. The library ticks by itself: what may be asked and said within its frame is only
+// copied there, by serve(), on its own thread, which is the one that looks at the forces.
 #pragma once
 
 #include "devices/driver.hpp"
@@ -68,10 +68,10 @@ private:
     unsigned long task_ = 0;
     DeviceCapabilities capabilities_;
     TripleBuffer<Frame> frames_;
-    Frame served_;                            // the scheduler's thread
+    Frame served_;  // the scheduler's thread
     std::atomic<ForceSlot*> forces_{nullptr};
-    std::atomic<unsigned> fault_{0};          // that a frame has met
-    unsigned calibration_ = 0;                // I/O thread
+    std::atomic<unsigned> fault_{0};  // that a frame has met
+    unsigned calibration_ = 0;        // I/O thread
 };
 
 }  // namespace tactus

@@ -32,17 +32,21 @@ TEST(DriftRate, ComesToTheRateOfManySmallCorrections) {
     for (int tick = 0; tick < 2000; ++tick) {
         drift.pass(settings, 0.001);
         if (tick % 5 == 0) {
-            drift.carried(settings, 0.02, 1.0);
+            drift.carried(0.02);
         }
     }
-    EXPECT_NEAR(drift.rate(), 4.0, 0.4);
+    EXPECT_NEAR(drift.rate(settings), 4.0, 0.4);
 }
 
-TEST(DriftRate, OneLargeCorrectionCountsNoMoreThanASmallOne) {
+TEST(DriftRate, OneLargeCorrectionIsNoDrift) {
     const StealthSettings settings;
     DriftRate drift;
-    drift.carried(settings, 2.0, 0.05);
-    EXPECT_DOUBLE_EQ(drift.rate(), 0.05 / settings.window);
+    drift.carried(2.0);
+    EXPECT_EQ(drift.rate(settings), 0.0);
+    drift.carried(0.05);
+    EXPECT_NEAR(drift.rate(settings), 0.05 / settings.window, 1e-12);
+    drift.pass(settings, 5.0 * settings.window);
+    EXPECT_LT(drift.rate(settings), 0.01 * 0.05 / settings.window);
 }
 
 }  // namespace

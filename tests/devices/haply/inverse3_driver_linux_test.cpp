@@ -83,12 +83,13 @@ bool is_supported() {
     RuntimeLibrary wslay;
     return json.load().empty() && wslay.load({"libwslay.so.1"}, "wslay_event_recv");
 }
-#define NEEDS_LIBRARIES()                                         \
-    if (!is_supported()) {                                        \
-        GTEST_SKIP() << "libwslay1 and libjansson4 are needed";   \
+#define NEEDS_LIBRARIES()                                       \
+    if (!is_supported()) {                                      \
+        GTEST_SKIP() << "libwslay1 and libjansson4 are needed"; \
     }
 
-bool tick_until(DriverDevice& device, const Vec3& force, const std::function<bool(const DeviceSample&)>& done) {
+bool tick_until(DriverDevice& device, const Vec3& force,
+                const std::function<bool(const DeviceSample&)>& done) {
     SleepTimer timer;
     for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end;) {
         const Nanoseconds now = monotonic_now();
@@ -123,7 +124,8 @@ TEST(Inverse3, PlacesTurnsButtonsAndForcesAreInOurAxes) {
     NEEDS_LIBRARIES();
     Service service;
     const auto device = inverse3(service);
-    ASSERT_TRUE(tick_until(*device, {1.0, 2.0, 3.0}, [&](const auto&) { return service.force() == "1.0 -3.0 2.0"; }));
+    ASSERT_TRUE(
+        tick_until(*device, {1.0, 2.0, 3.0}, [&](const auto&) { return service.force() == "1.0 -3.0 2.0"; }));
     const DeviceSample sample = device->read(0);
     EXPECT_LT(glm::distance(sample.position, Vec3(0.01, 0.03, -0.02)), 1e-9);
     EXPECT_LT(glm::distance(sample.velocity, Vec3(0.1, 0.3, -0.2)), 1e-9);
@@ -137,8 +139,10 @@ TEST(Inverse3, AStalledLoopLetsTheHandGo) {
     NEEDS_LIBRARIES();
     Service service;
     const auto device = inverse3(service);
-    ASSERT_TRUE(tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
-    EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0" || service.force() == "0.0 -0.0 0.0"; }));
+    ASSERT_TRUE(
+        tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+    EXPECT_TRUE(
+        wait_until([&] { return service.force() == "0.0 0.0 0.0" || service.force() == "0.0 -0.0 0.0"; }));
 }
 
 TEST(Inverse3, ConnectsAnewWhenTheServiceHasClosed) {

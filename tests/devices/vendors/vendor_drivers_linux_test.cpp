@@ -1,4 +1,5 @@
-// Drivers by vendors' libraries, against stand-ins with the same C symbols. Time is real; nobody looks at how much.
+// Drivers by vendors' libraries, against stand-ins with the same C symbols. Time is real; nobody looks at how
+// much.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -29,7 +30,8 @@ stand_ins::OpenHaptics& hd() {
     return stand_in<stand_ins::OpenHaptics>({"libHD.so"}, "stand_in_openhaptics");
 }
 
-bool tick_until(DriverDevice& device, const Vec3& force, const std::function<bool(const DeviceSample&)>& done) {
+bool tick_until(DriverDevice& device, const Vec3& force,
+                const std::function<bool(const DeviceSample&)>& done) {
     SleepTimer timer;
     for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end;) {
         const Nanoseconds now = monotonic_now();
@@ -78,18 +80,21 @@ TEST(ForceDimension, PlacesAndForcesAreInOurAxes) {
 
 TEST(ForceDimension, AStalledLoopLetsTheHandGo) {
     DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
-    ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
     EXPECT_TRUE(wait_until([] { return values_of(dhd().force) == Vec3(0.0); }));
     EXPECT_FALSE(dhd().braked);
 }
 
 TEST(ForceDimension, ALibraryThatHangsIsStoppedByTheWatchdog) {
     DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
-    ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
     dhd().hangs = true;
     EXPECT_TRUE(wait_until([] { return dhd().braked && values_of(dhd().force) == Vec3(0.0); }));
     dhd().hangs = false;
-    EXPECT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    EXPECT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
     EXPECT_GE(device.health().let_go, 1u);
 }
 
@@ -130,17 +135,20 @@ TEST(OpenHaptics, PlacesTurnsAndForcesComeThroughItsFrames) {
 
 TEST(OpenHaptics, AStalledLoopLetsTheHandGo) {
     DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
-    ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
     EXPECT_TRUE(wait_until([] { return values_of(hd().force) == Vec3(0.0); }));
 }
 
 TEST(OpenHaptics, AServoThreadThatHangsIsStoppedByTheWatchdog) {
     DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
-    ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
     hd().hangs = true;
     EXPECT_TRUE(wait_until([] { return values_of(hd().force) == Vec3(0.0); }));
     hd().hangs = false;
-    EXPECT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    EXPECT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
 }
 
 TEST(OpenHaptics, SaysThatItsStylusBelongsIntoTheInkwell) {

@@ -1,4 +1,4 @@
-#include "devices/mouse_device.hpp"
+#include "devices/following_device.hpp"
 
 #include <cmath>
 
@@ -11,11 +11,11 @@ Follower follow(const Follower& from, const Vec3& target, double rate, double se
     return {target + decay * (offset + seconds * c), decay * (from.velocity - rate * seconds * c)};
 }
 
-MouseDevice::MouseDevice(const Settings& settings)
-    : rate_(settings.rate), targets_(MouseTarget{settings.rest, 0}), hand_{settings.rest, Vec3(0.0)} {}
+FollowingDevice::FollowingDevice(const Settings& settings)
+    : rate_(settings.rate), targets_(HandTarget{settings.rest, 0}), hand_{settings.rest, Vec3(0.0)} {}
 
 // The target of the time since the last tick is the one known then: what has just come in counts from now on.
-DeviceSample MouseDevice::read(Nanoseconds now) {
+DeviceSample FollowingDevice::read(Nanoseconds now) {
     if (started_) {
         hand_ = follow(hand_, targets_.front().position, rate_, to_seconds(now - previous_));
     }

@@ -1,4 +1,4 @@
-#include "devices/mouse_device.hpp"
+#include "devices/following_device.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +15,15 @@ namespace {
 constexpr Nanoseconds ms = 1'000'000;
 
 // A second of ticks with a new target every 16 ms.
-std::vector<DeviceSample> a_second_of_wild_mouse(MouseDevice& mouse) {
+std::vector<DeviceSample> a_second_of_wild_targets(FollowingDevice& hand) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> place(-0.1, 0.1);
     std::vector<DeviceSample> samples;
     for (Nanoseconds t = 0; t < 1000 * ms; t += ms) {
         if (t % (16 * ms) == 0) {
-            mouse.aim({{place(random), place(random), place(random)}, 0});
+            hand.aim({{place(random), place(random), place(random)}, 0});
         }
-        samples.push_back(mouse.read(t));
+        samples.push_back(hand.read(t));
     }
     return samples;
 }
@@ -51,44 +51,44 @@ TEST(Follower, ObeysItsEquation) {
     EXPECT_LE(glm::length(acceleration - expected), 1e-2 * glm::length(expected));
 }
 
-TEST(MouseDevice, RestsWhereItWasPutUntilItIsAimed) {
-    MouseDevice mouse({.rest = {0.1, 0.2, 0.3}});
+TEST(FollowingDevice, RestsWhereItWasPutUntilItIsAimed) {
+    FollowingDevice hand({.rest = {0.1, 0.2, 0.3}});
     for (Nanoseconds t = 0; t < 10 * ms; t += ms) {
-        const DeviceSample sample = mouse.read(t);
+        const DeviceSample sample = hand.read(t);
         EXPECT_EQ(sample.position, Vec3(0.1, 0.2, 0.3));
         EXPECT_EQ(sample.velocity, Vec3(0.0));
         EXPECT_TRUE(sample.connected);
     }
 }
 
-TEST(MouseDevice, ReachesTheTargetWithoutOvershootAndHoldsThere) {
-    MouseDevice mouse({});
-    mouse.aim({{0.1, 0.0, 0.0}, 0});
+TEST(FollowingDevice, ReachesTheTargetWithoutOvershootAndHoldsThere) {
+    FollowingDevice hand({});
+    hand.aim({{0.1, 0.0, 0.0}, 0});
     double before = -1.0;
     for (Nanoseconds t = 0; t < 500 * ms; t += ms) {
-        const double x = mouse.read(t).position.x;
+        const double x = hand.read(t).position.x;
         EXPECT_GE(x, before);
         EXPECT_LE(x, 0.1);
         before = x;
     }
-    const DeviceSample end = mouse.read(2000 * ms);
+    const DeviceSample end = hand.read(2000 * ms);
     EXPECT_NEAR(end.position.x, 0.1, 1e-12);
     EXPECT_NEAR(end.velocity.x, 0.0, 1e-9);
 }
 
-TEST(MouseDevice, NineTenthsOfAJumpTakeWhatTheRateSays) {
-    MouseDevice mouse({.rate = 80.0});
-    mouse.aim({{1.0, 0.0, 0.0}, 0});
-    mouse.read(0);
-    EXPECT_NEAR(mouse.read(from_seconds(3.8897 / 80.0)).position.x, 0.9, 1e-4);
+TEST(FollowingDevice, NineTenthsOfAJumpTakeWhatTheRateSays) {
+    FollowingDevice hand({.rate = 80.0});
+    hand.aim({{1.0, 0.0, 0.0}, 0});
+    hand.read(0);
+    EXPECT_NEAR(hand.read(from_seconds(3.8897 / 80.0)).position.x, 0.9, 1e-4);
 }
 
 // Trapezoids of the velocity against the way gone: the force law's damping must see the motion that the proxy
 // sees.
-TEST(MouseDevice, TheVelocityBelongsToThePosition) {
+TEST(FollowingDevice, TheVelocityBelongsToThePosition) {
     constexpr double largest_error = 2.0 * 0.35 * 80.0 * 80.0 * 80.0 * 1e-9 / 12.0;  // (unit: meters)
-    MouseDevice mouse({});
-    const std::vector<DeviceSample> samples = a_second_of_wild_mouse(mouse);
+    FollowingDevice hand({});
+    const std::vector<DeviceSample> samples = a_second_of_wild_targets(hand);
     for (std::size_t i = 1; i < samples.size(); ++i) {
         const Vec3 gone = samples[i].position - samples[i - 1].position;
         const Vec3 by_velocity = 0.5e-3 * (samples[i].velocity + samples[i - 1].velocity);
@@ -96,9 +96,9 @@ TEST(MouseDevice, TheVelocityBelongsToThePosition) {
     }
 }
 
-TEST(MouseDevice, JumpsOfTheMouseAreNoJumpsOfTheHand) {
-    MouseDevice mouse({});
-    const std::vector<DeviceSample> samples = a_second_of_wild_mouse(mouse);
+TEST(FollowingDevice, JumpsOfTheTargetAreNoJumpsOfTheHand) {
+    FollowingDevice hand({});
+    const std::vector<DeviceSample> samples = a_second_of_wild_targets(hand);
     constexpr double largest_jump = 0.35;  // across the cube of targets (unit: meters)
     for (std::size_t i = 1; i < samples.size(); ++i) {
         EXPECT_LE(glm::length(samples[i].position - samples[i - 1].position),
@@ -106,32 +106,32 @@ TEST(MouseDevice, JumpsOfTheMouseAreNoJumpsOfTheHand) {
     }
 }
 
-TEST(MouseDevice, TheSameTargetsAtTheSameTicksAreTheSameHandToTheLastBit) {
-    MouseDevice one({});
-    MouseDevice other({});
-    const auto a = a_second_of_wild_mouse(one);
-    const auto b = a_second_of_wild_mouse(other);
+TEST(FollowingDevice, TheSameTargetsAtTheSameTicksAreTheSameHandToTheLastBit) {
+    FollowingDevice one({});
+    FollowingDevice other({});
+    const auto a = a_second_of_wild_targets(one);
+    const auto b = a_second_of_wild_targets(other);
     for (std::size_t i = 0; i < a.size(); ++i) {
         ASSERT_EQ(a[i].position, b[i].position);
         ASSERT_EQ(a[i].velocity, b[i].velocity);
     }
 }
 
-TEST(MouseDevice, ButtonsAreThereAtTheNextTick) {
-    MouseDevice mouse({});
-    mouse.aim({Vec3(0.0), 5});
-    EXPECT_EQ(mouse.read(0).buttons, 5u);
-    mouse.aim({Vec3(0.0), 0});
-    EXPECT_EQ(mouse.read(ms).buttons, 0u);
+TEST(FollowingDevice, ButtonsAreThereAtTheNextTick) {
+    FollowingDevice hand({});
+    hand.aim({Vec3(0.0), 5});
+    EXPECT_EQ(hand.read(0).buttons, 5u);
+    hand.aim({Vec3(0.0), 0});
+    EXPECT_EQ(hand.read(ms).buttons, 0u);
 }
 
-TEST(MouseDevice, ReadingNeitherAllocatesNorLocks) {
-    MouseDevice mouse({});
+TEST(FollowingDevice, ReadingNeitherAllocatesNorLocks) {
+    FollowingDevice hand({});
     testing::AuditScope audit;
     for (Nanoseconds t = 0; t < 50 * ms; t += ms) {
-        mouse.aim({Vec3(0.01), 1});
-        mouse.read(t);
-        mouse.write(t, Vec3(0.0));
+        hand.aim({Vec3(0.01), 1});
+        hand.read(t);
+        hand.write(t, Vec3(0.0));
     }
     audit.finish();
     EXPECT_EQ(audit.allocations() + audit.locks() + audit.system_calls(), 0u) << audit.describe();

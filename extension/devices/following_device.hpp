@@ -1,6 +1,7 @@
-// The mouse as a hand. It speaks up a hundred times a second at best and in jumps; the loop needs a smooth
-// position and its true velocity a thousand times a second: the hand follows the mouse like a critically
-// damped spring, as fast as it can without ever overshooting a target at rest.
+// A hand that is told where to be: by the mouse, keys, a gamepad, a node of the scene. They speak up a
+// hundred times a second at best and in jumps; the loop needs a smooth position and its true velocity a
+// thousand times a second: the hand follows its target like a critically damped spring, as fast as it can
+// without ever overshooting a target at rest.
 //
 // Threads: aim() belongs to the Godot side, read() and write() to the haptic thread.
 #pragma once
@@ -10,8 +11,8 @@
 
 namespace tactus {
 
-struct MouseTarget {
-    Vec3 position{0.0};         // where the mouse wants the hand, in the device's own frame (unit: meters)
+struct HandTarget {
+    Vec3 position{0.0};         // where the hand is wanted, in the device's own frame (unit: meters)
     std::uint32_t buttons = 0;  // bit i: button i is held
 };
 
@@ -25,24 +26,24 @@ struct Follower {
 };
 Follower follow(const Follower& from, const Vec3& target, double rate, double seconds);
 
-class MouseDevice final : public Device {
+class FollowingDevice final : public Device {
 public:
     struct Settings {
         Vec3 rest{0.0};      // where the hand waits for the first target (unit: meters)
         double rate = 80.0;  // ω (unit: 1/s), > 0: nine tenths of a jump are made up in 3.9/ω, 49 ms
     };
 
-    explicit MouseDevice(const Settings& settings);
+    explicit FollowingDevice(const Settings& settings);
 
     // The newest target wins; the hand holds still at it until there is another.
-    void aim(const MouseTarget& target) { targets_.publish(target); }
+    void aim(const HandTarget& target) { targets_.publish(target); }
 
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds, const Vec3&) override {}
 
 private:
     double rate_;
-    TripleBuffer<MouseTarget> targets_;
+    TripleBuffer<HandTarget> targets_;
     Follower hand_;
     Nanoseconds previous_ = 0;
     bool started_ = false;

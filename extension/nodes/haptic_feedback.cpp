@@ -1,0 +1,203 @@
+#include "nodes/haptic_feedback.hpp"
+
+#include <algorithm>
+#include <godot_cpp/classes/audio_stream_generator.hpp>
+#include <godot_cpp/classes/audio_stream_generator_playback.hpp>
+#include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/input.hpp>
+#include <godot_cpp/classes/xr_controller3d.hpp>
+
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/proxy_pointer.hpp"
+#include "nodes/roll.hpp"
+#include "nodes/scene_warnings.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+// Eight times the highest tap that is heard, and no more.
+constexpr float sound_rate = 22050.0f;
+
+// Two frames of a slow picture are in it; what is heard is that late (unit: seconds).
+constexpr float sound_buffer = 0.1f;
+
+// A second of ticks: after a longer pause what came first is no news.
+constexpr std::size_t ring_capacity = 1024;
+
+// Longer than a frame, so that the motor does not stop between two; short enough not to go on by itself
+// (unit: seconds).
+constexpr double pulse_seconds = 0.1;
+
+constexpr Nanoseconds longest_tick = 10'000'000;
+
+}  // namespace
+
+HapticFeedback::HapticFeedback()
+    : ring_(std::make_shared<Ring>(ring_capacity)), voice_(static_cast<double>(sound_rate)) {}
+
+const ProxyPointer* HapticFeedback::proxy_node() const {
+    if (!is_inside_tree()) {
+        return nullptr;
+    }
+    if (!proxy_.is_empty()) {
+        return Object::cast_to<ProxyPointer>(get_node_or_null(proxy_));
+    }
+    for (const Node* above = get_parent(); above != nullptr; above = above->get_parent()) {
+        if (const auto* proxy = Object::cast_to<ProxyPointer>(above)) {
+            return proxy;
+        }
+    }
+    for (const ProxyPointer* proxy : Roll<ProxyPointer>::all()) {
+        if (HapticWorld::above(proxy) == HapticWorld::above(this)) {
+            return proxy;
+        }
+    }
+    return nullptr;
+}
+
+String HapticFeedback::problem() const {
+    if (proxy_node() != nullptr) {
+        return String();
+    }
+    return proxy_.is_empty()
+               ? String("there is no ProxyPointer in its world: add one")
+               : "its proxy '" + String(proxy_) +
+                     "' is not a ProxyPointer of the scene: set 'proxy' anew, or leave it empty";
+}
+
+String HapticFeedback::get_state_text() const {
+    if (const String wrong = problem(); !wrong.is_empty()) {
+        return wrong;
+    }
+    if (!is_wanted()) {
+        return "both 'vibration' and 'sound' are off";
+    }
+    const bool has_motor = Object::cast_to<XRController3D>(get_node_or_null(controller_)) != nullptr ||
+                           Input::get_singleton()->get_connected_joypads().has(gamepad_);
+    return vibration_ && !has_motor ? "working; no gamepad or controller is there to vibrate" : "working";
+}
+
+PackedStringArray HapticFeedback::_get_configuration_warnings() const {
+    PackedStringArray warnings;
+    if (is_inside_tree()) {
+        for (const String& wrong : {problem(), problem_without_world(*this)}) {
+            if (!wrong.is_empty()) {
+                warnings.push_back("This HapticFeedback is silent: " + wrong + ".");
+            }
+        }
+    }
+    return warnings;
+}
+
+Vector2 HapticFeedback::get_motor_levels() const {
+    return {static_cast<real_t>(levels_.heavy), static_cast<real_t>(levels_.light)};
+}
+
+void HapticFeedback::hear(const SessionRecord& tick) {
+    const double seconds = to_seconds(std::clamp(tick.time - heard_, Nanoseconds{1}, longest_tick));
+    heard_ = tick.time;
+    const bool touches = (tick.proxy_status & proxy_touching) != 0;
+    const TouchSample sample{tick.force, touches ? glm::distance(tick.hand, tick.proxy_position) : 0.0};
+    const double vibration = touch_.next(sample, seconds);
+    meter_.add(vibration, tick.force, seconds);
+    if (sound_) {
+        voice_.append(vibration, touch_.tap(), seconds, 1.0 / motors_.full_force, samples_);
+    }
+}
+
+void HapticFeedback::drive_motors(const MotorLevels& levels) {
+    const bool was_still = levels_.heavy == 0.0 && levels_.light == 0.0;
+    levels_ = levels;
+    if (was_still && levels.heavy == 0.0 && levels.light == 0.0) {
+        return;
+    }
+    const auto heavy = static_cast<float>(levels.heavy);
+    const auto light = static_cast<float>(levels.light);
+    if (auto* controller = Object::cast_to<XRController3D>(get_node_or_null(controller_))) {
+        controller->trigger_haptic_pulse("haptic", 0.0, std::max(levels.heavy, levels.light), pulse_seconds,
+                                         0.0);
+    } else if (heavy > 0.0f || light > 0.0f) {
+        Input::get_singleton()->start_joy_vibration(gamepad_, light, heavy, pulse_seconds);
+    } else {
+        Input::get_singleton()->stop_joy_vibration(gamepad_);
+    }
+}
+
+// What finds no room is late already.
+void HapticFeedback::push_sound() {
+    if (samples_.empty() || !sound_) {
+        samples_.clear();
+        return;
+    }
+    if (player_ == nullptr) {
+        Ref<AudioStreamGenerator> stream;
+        stream.instantiate();
+        stream->set_mix_rate(sound_rate);
+        stream->set_buffer_length(sound_buffer);
+        player_ = memnew(AudioStreamPlayer3D);
+        player_->set_stream(stream);
+        player_->set_as_top_level(true);
+        add_child(player_, false, INTERNAL_MODE_BACK);
+        player_->play();
+    }
+    if (const ProxyPointer* proxy = proxy_node()) {
+        player_->set_global_position(proxy->get_global_position());
+    }
+    player_->set_volume_db(static_cast<float>(volume_db_));
+    const Ref<AudioStreamPlayback> playing = player_->get_stream_playback();
+    if (auto* playback = Object::cast_to<AudioStreamGeneratorPlayback>(playing.ptr())) {
+        const auto room = static_cast<std::size_t>(std::max<int64_t>(0, playback->get_frames_available()));
+        PackedVector2Array frames;
+        frames.resize(static_cast<int64_t>(std::min(room, samples_.size())));
+        for (int64_t i = 0; i < frames.size(); ++i) {
+            const real_t sample = samples_[static_cast<std::size_t>(i)];
+            frames[i] = Vector2(sample, sample);
+        }
+        playback->push_buffer(frames);
+    }
+    samples_.clear();
+}
+
+void HapticFeedback::play() {
+    ring_->drain([this](const SessionRecord& tick) { hear(tick); });
+    drive_motors(vibration_ ? meter_.take(motors_) : MotorLevels{});
+    push_sound();
+}
+
+void HapticFeedback::fall_silent() {
+    drive_motors({});
+    if (player_ != nullptr) {
+        player_->queue_free();
+        player_ = nullptr;
+    }
+    touch_ = {};
+    meter_ = {};
+    samples_.clear();
+}
+
+void HapticFeedback::_notification(int what) {
+    if (what == NOTIFICATION_ENTER_TREE) {
+        watch_warnings(*this);
+    }
+    if (Engine::get_singleton()->is_editor_hint()) {
+        return;
+    }
+    if (what == NOTIFICATION_ENTER_TREE) {
+        Roll<HapticFeedback>::enter(this);
+        set_process_internal(true);
+    } else if (what == NOTIFICATION_EXIT_TREE) {
+        Roll<HapticFeedback>::leave(this);
+        fall_silent();
+        ring_ =
+            std::make_shared<Ring>(ring_capacity);  // the old one is the world's until its loop has let go
+    } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
+        play();
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <godot_cpp/classes/audio_stream_player3d.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/variant/node_path.hpp>
+#include <memory>
+#include <vector>
+
+#include "core/feedback/touch_sound.hpp"
+#include "core/feedback/touch_vibration.hpp"
+#include "nodes/properties.hpp"
+#include "realtime/recorder_ring.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+class ProxyPointer;
+
+// What a hand without motors is given instead of a force: vibration and sound of what its proxy touches. The
+// loop puts every tick into a ring; each frame what is there drives a motor and a loudspeaker.
+class HapticFeedback : public godot::Node3D {
+    GDCLASS(HapticFeedback, godot::Node3D)
+
+public:
+    HapticFeedback();
+
+    TACTUS_PROPERTIES(HapticFeedback)
+
+    godot::Vector2 get_motor_levels() const;
+    godot::String get_state_text() const;
+
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // --- for the world that runs it
+
+    using Ring = RecorderRing<SessionRecord>;
+    // The loop may still be writing into it when the node has left.
+    const std::shared_ptr<Ring>& ring() const { return ring_; }
+    // The one that 'proxy' names; where that is empty, the one above, or the first of its world.
+    const ProxyPointer* proxy_node() const;
+    godot::String problem() const;  // empty where there is none
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+
+private:
+    bool is_wanted() const { return vibration_ || sound_; }
+    void play();
+    void hear(const SessionRecord& tick);
+    void drive_motors(const MotorLevels& levels);
+    void push_sound();
+    void fall_silent();
+
+    godot::NodePath proxy_;
+    bool vibration_ = true;
+    bool sound_ = true;
+    int gamepad_ = 0;
+    godot::NodePath controller_;
+    MotorSettings motors_;
+    double volume_db_ = 0.0;
+
+    std::shared_ptr<Ring> ring_;
+    Nanoseconds heard_ = 0;  // time of the last tick
+    TouchVibration touch_;
+    MotorMeter meter_;
+    MotorLevels levels_;
+    TouchSound voice_;
+    std::vector<float> samples_;
+    godot::AudioStreamPlayer3D* player_ = nullptr;  // made when there is something to hear
+};
+
+}  // namespace tactus

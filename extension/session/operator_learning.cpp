@@ -1,0 +1,116 @@
+// What the motion of the far side's bodies teaches about their mass and friction.
+//
+// A body that touches another one that moves teaches nothing by itself: what it gets from there belongs to
+// both. Bodies that touch each other are one: what they do to each other leaves their common momentum as it
+// is, so that the mean of their motions, weighted by mass, is that of one body that only hands and what
+// stands still act on. What it teaches holds for each of them.
+#include <algorithm>
+
+#include "session/operator_side.hpp"
+
+namespace tactus {
+
+void OperatorSide::learn(SessionLoop& loop) {
+    if (!(settings().estimate.gain > 0.0)) {
+        return;
+    }
+    gather_pupils(loop);
+    for (std::size_t i = 0; i < pupils_.size(); ++i) {
+        if (pupils_[i].group == i) {
+            teach(loop, i);
+        }
+    }
+}
+
+void OperatorSide::gather_pupils(SessionLoop& loop) {
+    pupils_.clear();
+    for (std::uint32_t place = 0; place < truths_.places(); ++place) {
+        const SessionHandle body = truths_.body_at(place);
+        const SessionLoop::Body* const known = body == no_handle ? nullptr : loop.body(body);
+        if (!known || known->motion != Motion::Dynamic || loop.asleep(body)) {
+            continue;
+        }
+        Pupil pupil{body, place, pupils_.size(), loop.mass(body), false, no_sample, no_sample, {}};
+        pupil.has_lesson = truths_.of(body).fresh && lesson_for(loop, body, pupil.lesson);
+        pupil.from = truths_.of(body).sample_before;
+        pupil.to = truths_.of(body).sample;
+        pupils_.push_back(pupil);
+    }
+    for (std::size_t i = 0; i < pupils_.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (!loop.touching(pupils_[i].body, pupils_[j].body)) {
+                continue;
+            }
+            alone_since_[pupils_[i].place] = alone_since_[pupils_[j].place] = sample_;
+            const auto [first, second] = std::minmax(pupils_[i].group, pupils_[j].group);
+            for (Pupil& pupil : pupils_) {
+                pupil.group = pupil.group == second ? first : pupil.group;
+            }
+        }
+    }
+}
+
+// From one truth of a body to the next, the model's has come from nearly the same state.
+bool OperatorSide::lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const {
+    const Truth& truth = truths_.of(body);
+    const std::uint32_t place = truths_.place_of(body);
+    const BodyMotion* const start = past_.motion(place, truth.sample_before);
+    const BodyMotion* const end = past_.motion(place, truth.sample);
+    if (!start || !end || truth.sample <= truth.sample_before ||
+        truth.sample - truth.sample_before >= past_.samples()) {
+        return false;
+    }
+    const bool from_truth = resimulator_.goes_on_from(body) == truth.sample_before;
+    lesson.truth_before = truth.before.linear_velocity;
+    lesson.truth = truth.motion.linear_velocity;
+    lesson.model_before = from_truth ? truth.before.linear_velocity : start->linear_velocity;
+    lesson.model = end->linear_velocity;
+    lesson.pushed = past_.pushed(place, truth.sample_before, truth.sample);
+    lesson.seconds = static_cast<double>(truth.sample - truth.sample_before) * seconds_;
+    lesson.fell = loop.gravity() * lesson.seconds;
+    return true;
+}
+
+// Nothing where somebody of the group has not been heard of, or where a body alone was in a group within the
+// time that its lesson is about.
+void OperatorSide::teach(SessionLoop& loop, std::size_t group) {
+    MotionLesson common;
+    double mass = 0.0;
+    std::size_t count = 0;
+    for (const Pupil& pupil : pupils_) {
+        if (pupil.group != group) {
+            continue;
+        }
+        if (!pupil.has_lesson || pupil.from != pupils_[group].from || pupil.to != pupils_[group].to) {
+            return;
+        }
+        const MotionLesson& own = pupil.lesson;
+        ++count;
+        mass += pupil.mass;
+        common.truth_before += pupil.mass * own.truth_before;
+        common.truth += pupil.mass * own.truth;
+        common.model_before += pupil.mass * own.model_before;
+        common.model += pupil.mass * own.model;
+        common.pushed += pupil.mass * own.pushed;
+        common.fell = own.fell;
+        common.seconds = own.seconds;
+    }
+    if (!(mass > 0.0) || (count == 1 && pupils_[group].from < alone_since_[pupils_[group].place])) {
+        return;
+    }
+    for (Vec3* const v :
+         {&common.truth_before, &common.truth, &common.model_before, &common.model, &common.pushed}) {
+        *v /= mass;
+    }
+    for (const Pupil& pupil : pupils_) {
+        if (pupil.group == group) {
+            ParameterEstimate& estimate = estimates_[pupil.place];
+            estimate.learn(settings().estimate, count == 1 ? pupil.lesson : common);
+            const BodyFactors factors{estimate.mass_factor(), estimate.friction_factor()};
+            loop.set_factors(pupil.body, factors);
+            resimulator_.twin()->set_factors(pupil.body, factors);
+        }
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,228 @@
+extends "nodes_case.gd"
+## Hands that have no device of their own: keys, a gamepad, a node of the scene.
+
+
+func _device(world: HapticWorld, driver: HapticDevice.Driver) -> HapticDevice:
+	var device := HapticDevice.new()
+	device.name = "Device"
+	device.driver = driver
+	world.add_child(device)
+	return device
+
+
+func _key(code: Key, pressed: bool) -> void:
+	var event := InputEventKey.new()
+	event.physical_keycode = code
+	event.keycode = code
+	event.pressed = pressed
+	Input.parse_input_event(event)
+	Input.flush_buffered_events()
+
+
+func _stick(axis: JoyAxis, value: float) -> void:
+	var event := InputEventJoypadMotion.new()
+	event.axis = axis
+	event.axis_value = value
+	Input.parse_input_event(event)
+	Input.flush_buffered_events()
+
+
+## The hand is led frame by frame, the ticks are the test's.
+func _play(world: HapticWorld, count: int) -> void:
+	for _i in count:
+		await frames(1)
+		world.advance(0.01)
+
+
+func test_keys_move_the_hand_as_the_camera_sees_it() -> void:
+	var world := add_world()
+	var camera := Camera3D.new()
+	camera.rotation_degrees = Vector3(0, 90, 0)
+	world.add_child(camera)
+	camera.make_current()
+	var device := _device(world, HapticDevice.DRIVER_KEYBOARD)
+	device.steering_speed = 1.0
+	device.steering_reach = 0.1
+	await _play(world, 2)
+	check_near(device.get_hand_position(), Vector3.ZERO, 1e-9, "before a key is pressed")
+	_key(KEY_RIGHT, true)
+	await _play(world, 60)
+	_key(KEY_RIGHT, false)
+	# The camera looks along -x: right is -z. At the end of its reach it goes no farther.
+	check_near(device.get_hand_position(), Vector3(0, 0, -0.1), 1e-4, "to the right")
+	await _play(world, 10)
+	check_near(device.get_hand_position(), Vector3(0, 0, -0.1), 1e-4, "let go")
+	_key(KEY_SPACE, true)
+	await _play(world, 2)
+	check_equal(device.get_buttons(), 1, "space")
+	_key(KEY_SPACE, false)
+
+
+func test_a_stick_is_a_place_where_that_is_asked_for() -> void:
+	expect_error("no gamepad is connected")
+	var world := add_world()
+	var device := _device(world, HapticDevice.DRIVER_GAMEPAD)
+	device.steering = HapticDevice.STEERING_POSITION
+	device.steering_reach = 0.3
+	device.steering_dead_zone = 0.0
+	await _play(world, 2)
+	_stick(JOY_AXIS_LEFT_Y, -0.5)
+	await _play(world, 60)
+	check_near(device.get_hand_position(), Vector3(0, 0.15, 0), 1e-4, "half way up")
+	_stick(JOY_AXIS_LEFT_Y, 0.0)
+	await _play(world, 60)
+	check_near(device.get_hand_position(), Vector3.ZERO, 1e-4, "let go")
+
+
+func test_a_node_of_the_scene_leads_the_hand() -> void:
+	var world := add_world()
+	add_floor(world)
+	var leader := Node3D.new()
+	leader.name = "Leader"
+	leader.position = Vector3(0.2, 0.05, 0)
+	world.add_child(leader)
+	var device := _device(world, HapticDevice.DRIVER_NODE)
+	device.position = Vector3(1, 1, 1)
+	device.scale = Vector3(2, 2, 2)
+	device.target = NodePath("../Leader")
+	var tip := ProxyPointer.new()
+	world.add_child(tip)
+	await _play(world, 2)
+	check_near(device.get_hand_position(), leader.position, 1e-4, "it begins there")
+	leader.position.y = -0.01
+	await _play(world, 60)
+	check_near(device.get_hand_position(), leader.position, 1e-4, "led into the floor")
+	check_near(tip.get_force().y, 500.0 * 0.02, 2.1, "force")
+	check(tip.is_touching(), tip.get_state_text())
+	leader.free()
+	expect_error("is not a Node3D of the scene")
+	await _play(world, 2)
+	check(not device.is_device_connected(), "nobody leads it")
+
+
+func test_a_hand_without_its_node_says_so() -> void:
+	var device := HapticDevice.new()
+	device.driver = HapticDevice.DRIVER_NODE
+	check(device.get_state_text().contains("set 'target' to a Node3D"), device.get_state_text())
+	var warnings := "\n".join(device.get_warnings())
+	check(warnings.contains("set 'target'"), warnings)
+	device.free()
+
+
+func test_what_another_driver_needs_is_not_shown() -> void:
+	var device := HapticDevice.new()
+	for driver: int in [HapticDevice.DRIVER_KEYBOARD, HapticDevice.DRIVER_GAMEPAD, HapticDevice.DRIVER_NODE]:
+		device.driver = driver
+		var shown := []
+		for property: Dictionary in device.get_property_list():
+			if property.usage & PROPERTY_USAGE_EDITOR:
+				shown.append(property.name)
+		check_equal(
+			"steering_speed" in shown, driver != HapticDevice.DRIVER_NODE, "speed, driver %d" % driver
+		)
+		check_equal("gamepad" in shown, driver == HapticDevice.DRIVER_GAMEPAD, "gamepad, driver %d" % driver)
+		check_equal("target" in shown, driver == HapticDevice.DRIVER_NODE, "target, driver %d" % driver)
+		check(not "path" in shown and not "wheel_step" in shown, "driver %d" % driver)
+	device.free()
+
+
+## A hand that goes 5 mm into the floor at 0.2 m/s.
+func _tapping_world(floor_stiffness: float) -> HapticFeedback:
+	var world := add_world()
+	add_floor(world, floor_stiffness)
+	var tip := add_hand(world, path(Vector3(0, 0.045, 0), Vector3(0, 0.005, 0), 0.2))
+	var feedback := HapticFeedback.new()
+	feedback.steady_share = 0.0
+	tip.add_child(feedback)
+	return feedback
+
+
+func _strongest(feedback: HapticFeedback, seconds: float) -> Vector2:
+	var strongest := Vector2.ZERO
+	for _i in roundi(seconds * 100.0):
+		var proxy: ProxyPointer = feedback.get_parent()
+		(proxy.get_parent() as HapticWorld).advance(0.01)
+		await frames(1)
+		var now := feedback.get_motor_levels()
+		strongest = Vector2(maxf(strongest.x, now.x), maxf(strongest.y, now.y))
+	return strongest
+
+
+func test_a_touch_vibrates_and_a_harder_one_more() -> void:
+	var soft := _tapping_world(200.0)
+	var hard := _tapping_world(4000.0)
+	check_equal(await _strongest(hard, 0.1), Vector2.ZERO, "before the touch")
+	await _strongest(soft, 0.1)
+	var by_soft := await _strongest(soft, 0.2)
+	var by_hard := await _strongest(hard, 0.2)
+	check(by_soft.length() > 0.02, "soft: %s" % by_soft)
+	check(by_hard.y > 3.0 * by_soft.y, "hard: %s, soft: %s" % [by_hard, by_soft])
+	await _strongest(hard, 0.5)
+	check(hard.get_motor_levels().length() < 1e-3, "a hand at rest: %s" % hard.get_motor_levels())
+	hard.steady_share = 0.5
+	await _strongest(hard, 0.05)
+	check(hard.get_motor_levels().x > 0.4, "pressing: %s" % hard.get_motor_levels())
+	hard.vibration = false
+	await _strongest(hard, 0.05)
+	check_equal(hard.get_motor_levels(), Vector2.ZERO, "switched off")
+
+
+func test_a_touch_is_heard_where_it_is() -> void:
+	var feedback := _tapping_world(1000.0)
+	await _strongest(feedback, 0.3)
+	var players := feedback.get_children(true)
+	check_equal(players.size(), 1, "players")
+	var player: AudioStreamPlayer3D = players[0]
+	check(player.playing, "it does not play")
+	var tip: ProxyPointer = feedback.get_parent()
+	check_near(player.global_position, tip.get_proxy_position(), 1e-4, "where it is heard")
+	feedback.sound = false
+	feedback.volume_db = -20.0
+	await _strongest(feedback, 0.05)
+
+
+func test_feedback_comes_and_goes_while_the_world_runs() -> void:
+	var feedback := _tapping_world(1000.0)
+	var tip: ProxyPointer = feedback.get_parent()
+	var world: HapticWorld = tip.get_parent()
+	await _strongest(feedback, 0.3)
+	tip.remove_child(feedback)
+	world.advance(0.05)
+	check_equal(feedback.get_motor_levels(), Vector2.ZERO, "outside of the scene")
+	tip.add_child(feedback)
+	feedback.steady_share = 1.0
+	await _strongest(feedback, 0.05)
+	check(feedback.get_motor_levels().x > 0.1, "back again: %s" % feedback.get_motor_levels())
+	world.tick_rate = 2000
+	await _strongest(feedback, 0.5)
+	check(feedback.get_motor_levels().x > 0.1, "after a restart: %s" % feedback.get_motor_levels())
+	feedback.free()
+	world.advance(0.05)
+
+
+func test_more_listeners_than_there_is_room_for_are_told() -> void:
+	var feedback := _tapping_world(1000.0)
+	expect_error("eight recorders and feedbacks listen to this world already")
+	for _i in 8:
+		var other := HapticFeedback.new()
+		other.sound = false
+		feedback.get_parent().add_child(other)
+	await _strongest(feedback, 0.05)
+
+
+## Godot's mixer lets go of a sound some time after its player has gone.
+func _the_mixer_is_done() -> void:
+	for node in get_children():
+		node.queue_free()
+	await until(func() -> bool: return false, 0.3)
+
+
+func test_feedback_without_a_proxy_says_so() -> void:
+	var world := add_world()
+	var feedback := HapticFeedback.new()
+	world.add_child(feedback)
+	expect_error("there is no ProxyPointer in its world")
+	await frames(2)
+	world.advance(0.01)
+	check("\n".join(feedback.get_warnings()).contains("is silent"), str(feedback.get_warnings()))
+	await _the_mixer_is_done()
