@@ -109,7 +109,7 @@ func observe() -> void:
 func _write() -> void:
 	var statistics := _world.get_statistics()
 	var report := {
-		"device": _device.get_device_id(),
+		"device": _device.get_open_device_id(),
 		"driver": _device.driver,
 		"state": _device.get_state_text(),
 		"directions": _pressed,

@@ -208,7 +208,7 @@ std::shared_ptr<DriverDevice> HapticDevice::open_driver() const {
     return std::make_shared<DriverDevice>(make_driver(kind, std::move(settings)));
 }
 
-String HapticDevice::get_device_id() const {
+String HapticDevice::get_open_device_id() const {
     return driven_ != nullptr ? to_godot(driven_->health().id) : String();
 }
 

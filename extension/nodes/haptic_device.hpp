@@ -50,7 +50,7 @@ public:
     godot::Vector3 get_hand_velocity() const;
     godot::Vector3 get_force() const;
     int64_t get_buttons() const { return state_.buttons; }
-    godot::String get_device_id() const;
+    godot::String get_open_device_id() const;
     godot::String get_state_text() const;
 
     // Puts the hand of a mouse under this point of the screen, at the depth where it is now.

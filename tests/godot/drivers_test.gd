@@ -38,7 +38,7 @@ func test_a_library_is_loaded_when_a_scene_picks_its_device_and_not_before() -> 
 	)
 	if "Falcon" in device.get_state_text():
 		check(_is_loaded("libusb"), "libusb is not there with a device on USB")
-	check_equal(device.get_device_id(), "", "id")
+	check_equal(device.get_open_device_id(), "", "id")
 	device.driver = HapticDevice.DRIVER_MOUSE
 	DirAccess.remove_absolute(image)
 
