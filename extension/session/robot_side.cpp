@@ -59,6 +59,7 @@ void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 void RobotSide::receive() {
     while (const Packet* const packet = channel_.receive()) {
         if (channel_.peer_has_started()) {
+            statistics_.sample = no_sample;
             for (Pointer& pointer : pointers_) {
                 pointer.buffer.restart();
                 pointer.holds = false;
