@@ -61,7 +61,9 @@ void RobotSide::receive() {
         if (channel_.peer_has_started()) {
             statistics_.sample = no_sample;
             for (Pointer& pointer : pointers_) {
-                pointer.buffer.restart();
+                if (pointer.buffer.counts().exact > 0) {
+                    pointer.buffer.restart();
+                }
                 pointer.holds = false;
             }
         }
