@@ -9,7 +9,7 @@ BINDING = Path("extension/binding")
 sys.path.append(str(BINDING.resolve()))
 
 
-def installed(prefix, target, system="linux"):
+def installed(prefix, target, system="linux", architecture="x86_64"):
     """Include folders and library of a godot-cpp: one that was installed (include/, lib/), or a checkout in which it
     was built (include/, gen/include/, gdextension/, bin/)."""
     root = Path(prefix)
@@ -18,17 +18,21 @@ def installed(prefix, target, system="linux"):
         raise RuntimeError(f"{prefix} has no include/godot_cpp/godot.hpp: it is no godot-cpp")
     if not any((folder / "godot_cpp/classes/node3d.hpp").is_file() for folder in includes):
         raise RuntimeError(f"{prefix} has no generated classes yet: build godot-cpp first, with scons target={target}")
-    return includes, _installed_library(root, target, system)
+    return includes, _installed_library(root, target, system, architecture)
 
 
-def _installed_library(root, target, system):
+def _installed_library(root, target, system, architecture):
     found = sorted(path for folder in ("lib", "bin") for path in (root / folder).glob("libgodot-cpp*.a"))
-    suits = [path for path in found if f".{system}.{target}." in path.name and ".double." not in path.name]
+    kinds = [f".{system}.{target}.{suffix}" for suffix in (architecture, "universal")]
+    suits = [path for path in found if any(kind in path.name for kind in kinds)]
     # Without a target in its name it is the only one there is.
     suits += [path for path in found if path.name == "libgodot-cpp.a"]
     if not suits:
         names = ", ".join(path.name for path in found) or "none"
-        raise RuntimeError(f"{root} has no libgodot-cpp for {target} (found: {names}): scons target={target} builds it")
+        raise RuntimeError(
+            f"{root} has no libgodot-cpp for {system}, {target}, {architecture} (found: {names}): "
+            f"scons platform={system} target={target} arch={architecture} builds it"
+        )
     return suits[0]
 
 

@@ -8,6 +8,7 @@ import zipfile
 from pathlib import Path
 
 import build
+import shipped_library
 from setup import cache, cross, godot, jolt, platforms
 from setup.platforms import Platform
 
@@ -23,6 +24,8 @@ SYSTEM_NOTICES = {
     "libsodium": "/usr/share/doc/libsodium-dev/copyright",  # the same work in the libraries of every platform
     "GCC's runtime libraries, linked under the GCC Runtime Library Exception": "/usr/share/doc/libstdc++-*-dev/copyright",
 }
+# In the libraries for one system alone.
+NOTICES_OF = {"windows": {"MinGW-w64, its C runtime and winpthreads": "/usr/share/doc/mingw-w64-x86-64-dev/copyright"}}
 
 
 def version() -> str:
@@ -62,18 +65,26 @@ def contents(others: list[Platform]) -> dict[str, bytes]:
         if path.is_file() and path.suffix != ".import" and ".partial" not in path.name:
             found[str(path.relative_to(FOLDER))] = path.read_bytes()
     clone = cache.clone()
-    for platform in others:
-        for target in manifest.TARGETS.values():
-            name = manifest.library(platform, target)
-            library = clone / "build" / cache.variant(target, foreign=platform.name) / "bin" / name
-            if library.is_file():
-                found[f"bin/{name}"] = library.read_bytes()
+    for platform in [platforms.host(), *others]:
+        for library in built(platform):
+            if complaint := shipped_library.read(library, platform).complaint(platform.system):
+                raise RuntimeError(f"{library.name} {complaint}")
+            found[f"bin/{library.name}"] = library.read_bytes()
     found["tactus.gdextension"] = _description(others).encode()
     found["README.md"] = (clone / "docs/addon.md").read_bytes()
     for name in ("LICENSE", "CHANGELOG.md"):
         found[name] = (clone / name).read_bytes()
-    found["NOTICES.txt"] = notices().encode()
+    found["NOTICES.txt"] = notices([platforms.host(), *others]).encode()
     return found
+
+
+def built(platform: Platform) -> list[Path]:
+    """The platform's libraries, as far as there are any."""
+    def place(target: str) -> Path:
+        variant = cache.clone() / "build" / cache.variant(target, foreign=platform.name)
+        return (variant if platform.is_foreign else FOLDER) / "bin" / manifest.library(platform, target)
+
+    return [library for library in map(place, manifest.TARGETS.values()) if library.is_file()]
 
 
 def _description(others: list[Platform]) -> str:
@@ -90,12 +101,15 @@ def _libraries(description: str) -> list[str]:
     return sorted(set(re.findall(r'"(bin/[^"]+)"', description)))
 
 
-def notices() -> str:
-    """The licence of everything that the libraries contain, as it stands where it came from."""
+def notices(systems: list[Platform]) -> str:
+    """The licence of everything that the platforms' libraries contain, as it stands where it came from."""
     command = godot.command()
     interface = godot.api_folder(command) / "gdextension_interface.h" if command else None
     texts = {"Jolt Physics": jolt.licence(), "Godot Engine (interface to extensions)": _first_comment(interface)}
-    for name, path in SYSTEM_NOTICES.items():
+    places = dict(SYSTEM_NOTICES)
+    for one in systems:
+        places |= NOTICES_OF.get(one.system, {})
+    for name, path in places.items():
         files = sorted(Path("/").glob(path.lstrip("/")))
         if not files:
             raise RuntimeError(f"the licence of {name} is not on this machine: {path}")
@@ -128,8 +142,10 @@ def main(arguments: list[str]) -> int:
             print("done", flush=True)
     path = pack(others)
     print(f"{path.relative_to(cache.clone())}: {path.stat().st_size / 1e6:.1f} MB, for")
-    for name in _libraries(_description(others)):
-        print(f"  {Path(name).name}")
+    for platform in [platforms.host(), *others]:
+        for library in built(platform):
+            glibc = shipped_library.read(library, platform).glibc
+            print(f"  {library.name}" + (f", from glibc {glibc} on" if glibc else ""))
     return 0
 
 

@@ -23,7 +23,7 @@ def needed(command: str, arguments: list[str]) -> list[Step]:
     if command == "bench" or any(argument.startswith("--sanitize") for argument in arguments):
         return plan
     if command == "addon":
-        plan += steps.for_platforms(platforms.named_in(arguments))[1:]
+        plan += steps.of_platforms(platforms.named_in(arguments))
     if command in ("setup", "export", "addon", "test"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]

@@ -26,12 +26,6 @@ using namespace godot;
 
 namespace {
 
-// The hand of a mouse stays at least this far in front of the camera (unit: meters).
-constexpr double nearest_depth = 0.02;
-
-// No hand goes farther from the origin (unit: meters).
-constexpr double farthest_hand = 1e6;
-
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
@@ -70,16 +64,6 @@ void HapticDevice::arm_changed() {
 Node3D* HapticDevice::target_node() const {
     return is_inside_tree() && !target_.is_empty() ? Object::cast_to<Node3D>(get_node_or_null(target_))
                                                    : nullptr;
-}
-
-Vector3 HapticDevice::get_hand_position() const {
-    return to_godot(state_.position);
-}
-Vector3 HapticDevice::get_hand_velocity() const {
-    return to_godot(state_.velocity);
-}
-Vector3 HapticDevice::get_force() const {
-    return to_godot(state_.force);
 }
 
 String HapticDevice::problem() const {
@@ -140,19 +124,12 @@ String HapticDevice::hindrance() const {
 
 PackedStringArray HapticDevice::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    const String wrong = problem();
-    if (!wrong.is_empty()) {
-        warnings.push_back("This HapticDevice does nothing: " + wrong + ".");
-    }
+    warn(warnings, "This HapticDevice does nothing", problem());
     if (!is_inside_tree()) {
         return warnings;
     }
-    if (const String hindered = hindrance(); !hindered.is_empty()) {
-        warnings.push_back("The hand of this HapticDevice will not move: " + hindered + ".");
-    }
-    if (const String lost = problem_without_world(*this); !lost.is_empty()) {
-        warnings.push_back("This HapticDevice does nothing: " + lost + ".");
-    }
+    warn(warnings, "The hand of this HapticDevice will not move", hindrance());
+    warn(warnings, "This HapticDevice does nothing", problem_without_world(*this));
     const Vector3 scale = get_global_transform().basis.get_scale().abs();
     if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
         std::abs(scale.x - scale.z) > even_scale * scale.x) {
@@ -260,19 +237,14 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     if (driver() != DRIVER_MOUSE || follower_ == nullptr || camera == nullptr) {
         return;
     }
-    const Vec3 eye = from_godot(camera->project_ray_origin(screen_position));
-    const Vec3 ray = from_godot(camera->project_ray_normal(screen_position));
-    const Vec3 forward = -from_godot(camera->get_global_transform().basis.get_column(2).normalized());
-    const double depth = std::max(nearest_depth, glm::dot(mouse_target_ - eye, forward) + depth_change);
-    const double slant = glm::dot(ray, forward);
-    if (!(slant > 0.0)) {
+    const ScreenRay ray{from_godot(camera->project_ray_origin(screen_position)),
+                        from_godot(camera->project_ray_normal(screen_position)),
+                        -from_godot(camera->get_global_transform().basis.get_column(2).normalized())};
+    const std::optional<Vec3> target = under_pointer(ray, mouse_target_, depth_change);
+    if (!target) {
         return;
     }
-    const Vec3 target = eye + ray * (depth / slant);
-    if (!(glm::length(target) < farthest_hand)) {
-        return;  // a camera that is nowhere sees no place
-    }
-    mouse_target_ = target;
+    mouse_target_ = *target;
     const Workspace mapping = workspace();
     const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
     follower_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});

@@ -46,9 +46,9 @@ public:
     TACTUS_PROPERTIES(HapticDevice)
 
     bool is_device_connected() const { return state_.connected; }
-    godot::Vector3 get_hand_position() const;
-    godot::Vector3 get_hand_velocity() const;
-    godot::Vector3 get_force() const;
+    godot::Vector3 get_hand_position() const { return to_godot(state_.position); }
+    godot::Vector3 get_hand_velocity() const { return to_godot(state_.velocity); }
+    godot::Vector3 get_force() const { return to_godot(state_.force); }
     int64_t get_buttons() const { return state_.buttons; }
     godot::String get_open_device_id() const;
     godot::String get_state_text() const;

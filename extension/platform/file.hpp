@@ -1,11 +1,16 @@
+// Files by their paths in UTF-8, as Godot's are, whatever the system's own letters.
 #pragma once
 
 #include <cstdio>
-#include <filesystem>
+#include <string>
 
 namespace tactus {
 
-// fopen(), whatever letters the path has.
-std::FILE* open_file(const std::filesystem::path& path, const char* mode);
+// fopen().
+std::FILE* open_file(const std::string& path, const char* mode);
+
+// The folder that it lies in, and those above, where they are missing. Opening the file says whether it
+// worked.
+void make_folder_of(const std::string& path);
 
 }  // namespace tactus

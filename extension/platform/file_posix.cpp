@@ -2,7 +2,7 @@
 
 namespace tactus {
 
-std::FILE* open_file(const std::filesystem::path& path, const char* mode) {
+std::FILE* open_file(const std::string& path, const char* mode) {
     return std::fopen(path.c_str(), mode);
 }
 

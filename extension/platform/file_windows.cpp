@@ -5,8 +5,8 @@
 
 namespace tactus {
 
-std::FILE* open_file(const std::filesystem::path& path, const char* mode) {
-    return _wfopen(path.c_str(), windows::to_wide(mode).c_str());
+std::FILE* open_file(const std::string& path, const char* mode) {
+    return _wfopen(windows::to_wide(path).c_str(), windows::to_wide(mode).c_str());
 }
 
 }  // namespace tactus

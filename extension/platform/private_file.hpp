@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace tactus {
@@ -23,7 +22,7 @@ struct PrivateFile {
     std::string way_out;
 };
 
-// Off the loop. What is judged is what is read, whatever becomes of the name meanwhile.
-PrivateFile read_private_file(const std::filesystem::path& path, std::size_t max_bytes);
+// Off the loop; the path is UTF-8. What is judged is what is read, whatever becomes of the name meanwhile.
+PrivateFile read_private_file(const std::string& path, std::size_t max_bytes);
 
 }  // namespace tactus

@@ -14,8 +14,7 @@ namespace {
 
 // Closes itself.
 struct File {
-    explicit File(const std::filesystem::path& path)
-        : number(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
+    explicit File(const std::string& path) : number(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
     ~File() {
         if (number >= 0) {
             close(number);
@@ -32,7 +31,7 @@ PrivateFile refused(FileTrouble trouble, std::string system_text = {}, std::stri
 
 }  // namespace
 
-PrivateFile read_private_file(const std::filesystem::path& path, std::size_t max_bytes) {
+PrivateFile read_private_file(const std::string& path, std::size_t max_bytes) {
     const File file(path);
     struct stat status{};
     if (file.number < 0 || fstat(file.number, &status) != 0) {
@@ -42,7 +41,7 @@ PrivateFile read_private_file(const std::filesystem::path& path, std::size_t max
         return refused(FileTrouble::not_ordinary);
     }
     if ((status.st_mode & (S_IRGRP | S_IROTH | S_IWGRP | S_IWOTH)) != 0) {
-        return refused(FileTrouble::open_to_others, {}, "chmod 600 \"" + path.string() + "\"");
+        return refused(FileTrouble::open_to_others, {}, "chmod 600 \"" + path + "\"");
     }
     std::string bytes(max_bytes + 1, '\0');
     const ssize_t size = read(file.number, bytes.data(), bytes.size());

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "platform/system_message.hpp"
+#include "platform/wide_text_windows.hpp"
 
 namespace tactus {
 
@@ -22,9 +23,9 @@ std::string last_error() {
 
 // Closes itself.
 struct File {
-    explicit File(const std::filesystem::path& path)
-        : handle(CreateFileW(path.c_str(), GENERIC_READ, FILE_SHARE_READ, nullptr, OPEN_EXISTING,
-                             FILE_FLAG_BACKUP_SEMANTICS, nullptr)) {}
+    explicit File(const std::string& path)
+        : handle(CreateFileW(windows::to_wide(path).c_str(), GENERIC_READ, FILE_SHARE_READ, nullptr,
+                             OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS, nullptr)) {}
     ~File() {
         if (handle != INVALID_HANDLE_VALUE) {
             CloseHandle(handle);
@@ -104,7 +105,7 @@ bool is_private(HANDLE file) {
 
 }  // namespace
 
-PrivateFile read_private_file(const std::filesystem::path& path, std::size_t max_bytes) {
+PrivateFile read_private_file(const std::string& path, std::size_t max_bytes) {
     const File file(path);
     if (file.handle == INVALID_HANDLE_VALUE) {
         return refused(FileTrouble::unreadable, last_error());
@@ -114,7 +115,7 @@ PrivateFile read_private_file(const std::filesystem::path& path, std::size_t max
     }
     if (!is_private(file.handle)) {
         return refused(FileTrouble::open_to_others, {},
-                       "icacls \"" + path.string() + "\" /inheritance:r /grant:r \"%USERNAME%:F\"");
+                       "icacls \"" + path + "\" /inheritance:r /grant:r \"%USERNAME%:F\"");
     }
     std::string bytes(max_bytes + 1, '\0');
     DWORD size = 0;

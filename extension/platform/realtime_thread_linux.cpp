@@ -11,19 +11,17 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <fstream>
-#include <mutex>
 
 #include "platform/control_group_linux.hpp"
+#include "platform/held_by_threads.hpp"
+#include "platform/system_message.hpp"
 
 namespace tactus {
 
 namespace {
 
-// Memory is locked for the whole process: the last thread that asked for it gives it back.
-std::mutex memory_lock_guard;
-int memory_lock_holders = 0;
+HeldByThreads locked_memory;
 
 bool has_capability(int capability) {
     __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
@@ -85,7 +83,7 @@ void request_scheduling(int priority, RealtimeReport& report) {
     if (error != 0) {
         report.short_turns = request_short_turns();
         report.text += std::string("Scheduling: ordinary") + (report.short_turns ? ", in short turns" : "") +
-                       "; SCHED_FIFO " + std::to_string(priority) + " was refused (" + std::strerror(error) +
+                       "; SCHED_FIFO " + std::to_string(priority) + " was refused (" + system_message(error) +
                        "): raise this user's rtprio limit. ";
         return;
     }
@@ -105,12 +103,14 @@ void request_memory_lock(bool wanted, RealtimeReport& report) {
         report.text += "Memory: not locked; this user's memlock limit is finite: raise it to unlimited. ";
         return;
     }
-    const std::lock_guard guard(memory_lock_guard);
-    if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
-        report.text += std::string("Memory: not locked (") + std::strerror(errno) + "). ";
+    const std::string refused = locked_memory.hold([](bool) {
+        const bool locked = mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
+        return locked ? std::string() : system_message(errno);
+    });
+    if (!refused.empty()) {
+        report.text += "Memory: not locked (" + refused + "). ";
         return;
     }
-    ++memory_lock_holders;
     report.memory_locked = true;
     report.text += "Memory: locked as it is touched. ";
 }
@@ -145,8 +145,8 @@ void request_processor(int wanted, RealtimeReport& report) {
         error = pthread_setaffinity_np(pthread_self(), sizeof(only), &only);
     }
     if (error != 0) {
-        report.text +=
-            "Processor: any; number " + std::to_string(cpu) + " was refused (" + std::strerror(error) + "). ";
+        report.text += "Processor: any; number " + std::to_string(cpu) + " was refused (" +
+                       system_message(error) + "). ";
         return;
     }
     report.cpu = cpu;
@@ -174,13 +174,8 @@ RealtimeReport make_thread_realtime(const RealtimeRequest& request) {
 }
 
 void release_realtime(const RealtimeReport& report) {
-    if (!report.memory_locked) {
-        return;
-    }
-    const std::lock_guard guard(memory_lock_guard);
-    --memory_lock_holders;
-    if (memory_lock_holders == 0) {
-        munlockall();
+    if (report.memory_locked) {
+        locked_memory.let_go([] { munlockall(); });
     }
 }
 
@@ -189,12 +184,19 @@ bool become_idle_on(int cpu) {
     if (cpu < 0 || cpu >= CPU_SETSIZE) {
         return false;
     }
-    cpu_set_t only;
+    cpu_set_t before, only;
     CPU_ZERO(&only);
     CPU_SET(static_cast<std::size_t>(cpu), &only);
+    if (pthread_getaffinity_np(pthread_self(), sizeof(before), &before) != 0 ||
+        pthread_setaffinity_np(pthread_self(), sizeof(only), &only) != 0) {
+        return false;
+    }
     const sched_param parameters{0};
-    return pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameters) == 0 &&
-           pthread_setaffinity_np(pthread_self(), sizeof(only), &only) == 0;
+    if (pthread_setschedparam(pthread_self(), SCHED_IDLE, &parameters) != 0) {
+        pthread_setaffinity_np(pthread_self(), sizeof(before), &before);
+        return false;
+    }
+    return true;
 }
 
 std::string why_not_to_idle() {

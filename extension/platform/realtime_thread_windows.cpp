@@ -3,8 +3,7 @@
 #include <avrt.h>
 #include <psapi.h>
 
-#include <mutex>
-
+#include "platform/held_by_threads.hpp"
 #include "platform/realtime_thread.hpp"
 #include "platform/system_message.hpp"
 
@@ -43,38 +42,40 @@ void request_scheduling(int priority, RealtimeReport& report) {
 
 // Windows locks no process as a whole. What it keeps in place is the smallest working set, which is set to
 // what the process uses now and some room; the stack of the loop is locked besides.
-std::mutex memory_lock_guard;
-int memory_lock_holders = 0;
+HeldByThreads kept_memory;
 SIZE_T usual_least = 0, usual_most = 0;
 
-bool keep_working_set() {
+std::string keep_working_set(bool is_first) {
     const HANDLE process = GetCurrentProcess();
     DWORD flags = 0;
     PROCESS_MEMORY_COUNTERS use{};
     SIZE_T least = 0, most = 0;
-    if (GetProcessWorkingSetSizeEx(process, &least, &most, &flags) == 0 ||
-        GetProcessMemoryInfo(process, &use, sizeof use) == 0) {
-        return false;
-    }
     constexpr SIZE_T room = SIZE_T{64} << 20;
-    const SIZE_T wanted = use.WorkingSetSize + room;
-    if (SetProcessWorkingSetSizeEx(process, wanted, wanted + room,
+    if (GetProcessWorkingSetSizeEx(process, &least, &most, &flags) == 0 ||
+        GetProcessMemoryInfo(process, &use, sizeof use) == 0 ||
+        SetProcessWorkingSetSizeEx(process, use.WorkingSetSize + room, use.WorkingSetSize + 2 * room,
                                    QUOTA_LIMITS_HARDWS_MIN_ENABLE | QUOTA_LIMITS_HARDWS_MAX_DISABLE) == 0) {
-        return false;
+        return last_error();
     }
-    if (memory_lock_holders == 0) {
+    if (is_first) {
         usual_least = least;
         usual_most = most;
     }
-    return true;
+    return {};
+}
+
+void give_back_working_set() {
+    SetProcessWorkingSetSizeEx(GetCurrentProcess(), usual_least, usual_most,
+                               QUOTA_LIMITS_HARDWS_MIN_DISABLE | QUOTA_LIMITS_HARDWS_MAX_DISABLE);
 }
 
 // The pages of this thread's stack that are there. They are let go with the thread.
-bool lock_stack() {
+std::string lock_stack() {
     MEMORY_BASIC_INFORMATION pages{};
     const char here = 0;
-    return VirtualQuery(&here, &pages, sizeof pages) != 0 &&
-           VirtualLock(pages.BaseAddress, pages.RegionSize) != 0;
+    const bool locked = VirtualQuery(&here, &pages, sizeof pages) != 0 &&
+                        VirtualLock(pages.BaseAddress, pages.RegionSize) != 0;
+    return locked ? std::string() : last_error();
 }
 
 void request_memory_lock(bool wanted, RealtimeReport& report) {
@@ -82,12 +83,14 @@ void request_memory_lock(bool wanted, RealtimeReport& report) {
         report.text += "Memory: not locked, as asked for. ";
         return;
     }
-    const std::lock_guard guard(memory_lock_guard);
-    if (!keep_working_set() || !lock_stack()) {
-        report.text += "Memory: not locked (" + last_error() + "). ";
+    std::string refused = kept_memory.hold(&keep_working_set);
+    if (refused.empty() && !(refused = lock_stack()).empty()) {
+        kept_memory.let_go(&give_back_working_set);
+    }
+    if (!refused.empty()) {
+        report.text += "Memory: not locked (" + refused + "). ";
         return;
     }
-    ++memory_lock_holders;
     report.memory_locked = true;
     report.text += "Memory: locked, the stack; kept, what was in use and 64 MB. ";
 }
@@ -109,8 +112,9 @@ int last_allowed_processor() {
     return cpu;  // any_processor where none is named: in more than one group of processors
 }
 
-bool stay_on(int cpu) {
-    return cpu >= 0 && cpu < mask_bits && SetThreadAffinityMask(GetCurrentThread(), DWORD_PTR{1} << cpu) != 0;
+// The processors it might run on before, or 0 where it is refused.
+DWORD_PTR stay_on(int cpu) {
+    return cpu >= 0 && cpu < mask_bits ? SetThreadAffinityMask(GetCurrentThread(), DWORD_PTR{1} << cpu) : 0;
 }
 
 void request_processor(int wanted, RealtimeReport& report) {
@@ -123,7 +127,7 @@ void request_processor(int wanted, RealtimeReport& report) {
         return;
     }
     const int cpu = wanted == last_processor ? last_allowed_processor() : wanted;
-    if (!stay_on(cpu)) {
+    if (stay_on(cpu) == 0) {
         report.text += "Processor: any; number " + std::to_string(cpu) + " was refused. ";
         return;
     }
@@ -143,19 +147,21 @@ RealtimeReport make_thread_realtime(const RealtimeRequest& request) {
 }
 
 void release_realtime(const RealtimeReport& report) {
-    if (!report.memory_locked) {
-        return;
-    }
-    const std::lock_guard guard(memory_lock_guard);
-    --memory_lock_holders;
-    if (memory_lock_holders == 0) {
-        SetProcessWorkingSetSizeEx(GetCurrentProcess(), usual_least, usual_most,
-                                   QUOTA_LIMITS_HARDWS_MIN_DISABLE | QUOTA_LIMITS_HARDWS_MAX_DISABLE);
+    if (report.memory_locked) {
+        kept_memory.let_go(&give_back_working_set);
     }
 }
 
 bool become_idle_on(int cpu) {
-    return SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_IDLE) != 0 && stay_on(cpu);
+    const DWORD_PTR before = stay_on(cpu);
+    if (before == 0) {
+        return false;
+    }
+    if (SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_IDLE) == 0) {
+        SetThreadAffinityMask(GetCurrentThread(), before);
+        return false;
+    }
+    return true;
 }
 
 std::string why_not_to_idle() {

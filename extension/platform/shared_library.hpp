@@ -1,11 +1,10 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 namespace tactus {
 
-// A function of a library, which is loaded and stays so. Null: `error` says why.
-void* function_of_library(const std::filesystem::path& library, const char* name, std::string& error);
+// A function of a library, which is loaded and stays so; its path is UTF-8. Null: `error` says why.
+void* function_of_library(const std::string& library, const char* name, std::string& error);
 
 }  // namespace tactus

@@ -4,7 +4,7 @@
 
 namespace tactus {
 
-void* function_of_library(const std::filesystem::path& library, const char* name, std::string& error) {
+void* function_of_library(const std::string& library, const char* name, std::string& error) {
     void* const loaded = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
     void* const function = loaded != nullptr ? dlsym(loaded, name) : nullptr;
     if (function == nullptr) {

@@ -1,7 +1,5 @@
 #include "world/recording.hpp"
 
-#include <filesystem>
-
 #include "platform/file.hpp"
 #include "session/record_csv.hpp"
 
@@ -35,8 +33,7 @@ Recording::File Recording::create(const std::string& path) const {
     if (path.empty()) {
         return nullptr;
     }
-    std::error_code ignored;  // opening says whether there is a folder
-    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), ignored);
+    make_folder_of(path);
     File file(open_file(path, "wb"));
     if (file == nullptr) {
         say_("'" + path + "' cannot be written: choose a folder that exists and may be written to");

@@ -226,7 +226,7 @@ int main(int argc, char** argv) {
     }
     std::error_code failed;
     std::filesystem::create_directories(options->output.parent_path(), failed);
-    std::FILE* file = open_file(options->output, "w");
+    std::FILE* file = open_file(options->output.string(), "w");
     if (file == nullptr) {
         std::perror(options->output.string().c_str());
         return 1;

@@ -55,7 +55,7 @@ struct NetworkRig {
             if (done()) {
                 return true;
             }
-            std::this_thread::sleep_for(std::chrono::microseconds(500));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return false;
     }

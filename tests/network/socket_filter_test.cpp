@@ -8,6 +8,7 @@
 
 #include "network/sealed_format.hpp"
 #include "shared/random_values.hpp"
+#include "support/emulation.hpp"
 
 namespace tactus {
 namespace {
@@ -122,6 +123,9 @@ TEST(SocketFilter, TheSystemAdmitsTheSame) {
     }
     EXPECT_GT(admitted, 500);
     EXPECT_GT(dropped, 500);
+    if (testing::under_qemu()) {
+        GTEST_SKIP() << "all but the last passed: QEMU does not hand on how much the system has dropped";
+    }
     EXPECT_EQ(dropped_by_system(sockets.receiver()), static_cast<std::uint64_t>(dropped));
 }
 

@@ -12,27 +12,28 @@ namespace {
 class APrivateFile : public ::testing::Test {
 protected:
     void write(const std::string& text, bool open_to_others = false) {
-        std::ofstream(path, std::ios::binary) << text;
-        ASSERT_TRUE(testing::set_access(path, open_to_others));
+        std::ofstream(file, std::ios::binary) << text;
+        ASSERT_TRUE(testing::set_access(file, open_to_others));
     }
-    ~APrivateFile() override { std::filesystem::remove(path); }
-    const std::filesystem::path path =
-        std::filesystem::path(::testing::TempDir()) / u8"tactus_geheimnis_\u00df";
+    ~APrivateFile() override { std::filesystem::remove(file); }
+    // A name that no old Windows's letters spell.
+    const std::string path = ::testing::TempDir() + "tactus_\xc3\x9f\xe8\xa7\xa6";
+    const std::filesystem::path file = std::u8string(path.begin(), path.end());
 };
 
 TEST_F(APrivateFile, IsRead) {
     write("some\nbytes");
-    const PrivateFile file = read_private_file(path, 100);
-    EXPECT_EQ(file.trouble, FileTrouble::none) << file.system_text;
-    EXPECT_EQ(file.bytes, "some\nbytes");
+    const PrivateFile read = read_private_file(path, 100);
+    EXPECT_EQ(read.trouble, FileTrouble::none) << read.system_text;
+    EXPECT_EQ(read.bytes, "some\nbytes");
 }
 
 TEST_F(APrivateFile, ThatOthersMayReadIsRefusedWithTheWayOut) {
     write("secret", true);
-    const PrivateFile file = read_private_file(path, 100);
-    EXPECT_EQ(file.trouble, FileTrouble::open_to_others);
-    EXPECT_NE(file.way_out.find(path.string()), std::string::npos);
-    EXPECT_EQ(file.bytes, "");
+    const PrivateFile read = read_private_file(path, 100);
+    EXPECT_EQ(read.trouble, FileTrouble::open_to_others);
+    EXPECT_NE(read.way_out.find(path), std::string::npos);
+    EXPECT_EQ(read.bytes, "");
 }
 
 TEST_F(APrivateFile, ThatIsTooLongOrNoneIsRefused) {
@@ -40,7 +41,7 @@ TEST_F(APrivateFile, ThatIsTooLongOrNoneIsRefused) {
     EXPECT_EQ(read_private_file(path, 100).trouble, FileTrouble::none);
     EXPECT_EQ(read_private_file(path, 99).trouble, FileTrouble::too_long);
     EXPECT_EQ(read_private_file(::testing::TempDir(), 100).trouble, FileTrouble::not_ordinary);
-    std::filesystem::remove(path);
+    std::filesystem::remove(file);
     const PrivateFile gone = read_private_file(path, 100);
     EXPECT_EQ(gone.trouble, FileTrouble::unreadable);
     EXPECT_NE(gone.system_text, "");

@@ -55,5 +55,15 @@ TEST(RealtimeThreadOnLinux, BindsToTheProcessorAskedForOnceItComesFirstThere) {
     });
 }
 
+TEST(RealtimeThreadOnLinux, WhereIdlingIsRefusedNothingIsChanged) {
+    std::thread([] {
+        EXPECT_FALSE(become_idle_on(max_processors - 1));
+        int policy = 0;
+        sched_param parameters{};
+        pthread_getschedparam(pthread_self(), &policy, &parameters);
+        EXPECT_EQ(policy, SCHED_OTHER);
+    }).join();
+}
+
 }  // namespace
 }  // namespace tactus

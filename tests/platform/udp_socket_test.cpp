@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "platform/clock.hpp"
+#include "support/emulation.hpp"
 
 namespace tactus {
 namespace {
@@ -99,15 +100,24 @@ TEST(UdpSocket, NobodyThereIsSaid) {
     EXPECT_EQ(error.trouble, SocketTrouble::unreachable);
 }
 
-TEST(UdpSocket, APortOrAnAddressThatCannotBeIsNamed) {
+TEST(UdpSocket, APortThatSomebodyHasIsNamed) {
     const Bound first;
     SocketError error;
     const SocketHandle second = open_udp(IpFamily::four, error);
     EXPECT_EQ(bind_udp(second, own_address(first.handle)).trouble, SocketTrouble::in_use);
+    close_udp(second);
+}
+
+TEST(UdpSocket, AnAddressOfAnotherMachineIsNamed) {
+    if (testing::under_wine()) {
+        GTEST_SKIP() << "Wine binds a socket to whatever address it is told";
+    }
+    SocketError error;
+    const SocketHandle socket = open_udp(IpFamily::four, error);
     IpAddress elsewhere = loopback(IpFamily::four, 0);
     elsewhere.host = {192, 0, 2, 1};  // a number kept for documents
-    EXPECT_EQ(bind_udp(second, elsewhere).trouble, SocketTrouble::not_here);
-    close_udp(second);
+    EXPECT_EQ(bind_udp(socket, elsewhere).trouble, SocketTrouble::not_here);
+    close_udp(socket);
 }
 
 TEST(FindAddresses, KnowsNumbersAndSaysWhatItDoesNotKnow) {

@@ -1,12 +1,12 @@
 // Virtual time: the same calls with the same times give the same bits.
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "session_rig.hpp"
+#include "shared/bit_hash.hpp"
 #include "shared/meshes.hpp"
 #include "support/process.hpp"
 
@@ -15,29 +15,7 @@ namespace {
 
 using namespace session_test;
 
-// FNV-1a over the numbers of a row (not over the padding between them).
-class Hash {
-public:
-    void add(double value) {
-        std::uint64_t bits;
-        std::memcpy(&bits, &value, sizeof bits);
-        add(bits);
-    }
-    void add(const Vec3& v) {
-        add(v.x);
-        add(v.y);
-        add(v.z);
-    }
-    void add(std::uint64_t bits) {
-        for (int i = 0; i < 8; ++i) {
-            value_ = (value_ ^ ((bits >> (8 * i)) & 0xffu)) * 0x100000001b3u;
-        }
-    }
-    std::uint64_t value() const { return value_; }
-
-private:
-    std::uint64_t value_ = 0xcbf29ce484222325u;
-};
+using shared::BitHash;
 
 struct Outcome {
     std::uint64_t hash = 0;
@@ -67,7 +45,7 @@ Outcome run(ForceLaw law) {
     RecorderRing<SessionRecord> ring(256);
     rig.session.record(ring, rig.proxy, first);
     Outcome outcome;
-    Hash hash;
+    BitHash hash;
     Vec3 start(0.0);
     for (int i = 0; i < 3'000; ++i) {
         const double a = 0.002 * i;
@@ -78,10 +56,7 @@ Outcome run(ForceLaw law) {
             for (const Vec3& v : {row.hand, row.proxy_position, row.force, row.object_position}) {
                 hash.add(v);
             }
-            for (const double w : {row.object_rotation.w, row.object_rotation.x, row.object_rotation.y,
-                                   row.object_rotation.z}) {
-                hash.add(w);
-            }
+            hash.add(row.object_rotation);
             hash.add(static_cast<std::uint64_t>(row.time));
             outcome.touching += row.contacts > 0;
             start = i == 0 ? row.object_position : start;
@@ -104,7 +79,7 @@ TEST(SessionDeterminism, TwoRunsAreTheSameToTheLastBit) {
 
 // Two hundred boxes thrown about, most of them slowed.
 std::uint64_t run_a_crowd() {
-    Hash hash;
+    BitHash hash;
     SessionRig rig;
     rig.add(ground());
     std::vector<SessionHandle> boxes;

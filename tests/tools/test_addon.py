@@ -3,11 +3,12 @@
 import shutil
 import subprocess
 import zipfile
+from pathlib import Path
 
 import addon
 import project
 import pytest
-from setup import cache, godot
+from setup import cache, godot, platforms
 
 # The scene of docs/addon.md, by its five steps.
 FIRST_TOUCH = """[gd_scene format=3]
@@ -18,10 +19,6 @@ radius = 0.05
 [sub_resource type="SphereMesh" id="ball"]
 radius = 0.05
 height = 0.1
-
-[sub_resource type="SphereMesh" id="tip"]
-radius = 0.01
-height = 0.02
 
 [node name="Scene" type="Node3D"]
 
@@ -37,14 +34,8 @@ mesh = SubResource("ball")
 
 [node name="HapticDevice" type="HapticDevice" parent="HapticWorld"]
 transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.1)
-driver = 1
 
 [node name="ProxyPointer" type="ProxyPointer" parent="HapticWorld"]
-device = NodePath("../HapticDevice")
-radius = 0.01
-
-[node name="Look" type="MeshInstance3D" parent="HapticWorld/ProxyPointer"]
-mesh = SubResource("tip")
 
 [node name="Camera3D" type="Camera3D" parent="."]
 transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.4)
@@ -171,6 +162,20 @@ def test_the_oldest_godot_is_the_one_whose_api_was_used():
 
 def test_two_archives_of_the_same_are_the_same_bytes():
     assert addon.pack().read_bytes() == addon.pack().read_bytes()
+
+
+def test_a_platform_that_was_not_built_is_named(monkeypatch):
+    built = addon.built
+    monkeypatch.setattr(addon, "built", lambda platform: [] if platform.is_foreign else built(platform))
+    with pytest.raises(RuntimeError, match=r"not built yet: bin/libtactus\.windows\.template_debug.*./run addon --platform"):
+        addon.pack([platforms.named("windows")])
+
+
+def test_what_windows_libraries_contain_besides_has_its_licence():
+    if not Path(addon.NOTICES_OF["windows"]["MinGW-w64, its C runtime and winpthreads"]).is_file():
+        pytest.skip("MinGW-w64 is not on this machine: ./run addon --platform=windows brings it")
+    assert "winpthreads" in addon.notices([platforms.named("windows")])
+    assert "winpthreads" not in addon.notices([platforms.host()])
 
 
 def test_first_touch_by_the_five_steps(own_project):

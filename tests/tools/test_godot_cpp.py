@@ -32,8 +32,19 @@ def test_a_checkout_is_used_as_it_lies(tmp_path):
 
 def test_a_library_of_another_target_is_not_taken(tmp_path):
     root = _with_files(tmp_path, *CHECKOUT, "bin/libgodot-cpp.linux.template_debug.x86_64.a")
-    with pytest.raises(RuntimeError, match="no libgodot-cpp for template_release.*template_debug.*scons target=template_release"):
+    with pytest.raises(RuntimeError, match="no libgodot-cpp for linux, template_release.*template_debug.*scons .*target=template_release"):
         godot_api.installed(root, "template_release")
+
+
+def test_a_library_of_another_processor_or_precision_is_not_taken(tmp_path):
+    own = "bin/libgodot-cpp.linux.template_debug.x86_64.a"
+    others = [own.replace("x86_64", "arm64"), own.replace("template_debug", "template_debug.double")]
+    root = _with_files(tmp_path, *CHECKOUT, own, *others)
+    assert godot_api.installed(root, "template_debug")[1] == root / own
+    assert godot_api.installed(root, "template_debug", "linux", "arm64")[1] == root / others[0]
+    (root / own).unlink()
+    with pytest.raises(RuntimeError, match="no libgodot-cpp for linux, template_debug, x86_64"):
+        godot_api.installed(root, "template_debug")
 
 
 def test_an_unbuilt_checkout_is_told_so(tmp_path):

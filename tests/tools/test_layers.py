@@ -18,6 +18,8 @@ ALLOWED = [
     ("devices", '"platform/thing.hpp"'),
     ("session", '"devices/thing.hpp"'),
     ("session", '"network/thing.hpp"'),
+    ("world", '"session/thing.hpp"'),
+    ("world", '"platform/thing.hpp"'),
 ]
 FORBIDDEN = [
     ("core", '"realtime/thing.hpp"'),
@@ -32,8 +34,12 @@ FORBIDDEN = [
     ("session", "<godot_cpp/classes/node.hpp>"),
     ("session", '"nodes/thing.hpp"'),
     ("session", '"platform/thing.hpp"'),
+    ("session", '"world/thing.hpp"'),
+    ("world", '"nodes/thing.hpp"'),
+    ("world", "<godot_cpp/classes/node.hpp>"),
+    ("world", "<Jolt/Jolt.h>"),
 ]
-LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session"]
+LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world"]
 
 
 def _object(number: int, layer: str) -> str:

@@ -3,6 +3,7 @@
 import re
 import sys
 
+import front_door
 import pytest
 from setup import cache, platforms
 
@@ -73,6 +74,25 @@ def test_the_words_of_the_command_line_are_understood():
     assert platforms.tested_by("cpp.core") is None
     assert [one.name for one in platforms.named_in(["--platform=windows,linux_arm64"])] == ["windows", "linux_arm64"]
     assert platforms.named_in(["--platform=linux"]) == []
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments", "asked_for"),
+    [
+        ("demo", [], []),
+        ("test", [], []),
+        ("test", ["cpp.core"], []),
+        ("addon", [], []),
+        ("test", ["windows"], ["windows"]),
+        ("test", ["arm64", "cpp.core"], ["linux_arm64"]),
+        ("addon", ["--platform=windows,linux_arm64"], ["windows", "linux_arm64"]),
+    ],
+)
+def test_only_who_asks_for_a_platform_sets_it_up(command, arguments, asked_for):
+    names = [step.name for step in front_door.needed(command, arguments)]
+    foreign = [one.name for one in platforms.FOREIGN if any(name.endswith(f" for {one.name}") for name in names)]
+    assert foreign == asked_for
+    assert len(set(names)) == len(names)
 
 
 def test_godot_finds_each_platforms_library_by_its_tags():

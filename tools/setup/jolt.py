@@ -29,7 +29,7 @@ LEFT_OUT = re.compile(
 
 @dataclass
 class Jolt:
-    include: Path
+    includes: list[Path]
     library: Path
     defines: list[str]
 
@@ -39,8 +39,9 @@ def installed() -> Jolt | None:
     prefix = os.environ.get("JOLT_PREFIX")
     if not prefix:
         return None
-    jolt = Jolt(Path(prefix) / "include", Path(prefix) / "lib/libJolt.a", shlex.split(os.environ.get("JOLT_DEFINES", "")))
-    if not jolt.library.is_file() or not (jolt.include / "Jolt/Jolt.h").is_file():
+    include = Path(prefix) / "include"
+    jolt = Jolt([include], Path(prefix) / "lib/libJolt.a", shlex.split(os.environ.get("JOLT_DEFINES", "")))
+    if not jolt.library.is_file() or not (include / "Jolt/Jolt.h").is_file():
         raise RuntimeError(f"JOLT_PREFIX={prefix} has no include/Jolt/Jolt.h or no lib/libJolt.a")
     return jolt
 
@@ -54,7 +55,7 @@ def ready(fast: bool = False, platform: Platform | None = None) -> Jolt | None:
     if not cache.is_done(source, CRATE_SHA256):
         return None
     folder = _library_folder(fast, platform)
-    return _built(folder, fast) if cache.is_done(folder, folder.name) else None
+    return _built(folder, fast, platform) if cache.is_done(folder, folder.name) else None
 
 
 def fetch_and_build(fast: bool = False, platform: Platform | None = None) -> Jolt:
@@ -69,7 +70,7 @@ def fetch_and_build(fast: bool = False, platform: Platform | None = None) -> Jol
     for path in objects:
         path.unlink()
     cache.mark_done(folder, folder.name)
-    return _built(folder, fast)
+    return _built(folder, fast, platform)
 
 
 def licence() -> str:
@@ -85,8 +86,17 @@ def _jolt_source() -> Path:
     return _source_folder() / "vendor/JoltPhysics"
 
 
-def _built(folder: Path, fast: bool) -> Jolt:
-    return Jolt(_jolt_source(), folder / "libJolt.a", FAST_DEFINES if fast else DEFINES)
+def _built(folder: Path, fast: bool, platform: Platform) -> Jolt:
+    return Jolt(_includes(platform), folder / "libJolt.a", FAST_DEFINES if fast else DEFINES)
+
+
+def _stand_ins(platform: Platform) -> Path:
+    """Headers that take the place of Jolt's own of the same name on one system, where there is a reason."""
+    return cache.clone() / "tools/jolt" / platform.system
+
+
+def _includes(platform: Platform) -> list[Path]:
+    return [folder for folder in (_stand_ins(platform), _jolt_source()) if folder.is_dir()]
 
 
 def _sources() -> list[Path]:
@@ -104,7 +114,8 @@ def _flags(fast: bool, platform: Platform) -> list[str]:
 def _library_folder(fast: bool, platform: Platform) -> Path:
     version = subprocess.run([platform.compiler, "--version"], check=True, text=True, capture_output=True).stdout
     compiler = version.splitlines()[0]
-    own = (cache.clone() / "tools/jolt/register_types.cpp").read_text()
+    ours = [cache.clone() / "tools/jolt/register_types.cpp", *sorted(_stand_ins(platform).rglob("*.h"))]
+    own = "".join(path.read_text() for path in ours)
     defines = FAST_DEFINES if fast else DEFINES
     key = cache.digest(compiler, *_flags(fast, platform), *defines, own, str(CHUNKS), *map(str, _sources()))
     return cache.root() / f"jolt-{VERSION}-{key}"
@@ -124,8 +135,8 @@ def _write_chunks(folder: Path) -> list[Path]:
 def _compile(unit: Path, folder: Path, fast: bool, platform: Platform) -> Path:
     target = folder / f"{unit.stem}.o"
     defines = [f"-D{define}" for define in (FAST_DEFINES if fast else DEFINES)]
-    flags = [*_flags(fast, platform), *defines]
-    command = [platform.compiler, *flags, "-isystem", _jolt_source(), "-c", unit, "-o", target]
+    includes = [word for folder in _includes(platform) for word in ("-isystem", folder)]
+    command = [platform.compiler, *_flags(fast, platform), *defines, *includes, "-c", unit, "-o", target]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:
         raise RuntimeError(f"compiling {unit.name} failed:\n{done.stderr[:3000]}")

@@ -31,8 +31,13 @@ def dependencies() -> list[Step]:
 
 
 def for_platforms(platforms: list[Platform]) -> list[Step]:
-    """What engine-free programs for other platforms need."""
-    steps = [Step("Python tools", python_tools.is_done, python_tools.install)]
+    """What programs for other platforms need, and this machine's own, which are asked whether they compute the same."""
+    return dependencies() + of_platforms(platforms)
+
+
+def of_platforms(platforms: list[Platform]) -> list[Step]:
+    """What other platforms need besides."""
+    steps = []
     for one in platforms:
         steps.append(Step(f"libsodium for {one.name}", lambda one=one: bool(cross.ready(one)), lambda one=one: cross.build(one)))
         steps.append(

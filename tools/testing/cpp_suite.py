@@ -10,6 +10,7 @@ import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import addon
 from setup import cache, platforms
 from setup.platforms import Platform
 from testing.results import Result, matching
@@ -40,13 +41,19 @@ def _layer(program: Path) -> str:
 
 
 def _environment(platform: Platform) -> dict[str, str]:
-    """Wine keeps its Windows in the cache; a test that starts its program anew does so in the emulator."""
+    """Wine keeps its Windows in the cache; a test that starts its program anew does so in the emulator, and one loads
+    the extension where it is built."""
     emulated = {
         "WINEPREFIX": str(cache.root() / "wine"),
         "WINEDEBUG": "-all",
         "TACTUS_EMULATOR": " ".join(platform.emulator),
     }
-    return SANITIZER_OPTIONS | os.environ | (emulated if platform.is_foreign else {})
+    extension = {"TACTUS_EXTENSION": _seen_by_program(library, platform) for library in addon.built(platform)[:1]}
+    return SANITIZER_OPTIONS | os.environ | extension | (emulated if platform.is_foreign else {})
+
+
+def _seen_by_program(path: Path, platform: Platform) -> str:
+    return f"Z:{path}" if platform.system == "windows" else str(path)
 
 
 def _run_program(program: Path, wanted: str, time_limit: float, platform: Platform) -> list[Result]:
@@ -57,8 +64,8 @@ def _run_program(program: Path, wanted: str, time_limit: float, platform: Platfo
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.xml"
         names = ":".join(name.removeprefix(prefix) for name in chosen)
-        seen_by_program = f"Z:{report}" if platform.system == "windows" else report
-        options = [f"--gtest_filter={names}", f"--gtest_output=xml:{seen_by_program}", "--gtest_brief=1"]
+        output = f"--gtest_output=xml:{_seen_by_program(report, platform)}"
+        options = [f"--gtest_filter={names}", output, "--gtest_brief=1"]
         command = [*platform.emulator, program, *options]
         try:
             done = subprocess.run(
@@ -90,4 +97,8 @@ def _names(program: Path, platform: Platform) -> list[str]:
 
 def _result(prefix: str, case: ElementTree.Element) -> Result:
     why = "\n".join(failure.get("message", "") for failure in case.findall("failure"))
-    return Result(f"{prefix}{case.get('classname')}.{case.get('name')}", why, case.find("skipped") is not None)
+    skipped = case.find("skipped")
+    # The reason comes after the place in the source and the word "Skipped".
+    reason = "" if skipped is None else skipped.get("message", "").strip().split("\n")[-1] or "no reason given"
+    bits = [found.get("value", "") for found in case.iter("property") if found.get("name") == "bits"]
+    return Result(f"{prefix}{case.get('classname')}.{case.get('name')}", why, reason, "".join(bits))

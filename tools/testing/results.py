@@ -7,7 +7,8 @@ from dataclasses import dataclass
 class Result:
     name: str
     why: str = ""  # empty: passed
-    skipped: bool = False  # and said why
+    skipped: str = ""  # why it could not be run here; empty: it was
+    bits: str = ""  # of what it computed, where it says: tests/session/same_bits_test.cpp
 
     @property
     def passed(self) -> bool:

@@ -10,7 +10,7 @@ import time
 
 import build
 from setup import cache, platforms
-from testing import cpp_suite, format_suite, godot_suite, python_suite
+from testing import cpp_suite, format_suite, godot_suite, python_suite, same_bits
 
 SUITES = [format_suite, cpp_suite, godot_suite, python_suite]
 
@@ -32,16 +32,20 @@ def main(arguments: list[str]) -> int:
     for suite in [cpp_suite] if only_cpp else SUITES:
         started = time.monotonic()
         found = suite.run(wanted, sanitizers, platform) if only_cpp else suite.run(wanted)
-        skipped = sum(result.skipped for result in found)
+        if platform.is_foreign:
+            found += same_bits.compare(found)
+        skipped = [result for result in found if result.skipped]
         found = [result for result in found if not result.skipped]
         results += found
         for result in found:
             if not result.passed:
                 print(f"FAIL {result.name}\n     " + result.why.strip().replace("\n", "\n     "))
+        for result in skipped:
+            print(f"SKIP {result.name}: {result.skipped}")
         if found:
             passed = sum(result.passed for result in found)
             name = suite.__name__.rpartition(".")[2].removesuffix("_suite")
-            not_run = f", {skipped} skipped" if skipped else ""
+            not_run = f", {len(skipped)} skipped" if skipped else ""
             print(f"{name}: {passed} of {len(found)} passed{not_run}, {time.monotonic() - started:.1f} s", flush=True)
     passed = sum(result.passed for result in results)
     print(f"{passed} passed, {len(results) - passed} failed")

@@ -68,7 +68,7 @@ const TactusJoltCast* load_fast_jolt() {
         return nullptr;
     }
     std::string error;
-    void* const function = function_of_library(library, "tactus_jolt_cast", error);
+    void* const function = function_of_library(library.string(), "tactus_jolt_cast", error);
     if (!function) {
         std::fprintf(stderr, "%s\n", error.c_str());
         return nullptr;

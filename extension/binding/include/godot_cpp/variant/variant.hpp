@@ -86,6 +86,9 @@ public:
         OP_MAX
     };
 
+    // C's own whole number that none of the fixed sizes is: long long on Linux, long on Windows.
+    using OtherInt = std::conditional_t<std::is_same_v<int64_t, long long>, long, long long>;
+
     Variant();
     Variant(std::nullptr_t) : Variant() {}
     Variant(const Variant& other);
@@ -103,8 +106,8 @@ public:
     Variant(uint32_t value) : Variant(static_cast<int64_t>(value)) {}
     Variant(uint16_t value) : Variant(static_cast<int64_t>(value)) {}
     Variant(uint8_t value) : Variant(static_cast<int64_t>(value)) {}
-    Variant(long long value) : Variant(static_cast<int64_t>(value)) {}
-    Variant(unsigned long long value) : Variant(static_cast<int64_t>(value)) {}
+    Variant(OtherInt value) : Variant(static_cast<int64_t>(value)) {}
+    Variant(std::make_unsigned_t<OtherInt> value) : Variant(static_cast<int64_t>(value)) {}
     Variant(double value);
     Variant(float value) : Variant(static_cast<double>(value)) {}
     Variant(const ObjectID& value) : Variant(static_cast<int64_t>(value)) {}
