@@ -82,7 +82,7 @@ def stage_benches(target):
     return _links(target, "bench", links | _SHARED_BY_TESTS)
 
 
-_SHARED_BY_TESTS = {"support": Path("tests/support"), "shared": Path("tests/shared")}
+_SHARED_BY_TESTS = {name: Path("tests", name) for name in ("support", "shared", "stand_ins")}
 
 
 def _links(target, name, links):

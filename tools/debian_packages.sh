@@ -26,9 +26,11 @@ needs libsodium-dev test -e /usr/include/sodium.h
 needs libgtest-dev test -e /usr/include/gtest/gtest.h
 needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
-# Plays devices on USB for the tests.
+# Plays devices for the tests, on USB and behind a service.
 wants pkg-config command -v pkg-config
 wants libumockdev-dev pkg-config --exists umockdev-1.0
+wants libwslay1 python3 -c 'import ctypes; ctypes.CDLL("libwslay.so.1")'
+wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
 wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
 for extra in "$@"; do
     needs make command -v make
@@ -44,7 +46,7 @@ if [ ${#optional[@]} -gt 0 ] && command -v apt-get >/dev/null; then
     if [ "$(id -u)" -eq 0 ]; then
         missing+=("${optional[@]}")
     else
-        echo "Left out: tests with devices that are played on USB. They need" >&2
+        echo "Left out: tests with devices that are played. They need" >&2
         echo "  sudo apt-get install --yes --no-install-recommends ${optional[*]}" >&2
     fi
 fi

@@ -11,6 +11,8 @@ const SCENES := {
 	"Materials: rubber, ice, sandpaper, steel, sponge": "res://materials.tscn",
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
 	"Over a network: the box, far away": "res://networked_testbed.tscn",
+	"Over a network: a robot at a table": "res://robot_testbed.tscn",
+	"Check a device": "res://device_check.tscn",
 }
 
 var _scene: Node

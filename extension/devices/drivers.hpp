@@ -11,7 +11,7 @@
 
 namespace tactus {
 
-enum class DriverKind : std::uint8_t { falcon };
+enum class DriverKind : std::uint8_t { falcon, force_dimension, openhaptics, inverse3 };
 
 struct DriverSettings {
     std::string id;                      // of one of several; empty: the first that is free

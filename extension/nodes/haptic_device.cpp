@@ -10,6 +10,7 @@
 
 #include "devices/drivers.hpp"
 #include "devices/path_device.hpp"
+#include "devices/robot_table.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/hand_input.hpp"
@@ -150,6 +151,11 @@ std::shared_ptr<Device> HapticDevice::port() {
         arm_ = std::make_shared<SimulatedArm>(path_->hand_path(), arm_settings_);
         port_ = arm_;
     }
+    if (port_ == nullptr && driver() == DRIVER_EMULATED_ROBOT) {
+        RobotTable::Settings table;
+        table.height = table_height_;
+        port_ = std::make_shared<EmulatedRobot>(EmulatedRobotSettings{}, std::make_shared<RobotTable>(table));
+    }
     if (port_ == nullptr && is_driven()) {
         driven_ = open_driver();
         port_ = driven_;
@@ -172,7 +178,11 @@ std::shared_ptr<DriverDevice> HapticDevice::open_driver() const {
         const PackedByteArray image = FileAccess::get_file_as_bytes(firmware_);
         settings.firmware.assign(image.ptr(), image.ptr() + image.size());
     }
-    return std::make_shared<DriverDevice>(make_driver(DriverKind::falcon, std::move(settings)));
+    const DriverKind kind = driver() == DRIVER_FALCON            ? DriverKind::falcon
+                            : driver() == DRIVER_FORCE_DIMENSION ? DriverKind::force_dimension
+                            : driver() == DRIVER_OPENHAPTICS     ? DriverKind::openhaptics
+                                                                 : DriverKind::inverse3;
+    return std::make_shared<DriverDevice>(make_driver(kind, std::move(settings)));
 }
 
 String HapticDevice::get_open_device_id() const {
@@ -291,7 +301,11 @@ void HapticDevice::_validate_property(PropertyInfo& property) const {
                                (name.begins_with("arm_") && driver() != DRIVER_ARM) ||
                                (name.begins_with("steering") && !is_steered()) ||
                                (name == "gamepad" && driver() != DRIVER_GAMEPAD) ||
-                               (name == "target" && driver() != DRIVER_NODE);
+                               (name == "target" && driver() != DRIVER_NODE) ||
+                               (name == "firmware" && driver() != DRIVER_FALCON) ||
+                               (name == "gravity_compensation" && driver() != DRIVER_FALCON) ||
+                               (name == "table_height" && driver() != DRIVER_EMULATED_ROBOT) ||
+                               (name == "device_id" && !is_driven());
     if (is_of_another) {
         property.usage = PROPERTY_USAGE_STORAGE;
     }

@@ -32,7 +32,11 @@ public:
         DRIVER_KEYBOARD,
         DRIVER_GAMEPAD,
         DRIVER_NODE,
-        DRIVER_FALCON = 16
+        DRIVER_FALCON = 16,
+        DRIVER_FORCE_DIMENSION,
+        DRIVER_OPENHAPTICS,
+        DRIVER_INVERSE3,
+        DRIVER_EMULATED_ROBOT
     };
     enum Steering : int64_t {
         STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
@@ -79,7 +83,7 @@ private:
     void arm_changed();
     // The one that is meant where that is left open.
     Driver driver() const;
-    bool is_driven() const { return driver() >= DRIVER_FALCON; }
+    bool is_driven() const { return driver() >= DRIVER_FALCON && driver() <= DRIVER_INVERSE3; }
     std::shared_ptr<DriverDevice> open_driver() const;
     bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
     bool is_steered() const { return driver() == DRIVER_KEYBOARD || driver() == DRIVER_GAMEPAD; }
@@ -98,6 +102,7 @@ private:
     godot::String firmware_;
     godot::String device_id_;
     double gravity_compensation_ = 0.0;
+    double table_height_ = -0.01;
     double force_limit_ = 8.0;
     double force_scale_ = 1.0;
     double edge_speed_ = 0.0;

@@ -83,7 +83,10 @@ void MMTLink::restart_world() {
 }
 
 void MMTLink::scenario_changed() {
-    if (std::exchange(was_networked_, is_networked()) == is_networked()) {
+    const Running now = !is_networked()               ? Running::alone
+                        : scenario_ == SCENARIO_ROBOT ? Running::robot
+                                                      : Running::bodies;
+    if (std::exchange(running_, now) == now) {
         changed();
         return;
     }
@@ -151,7 +154,8 @@ LinkPlan MMTLink::plan() {
     plan.revision = revision_;
     plan.way_revision = way_revision_;
     plan.teleop = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
-    plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL;
+    plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL || scenario_ == SCENARIO_ROBOT;
+    plan.teleop.robot = scenario_ == SCENARIO_ROBOT;
     plan.teleop.correction = correction_;
     plan.teleop.control = control_;
     plan.network = network_settings();

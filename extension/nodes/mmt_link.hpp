@@ -27,7 +27,12 @@ class MMTLink : public godot::Node {
     GDCLASS(MMTLink, godot::Node)
 
 public:
-    enum Scenario : int64_t { SCENARIO_SINGLE = 1, SCENARIO_TRADITIONAL = 2, SCENARIO_MMT = 4 };
+    enum Scenario : int64_t {
+        SCENARIO_SINGLE = 1,
+        SCENARIO_TRADITIONAL = 2,
+        SCENARIO_ROBOT = 3,
+        SCENARIO_MMT = 4
+    };
     enum Side : int64_t { SIDE_OPERATOR, SIDE_TELEOPERATOR };
     enum State : int64_t {
         STATE_OFF = static_cast<int64_t>(LinkState::off),
@@ -107,7 +112,9 @@ private:
     godot::Ref<TeleopTuning> tuning_;
     std::uint64_t seed_;  // that the way was opened with
     bool is_old_ = false;
-    bool was_networked_ = false;
+    // What changes anew with the scenario: everything, or nothing.
+    enum class Running : uint8_t { alone, bodies, robot };
+    Running running_ = Running::alone;
     godot::Dictionary model_errors_;
 
     std::uint64_t revision_ = 1;

@@ -9,7 +9,7 @@ bool Channel::begin_tick(Nanoseconds now) {
     if (port_->settings.refresh()) {
         before_ = std::exchange(settings_, port_->settings.front());
         link_.set_skew(settings_.skew);
-        link_.set_scenario(settings_.traditional ? 2 : 4);
+        link_.set_scenario(scenario_of(settings_));
         if (settings_.leaving && !before_.leaving) {
             link_.leave();
         }

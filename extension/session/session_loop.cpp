@@ -27,7 +27,7 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr ForceLimits local_touch{no_limit, no_limit, no_limit};
 
 SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& workspace,
-                           const ForceLimits& side) {
+                           const ForceLimits& side, bool drives) {
     SafetySettings settings;
     settings.limits = {std::min(side.slew, device.max_slew), std::min(side.energy, device.max_energy),
                        std::min(side.power, device.max_power)};
@@ -35,7 +35,7 @@ SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& wo
     settings.max_speed = device.max_speed;
     settings.ramp = device.ramp;
     settings.dead_man = workspace.dead_man;
-    settings.passive = device.feels;
+    settings.passive = device.feels && !drives;
     settings.damping = device.damping;
     settings.max_damping = device.max_damping;
     return settings;
@@ -376,6 +376,14 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     }
 }
 
+RobotView SessionLoop::robot(SessionHandle device) const {
+    if (device >= most_devices || !devices_[device].device) {
+        return {};
+    }
+    const DeviceSlot& slot = devices_[device];
+    return {slot.sample.connected, slot.capabilities, slot.workspace};
+}
+
 void SessionLoop::write_devices(Nanoseconds now) {
     for (const ProxySlot& slot : proxies_) {
         if (slot.proxy && slot.description.device < most_devices) {
@@ -389,8 +397,10 @@ void SessionLoop::write_devices(Nanoseconds now) {
         }
         const Vec3 asked = slot.force;
         const SafetySample sample = safety_sample(slot, i);
-        slot.safe = slot.safety.pass(
-            settings_of(slot.capabilities, slot.workspace, side_ ? side_->limits() : local_touch), sample);
+        slot.safe =
+            slot.safety.pass(settings_of(slot.capabilities, slot.workspace,
+                                         side_ ? side_->limits() : local_touch, side_ && side_->drives()),
+                             sample);
         if (slot.safe.force != sample.wanted) {
             slot.force = force_in_scene(slot.workspace, slot.safe.force);
         }

@@ -20,6 +20,13 @@
 
 namespace tactus {
 
+// A device as what drives it has to know it.
+struct RobotView {
+    bool connected = false;
+    DeviceCapabilities capabilities;
+    Workspace workspace;
+};
+
 class SessionLoop {
 public:
     struct Body {
@@ -89,6 +96,7 @@ public:
     const TouchScene& scene() const { return scene_; }
     SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
     DeviceSample device_sample(SessionHandle device) const;
+    RobotView robot(SessionHandle device) const;
     // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
     Vec3 given_force(const ProxySlot& slot) const;
 

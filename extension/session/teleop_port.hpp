@@ -33,6 +33,7 @@ namespace tactus {
 // All of it may change while the loop runs.
 struct TeleopSettings {
     bool traditional = false;  // scenarios 2 and 3: positions one way, forces back
+    bool robot = false;        // scenario 3: the environment is real, and a robot is there
     Derivation derivation = Derivation::resimulate;
     Correction correction = Correction::stealthy_direction;
     ControlScheme control = ControlScheme::spring;
@@ -56,6 +57,11 @@ struct TeleopSettings {
     bool leaving = false;  // says bye, once
     std::uint32_t replay_steps = 32;  // ticks of the past that are replayed in one tick, >= 1
 };
+
+// As the two sides tell each other.
+inline std::uint8_t scenario_of(const TeleopSettings& settings) {
+    return settings.traditional ? (settings.robot ? 3 : 2) : 4;
+}
 
 // What a pointer feels besides its model.
 struct FeltFigures {

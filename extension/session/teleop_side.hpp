@@ -34,6 +34,9 @@ public:
     // False: bodies stay where they are put and nothing touches them; everything comes from the far side.
     virtual bool simulates() const { return true; }
 
+    // True: this side's devices are robots. What moves them may give them energy.
+    virtual bool drives() const { return false; }
+
     // What leaves for the devices is limited by this, besides each device's own longest force.
     virtual const ForceLimits& limits() const = 0;
 

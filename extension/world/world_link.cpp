@@ -6,6 +6,7 @@
 
 #include "network/key_source.hpp"
 #include "session/operator_side.hpp"
+#include "session/robot_side.hpp"
 #include "session/shared_environment.hpp"
 #include "session/teleoperator_side.hpp"
 
@@ -86,6 +87,9 @@ std::unique_ptr<TeleopSide> WorldLink::make_side(const SessionSettings& session,
     settings_.frame = frame_;
     if (is_operator()) {
         return std::make_unique<OperatorSide>(session, OperatorRoom{}, settings_, route_, port_, endpoint);
+    }
+    if (settings_.robot) {
+        return std::make_unique<RobotSide>(session, settings_, route_, port_, endpoint);
     }
     return std::make_unique<TeleoperatorSide>(session, settings_, route_, port_, endpoint, share);
 }

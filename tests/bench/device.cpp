@@ -53,6 +53,32 @@ void report_kinematics(Report& report, int places) {
                 all.force_size_error);
 }
 
+// How well the arm holds the hand, over a plane through its axis: device_conditioning.csv. Empty: no sound
+// place.
+void write_conditioning() {
+    std::FILE* const csv =
+        std::fopen((result_path("device").parent_path() / "device_conditioning.csv").c_str(), "w");
+    if (!csv) {
+        return;
+    }
+    std::fprintf(csv, "geometry,x_mm,z_mm,condition\n");
+    const auto write = [csv](const char* name, const DeltaGeometry& geometry) {
+        for (int x = -80; x <= 80; x += 2) {
+            for (int z = 60; z <= 190; z += 2) {
+                const DeltaPose pose = delta_pose(geometry, {1e-3 * x, 0.0, 1e-3 * z});
+                std::fprintf(csv, "%s,%d,%d,", name, x, z);
+                if (pose.state == DeltaState::sound) {
+                    std::fprintf(csv, "%.4g", condition_of(pose));
+                }
+                std::fprintf(csv, "\n");
+            }
+        }
+    };
+    write("falcon", falcon_geometry);
+    write("falcon_martin", falcon_geometry_martin);
+    std::fclose(csv);
+}
+
 void report_random_input(Report& report, std::int64_t inputs) {
     constexpr std::size_t parts = 20;
     std::vector<SafetyFigures> figures(parts);
@@ -154,6 +180,9 @@ void report_played_falcon(Report& report, int rounds) {
     std::printf(
         "falcon      %.0f exchanges/s, %d of %d starts with 30 %% of transfers failing, %d of %d replugs\n",
         rate, starts, rounds, replugs, rounds);
+    const double over_path = tick_over_path(10.0);
+    report.set("falcon.tick_over_path", over_path);
+    std::printf("falcon      a tick's p99 %.2f times that with a scripted path\n", over_path);
     StallFigures loop = stall_loop(5 * rounds);
     StallFigures driver = stall_driver(5 * rounds);
     report_stalls(report, "loop_stall", loop);
@@ -183,6 +212,7 @@ int main(int count, char** arguments) {
     }
     Report report;
     report_kinematics(report, places);
+    write_conditioning();
     report_random_input(report, inputs);
     report_walls(report);
 #ifdef TACTUS_PLAYED_USB

@@ -52,3 +52,32 @@ func test_a_falcon_says_what_it_needs() -> void:
 	world.advance(0.01)
 	check("nowhere.bin" in device.get_state_text(), "without the file it says: %s" % device.get_state_text())
 	check(device.get_warnings().size() > 0, "no warning")
+
+
+## A scripted hand presses the six walls in turn.
+func test_the_device_check_sees_all_six_directions() -> void:
+	var scene: Control = (load("res://device_check.tscn") as PackedScene).instantiate()
+	scene.report_path = "user://device_check_test.json"
+	var world: HapticWorld = scene.get_node("%HapticWorld")
+	world.clock = HapticWorld.CLOCK_STEPPED
+	var way := HapticPath.new()
+	way.form = HapticPath.FORM_POINTS
+	var places := PackedVector3Array()
+	var times := PackedFloat64Array()
+	for direction: Vector3 in scene.WAYS.values():
+		for place: Vector3 in [Vector3.ZERO, direction * 0.022, direction * 0.022]:
+			times.append(places.size() * 0.2)
+			places.append(place)
+	way.points_positions = places
+	way.points_times = times
+	way.points_interpolation = HapticPath.INTERPOLATION_LINEAR
+	(scene.get_node("%HapticDevice") as HapticDevice).path = way
+	add_child(scene)
+	await frames(2)
+	for _step in 400:
+		world.advance(0.01)
+		scene.observe()
+	check_equal(scene.next_way(), "", "direction that was not seen")
+	var report: Dictionary = JSON.parse_string(FileAccess.get_file_as_string(scene.report_path))
+	check_equal(report.directions.size(), 6, "directions in the report")
+	DirAccess.remove_absolute(scene.report_path)

@@ -69,6 +69,25 @@ func test_the_two_sides_find_each_other() -> void:
 	check_equal(_there.get_state(), MMTLink.STATE_CONNECTED, "state: " + _there.get_state_text())
 
 
+## The robot's table lies 10 mm below the middle.
+func test_a_robot_goes_where_the_hand_is_and_the_table_it_meets_is_felt() -> void:
+	await _connect(MMTLink.SCENARIO_ROBOT)
+	add_hand(_operator, path(Vector3.ZERO, Vector3(0.01, -0.02, 0), 0.5))
+	var robot := HapticDevice.new()
+	robot.name = "Device"
+	robot.driver = HapticDevice.DRIVER_EMULATED_ROBOT
+	_far.add_child(robot)
+	var tip := ProxyPointer.new()
+	tip.device = NodePath("../Device")
+	_far.add_child(tip)
+	_advance(2.0)
+	check_equal(_here.get_state(), MMTLink.STATE_CONNECTED, "state: " + _here.get_state_text())
+	var at := robot.get_hand_position()
+	check_near(at.x, 0.01, 0.003, "x of the robot")
+	check(at.y < -0.01 and at.y > -0.018, "y of the robot is %s" % at.y)
+	check(_felt(_operator).y > 2.0, "the hand feels %s" % _felt(_operator))
+
+
 func test_the_model_is_filled_from_the_far_side_and_touched_at_once() -> void:
 	await _connect(MMTLink.SCENARIO_MMT, 0.1)
 	add_floor(_far, STIFFNESS)

@@ -17,9 +17,11 @@
 
 #include "devices/driver_device.hpp"
 #include "devices/falcon/falcon_driver.hpp"
+#include "devices/path_device.hpp"
 #include "platform/realtime_thread.hpp"
 #include "platform/sleep.hpp"
 #include "played/played_usb.hpp"
+#include "session/session.hpp"
 #include "shared/bench_kit.hpp"
 
 namespace tactus::shared {
@@ -133,6 +135,40 @@ StallFigures time_stalls(int stalls, const Stall& begin, const GoOn& go_on) {
     return figures_of(std::move(times), stalls);
 }
 
+CircleWave way_of_the_hand() {
+    CircleWave way;
+    way.centre = {0.0, -0.004, 0.0};
+    way.radius = 0.02;
+    way.amplitude = 0.003;
+    return way;
+}
+
+// Of a session in real time, with a floor at y = 0 (unit: microseconds). `move` is called before each tick.
+double tick_p99(Device& device, double seconds, const auto& move) {
+    Session session{SessionSettings{}};
+    BodyAddition floor;
+    floor.description.shapes = {{BoxShape{Vec3(0.5, 0.05, 0.5)}, Pose{}}};
+    floor.description.pose.position = {0.0, -0.05, 0.0};
+    floor.description.motion = Motion::Static;
+    session.add_body(floor);
+    ProxyDescription pointer;
+    pointer.device = session.add_device(device, Workspace{}).handle;
+    pointer.settings.radius = 0.005;
+    session.add_proxy(pointer);
+    const SpanClock clock;
+    std::vector<double> spans;
+    SleepTimer timer;
+    const Nanoseconds start = monotonic_now();
+    for (Nanoseconds tick = start; tick < start + from_seconds(seconds); tick += ms) {
+        move(to_seconds(tick - start));
+        timer.sleep_until(tick);
+        const std::uint64_t from = clock.now();
+        session.tick(tick - start);
+        spans.push_back(1e-3 * clock.nanoseconds(from, clock.now()));
+    }
+    return quantile(spans, 0.99);
+}
+
 pid_t thread_named(const std::string& name) {
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
         std::string found;
@@ -189,6 +225,21 @@ int replugs_ok(int replugs) {
         ok += wait_until(is_pushed) ? 1 : 0;
     }
     return ok;
+}
+
+double tick_over_path(double seconds) {
+    PathDevice path{way_of_the_hand()};
+    const double by_path = tick_p99(path, seconds, [](double) {});
+    PlayedUsb usb({});
+    usb.plug();
+    const auto falcon = open_falcon();
+    if (!Loop(*falcon).wait_for_hand()) {
+        return 0.0;
+    }
+    const double by_falcon = tick_p99(*falcon, seconds, [&usb](double time) {
+        usb.mean(sample_path(way_of_the_hand(), from_seconds(time)).position);
+    });
+    return by_falcon / by_path;
 }
 
 StallFigures stall_loop(int stalls) {

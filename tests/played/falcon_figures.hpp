@@ -13,6 +13,10 @@ double exchanges_per_second(double seconds);
 // again.
 int replugs_ok(int replugs);
 
+// Compute time of a tick at which 99 of 100 are done, of a hand that slides over a floor: with the Falcon's
+// driver, as a share of that with a scripted path.
+double tick_over_path(double seconds);
+
 // From the last sign of life to the packet that takes the force away.
 struct StallFigures {
     int stalls = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
+#include <numbers>
 
 #include "shared/random_values.hpp"
 
@@ -90,6 +92,26 @@ DeltaFigures check_delta(const DeltaGeometry& geometry, std::uint64_t seed, int 
         figures.add(one);
     }
     return figures;
+}
+
+// The square root of the ratio of the eigenvalues of J^T J, by the trigonometric solution of their cubic.
+double condition_of(const DeltaPose& pose) {
+    const Mat3 jacobian = delta_jacobian(pose);
+    const Mat3 a = glm::transpose(jacobian) * jacobian;
+    const double mean = (a[0][0] + a[1][1] + a[2][2]) / 3.0;
+    const Mat3 b = a - Mat3(mean);
+    double squares = 0.0;
+    for (int column = 0; column < 3; ++column) {
+        squares += glm::dot(b[column], b[column]);
+    }
+    const double p = std::sqrt(squares / 6.0);
+    if (!(p > 0.0)) {
+        return 1.0;
+    }
+    const double angle = std::acos(std::clamp(0.5 * glm::determinant(b / p), -1.0, 1.0)) / 3.0;
+    const double largest = mean + 2.0 * p * std::cos(angle);
+    const double smallest = mean + 2.0 * p * std::cos(angle + 2.0 * std::numbers::pi / 3.0);
+    return smallest > 0.0 ? std::sqrt(largest / smallest) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tactus::shared

@@ -31,4 +31,8 @@ Vec3 sound_place(const DeltaGeometry& geometry, RandomValues& random);
 // The Jacobian by central differences of fourth order.
 Mat3 numeric_jacobian(const DeltaGeometry& geometry, const Vec3& place);
 
+// Of the Jacobian: how many times farther a step of all angles leads in one direction than in another, >= 1;
+// infinite where the arm is singular.
+double condition_of(const DeltaPose& pose);
+
 }  // namespace tactus::shared

@@ -262,7 +262,7 @@ void evaluate_excess(const std::vector<TeleopRow>& rows, const TeleopCase& exper
 TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment, const TeleopPorts& ports,
                        TeleopBins* bins) {
     TeleopFigures figures;
-    Series shifted, turn, jitter;
+    Series shifted, turn, jitter, hand;
     Spread error, box;
     std::vector<double> shares;
     std::array<HighPass, 3> filters{HighPass(30.0), HighPass(30.0), HighPass(30.0)};
@@ -285,6 +285,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
         if (row.far_known) {
             box.add(1e3 * row.box_error);
             turn.add(row.turn_error);
+            hand.add(1e3 * row.hand_error);
         }
         const Vec3 fast(filters[0](row.force.x), filters[1](row.force.y), filters[2](row.force.z));
         jitter.add(glm::length(fast));
@@ -300,6 +301,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     }
     error.tell_before_unit("force_error", "N", figures);
     figures["force_error_shifted_mean_N"] = shifted.mean();
+    figures["hand_position_error_rms_mm"] = hand.rms();
     figures["force_jitter_rms_N"] = jitter.rms();
     figures["correction_cost_jnd_p99"] = percentile(shares, 0.99);
     figures["seconds_until_right"] = first_touch < 0.0 ? 0.0 : std::max(0.0, last_wrong - first_touch);

@@ -19,6 +19,7 @@ struct TeleopRow {
     Pose model, truth;                       // of the object that is followed
     double box_error = 0.0,
            turn_error = 0.0;               // of the dynamic body that is off most (units: meters, radians)
+    double hand_error = 0.0;               // of the far hand, after this sample (unit: meters)
     bool far_known = false;                // the far side has answered this sample
     bool touches = false;                  // the operator's pointer, the object
     bool direct_touches = false;           // anything

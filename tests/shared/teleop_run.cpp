@@ -16,6 +16,7 @@
 #include "session/teleoperator_side.hpp"
 #include "shared/teleop_links.hpp"
 #include "shared/teleop_place.hpp"
+#include "shared/teleop_robot.hpp"
 
 namespace tactus::shared {
 
@@ -47,6 +48,7 @@ public:
 private:
     EndpointSettings endpoint(Side side, std::uint64_t epoch) const;
     void attach_far_side(std::uint64_t epoch);
+    std::unique_ptr<Device> far_hand();
     void describe_all();
     const TeleopBody* body_named(const std::string& name) const;
     SessionHandle object_id(const TeleopBody& body) const;
@@ -68,7 +70,9 @@ private:
     RoughSight at_operator_;
     std::shared_ptr<TeleopPort> operator_port_ = std::make_shared<TeleopPort>();
     std::shared_ptr<TeleopPort> far_port_ = std::make_shared<TeleopPort>();
+    RobotTip* tip_ = nullptr;  // the hand of truth_, where a robot is there
     TeleopPlace model_, truth_, direct_, local_;
+    std::unique_ptr<TeleopRobot> robot_;
     ModelBuilder builder_;
     EnvironmentTeller teller_;
     TeleopSettings settings_;        // of the operator, as they are now
@@ -91,7 +95,7 @@ TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
       cut_back_(emulated_back_),
       at_operator_(cut_back_, experiment.pose_noise, experiment.seed + 2),
       model_(experiment, hand_of(scene, experiment)),
-      truth_(experiment, hand_of(scene, experiment)),
+      truth_(experiment, far_hand()),
       direct_(experiment, std::make_unique<FollowingDevice>(model_.device)),
       local_(experiment, hand_of(scene, experiment)),
       builder_(model_.session, operator_port_),
@@ -127,15 +131,30 @@ TeleopRun::TeleopRun(const TeleopScene& scene, const TeleopCase& experiment)
 EndpointSettings TeleopRun::endpoint(Side side, std::uint64_t epoch) const {
     EndpointSettings one;
     one.side = side;
-    one.scenario = experiment_.settings.traditional ? 2 : 4;
+    one.scenario = scenario_of(experiment_.settings);
     one.epoch = epoch;
     one.period = period;
     return one;
 }
 
+// Of the environment: the stand-in puts it where it is to be, or a robot does.
+std::unique_ptr<Device> TeleopRun::far_hand() {
+    if (!experiment_.robot) {
+        return hand_of(scene_, experiment_);
+    }
+    auto tip = std::make_unique<RobotTip>();
+    tip_ = tip.get();
+    return tip;
+}
+
 void TeleopRun::attach_far_side(std::uint64_t epoch) {
     TeleopSettings settings = experiment_.settings;
     settings.gravity = experiment_.gravity_believed;
+    if (experiment_.robot) {
+        robot_ = std::make_unique<TeleopRobot>(truth_, *tip_, settings, at_far_, far_port_,
+                                               endpoint(Side::teleoperator_side, epoch));
+        return;
+    }
     truth_.session.attach(std::make_unique<TeleoperatorSide>(
         teleop_session_settings(), settings, at_far_, far_port_, endpoint(Side::teleoperator_side, epoch)));
 }
@@ -292,6 +311,7 @@ void TeleopRun::note_answer() {
     answered.truth = truth_.pose_of(truth_.object);
     answered.far = truth_.device.force;
     answered.depth = truth_.depth();
+    answered.hand_error = glm::distance(answered.hand, truth_.pointer().hand);
     const std::size_t moving = truth_.moving.size();
     for (std::size_t body = 0; body < moving; ++body) {
         const std::optional<Pose>& ours = believed_[(sample - 1) * moving + body];
@@ -324,7 +344,11 @@ void TeleopRun::tick_far_side(Nanoseconds now) {
         teller_ = EnvironmentTeller(far_port_);
         describe_all();
     }
-    truth_.tick(now + experiment_.phase);
+    if (robot_) {
+        robot_->tick(now + experiment_.phase);
+    } else {
+        truth_.tick(now + experiment_.phase);
+    }
 }
 
 TeleopFigures TeleopRun::run(TeleopBins* bins) {

@@ -199,6 +199,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
     TeleopSettings& s = c.settings;
     if (key == "traditional") {
         s.traditional = number != 0.0;
+    } else if (key == "robot") {
+        c.robot = s.robot = s.traditional = number != 0.0;
     } else if (key == "passivity") {
         return choose(value, {"none", "wave_variables", "time_domain", "two_layers"}, s.passivity);
     } else if (key == "wave_impedance") {

@@ -23,7 +23,11 @@ struct DeviceCapabilities {
     double damping = any;     // of its mechanics: what a stiff wall lives on (unit: newton seconds per meter)
     double max_damping = 0.0;  // that may be rendered on top (the same unit)
     double delay = 0.0;        // from a place's reading to its force, besides the tick (unit: seconds)
-    double ramp = 0.0;         // until a force that begins is there (unit: seconds)
+    // Of what moves with the hand, as a drive that moves it needs it.
+    double mass = 0.0;     // (unit: kilograms); 0: unknown
+    double viscous = 0.0;  // friction (unit: newton seconds per meter)
+    double coulomb = 0.0;  // friction (unit: newtons)
+    double ramp = 0.0;     // until a force that begins is there (unit: seconds)
 };
 
 struct DeviceSample {

@@ -85,6 +85,9 @@ DeviceCapabilities falcon_capabilities() {
     falcon.max_speed = 5.0;
     falcon.damping = 3000.0 * (falcon.delay + 0.5 / falcon.rate);
     falcon.max_damping = 20.0;
+    falcon.mass = 0.2;
+    falcon.viscous = 1.0;
+    falcon.coulomb = 0.15;
     falcon.ramp = 0.3;
     return falcon;
 }

@@ -1,0 +1,92 @@
+#include "devices/emulated_robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+namespace tactus {
+
+namespace {
+
+// Short enough for friction at rest (unit: seconds).
+constexpr double longest_step = 250e-6;
+
+// Of the legs amid the workspace, for what their inertia is in the hand (unit: meters).
+constexpr double mean_lever = 0.09;
+
+// After a pause it goes on from where it was (unit: seconds).
+constexpr double longest_tick = 0.01;
+
+}  // namespace
+
+EmulatedRobot::EmulatedRobot(const EmulatedRobotSettings& settings,
+                             std::shared_ptr<RobotSurroundings> surroundings)
+    : settings_(settings),
+      surroundings_(std::move(surroundings)),
+      arm_(settings.data),
+      middle_(delta_centre(settings.data.geometry)),
+      place_(middle_),
+      shown_(delta_pose(settings.data.geometry, place_).angles) {}
+
+DeviceCapabilities EmulatedRobot::capabilities() const {
+    DeviceCapabilities robot = falcon_capabilities();
+    robot.mass = settings_.body.mass + 3.0 * settings_.leg_inertia / (mean_lever * mean_lever);
+    robot.viscous = settings_.body.viscous;
+    robot.coulomb = settings_.body.coulomb;
+    return robot;
+}
+
+DeviceSample EmulatedRobot::read(Nanoseconds now) {
+    const double seconds = started_ ? std::clamp(to_seconds(now - previous_), 0.0, longest_tick) : 0.0;
+    const int steps = static_cast<int>(std::ceil(seconds / longest_step));
+    for (int i = 0; i < steps; ++i) {
+        step(seconds / steps);
+    }
+    previous_ = now;
+    started_ = true;
+    contact_ = surroundings_->push(now, tip(), velocity_);
+    DeviceSample sample;
+    sample.connected = arm_.read(encoders(), std::max(seconds, longest_step), sample);
+    return sample;
+}
+
+// What of a command the motors can do is what a driver would have sent.
+void EmulatedRobot::write(Nanoseconds, const Vec3& force) {
+    const auto counts = arm_.counts(force);
+    torques_ = Vec3(counts[0], counts[1], counts[2]) *
+               (settings_.data.torque_a_count * settings_.data.geometry.gear);
+}
+
+FalconReport EmulatedRobot::encoders() {
+    const FalconData& data = settings_.data;
+    const Vec3 angles = delta_pose(data.geometry, place_).angles;
+    FalconReport report;
+    report.homed = 7;
+    for (int leg = 0; leg < 3; ++leg) {
+        shown_[leg] = std::clamp(shown_[leg], angles[leg] - 0.5 * settings_.backlash,
+                                 angles[leg] + 0.5 * settings_.backlash);
+        const double turned = (shown_[leg] - data.zero_angles[leg]) * data.counts_a_turn * data.geometry.gear;
+        report.encoders[static_cast<std::size_t>(leg)] =
+            static_cast<std::int16_t>(std::lround(turned / (360.0 * delta_degrees)));
+    }
+    return report;
+}
+
+void EmulatedRobot::step(double seconds) {
+    const DeltaGeometry& geometry = settings_.data.geometry;
+    const DeltaPose pose = delta_pose(geometry, place_);
+    const Mat3 jacobian = delta_jacobian(pose);
+    const Mat3 mass =
+        Mat3(settings_.body.mass) + settings_.leg_inertia * (glm::transpose(jacobian) * jacobian);
+    const Vec3 force = delta_force(pose, torques_) + contact_ - friction_of(settings_.body, velocity_);
+    velocity_ += seconds * (glm::inverse(mass) * force);
+    const Vec3 next = place_ + seconds * velocity_;
+    const DeltaState there = delta_pose(geometry, next).state;
+    if (there == DeltaState::sound) {
+        place_ = next;
+    } else {
+        velocity_ = Vec3(0.0);  // against its stops
+    }
+}
+
+}  // namespace tactus

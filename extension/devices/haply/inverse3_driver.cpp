@@ -1,0 +1,166 @@
+#include "devices/haply/inverse3_driver.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "platform/sleep.hpp"
+
+namespace tactus {
+
+namespace {
+
+// Their base frame has x to the right, y away from the user and z up; ours y up and z to the user.
+Vec3 from_device(const Vec3& v) {
+    return {v.x, v.z, -v.y};
+}
+Vec3 to_device(const Vec3& v) {
+    return {v.x, -v.z, v.y};
+}
+
+// Amid the workspace, in the base frame (unit: meters).
+constexpr Vec3 middle{0.04, -0.17, 0.16};
+
+constexpr Nanoseconds first_state = 2'000'000'000;
+constexpr Nanoseconds look_again = 200'000;
+
+}  // namespace
+
+std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
+    if (std::string problem = json_.load(); !problem.empty()) {
+        return problem;
+    }
+    if (const std::string why = socket_.open(port_); !why.empty()) {
+        return "Haply's service does not run here (" + why + "): install and start Haply Hub";
+    }
+    std::string problem = "Haply's service says nothing: start Haply Hub anew";
+    for (const Nanoseconds end = monotonic_now() + first_state; monotonic_now() < end && !stop.load();) {
+        if (!socket_.receive(text_, look_again * 10)) {
+            continue;
+        }
+        const JsonValue device = device_in(json_.read(text_));
+        if (device.exists()) {
+            id_ = device["device_id"].text();
+            return {};
+        }
+        problem = wanted_.empty() ? "Haply's service has no Inverse3: plug it in, with its power"
+                                  : "Haply's service has no Inverse3 " + wanted_;
+    }
+    return problem;
+}
+
+void Inverse3Driver::close() {
+    if (!socket_.is_gone() && sent_ != Vec3(0.0)) {
+        send(Vec3(0.0));
+    }
+    socket_.close();
+    sent_ = Vec3(0.0);
+}
+
+JsonValue Inverse3Driver::device_in(const JsonValue& state) const {
+    const JsonValue all = state["inverse3"];
+    const std::string& wanted = id_.empty() ? wanted_ : id_;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (wanted.empty() || all[i]["device_id"].text() == wanted) {
+            return all[i];
+        }
+    }
+    return all[all.size()];
+}
+
+// False where it is no state of this device.
+bool Inverse3Driver::take(const JsonValue& state, DeviceSample& sample) {
+    const JsonValue device = device_in(state);
+    Vec3 position, velocity;
+    if (!device["state"]["cursor_position"].vector(position) ||
+        !device["state"]["cursor_velocity"].vector(velocity)) {
+        return false;
+    }
+    sample.position = from_device(position - middle);
+    sample.velocity = from_device(velocity);
+    is_calibrated_ = device["status"]["calibrated"].is_true();
+    is_powered_ = device["status"]["power_supply"].is_true();
+    sample.connected = is_calibrated_ && is_powered_;
+    const JsonValue grip = state["wireless_verse_grip"][std::size_t{0}]["state"];
+    if (const JsonValue turn = grip["orientation"]; turn.exists()) {
+        Vec3 axis;
+        if (turn.vector(axis)) {
+            const Vec3 ours = from_device(axis);
+            const Quat rotation(turn["w"].number(), ours.x, ours.y, ours.z);
+            sample.rotation = glm::dot(rotation, rotation) > 0.0 ? glm::normalize(rotation) : sample.rotation;
+        }
+    }
+    sample.buttons = 0;
+    const char* const names[] = {"a", "b", "c"};
+    for (unsigned i = 0; i < 3; ++i) {
+        sample.buttons |= grip["buttons"][names[i]].is_true() ? 1u << i : 0u;
+    }
+    return true;
+}
+
+void Inverse3Driver::send(const Vec3& force) {
+    const Vec3 theirs = to_device(force);
+    char text[512];
+    std::snprintf(text, sizeof text,
+                  "{\"session\":{},\"inverse3\":[{\"device_id\":\"%.32s\",\"commands\":{\"set_cursor_force\":"
+                  "{\"vector\":"
+                  "{\"x\":%.6f,\"y\":%.6f,\"z\":%.6f},\"execute\":true}}}]}",
+                  id_.c_str(), theirs.x, theirs.y, theirs.z);
+    socket_.send(text);
+    sent_ = force;
+}
+
+Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) {
+    SleepTimer timer;
+    for (;;) {
+        const Nanoseconds before = monotonic_now();
+        const Nanoseconds wake =
+            sent_ == Vec3(0.0) || forces.end() == 0 ? until : std::min(until, forces.end() + 1);
+        const bool came = socket_.receive(text_, std::max<Nanoseconds>(0, wake - before));
+        if (socket_.is_gone()) {
+            return Exchange::lost;
+        }
+        const Nanoseconds now = monotonic_now();
+        const Vec3 force = forces.living(now);
+        if (came && take(json_.read(text_), sample)) {
+            send(sample.connected ? force : Vec3(0.0));
+            return Exchange::reading;
+        }
+        if (sent_ != Vec3(0.0) && force == Vec3(0.0)) {
+            send(force);
+        }
+        if (now >= until) {
+            return Exchange::nothing;
+        }
+        if (now - before < look_again) {
+            timer.sleep_until(now + look_again);
+        }
+    }
+}
+
+DeviceCapabilities Inverse3Driver::capabilities() const {
+    DeviceCapabilities device;
+    device.feels = true;
+    device.rotates = true;
+    device.radius = 0.1;
+    device.rate = 1000.0;
+    device.delay = 0.001;
+    device.max_force = 10.0;
+    device.max_slew = 4000.0;
+    device.max_power = 8.0;
+    device.max_energy = 0.5;
+    device.max_speed = 5.0;
+    device.damping = 2.0;
+    device.max_damping = 10.0;
+    device.ramp = 0.3;
+    return device;
+}
+
+std::string Inverse3Driver::advice() const {
+    return !is_powered_ ? "the Inverse3 has no power: plug in its supply"
+           : !is_calibrated_
+               ? "the Inverse3 does not know where it is yet: put its cursor into the calibration dock"
+               : "";
+}
+
+}  // namespace tactus

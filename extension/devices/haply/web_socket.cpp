@@ -1,0 +1,160 @@
+#include "devices/haply/web_socket.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <span>
+
+namespace tactus {
+
+namespace {
+
+constexpr std::uint8_t opcode_text = 1;
+constexpr int would_block = -401;
+constexpr int callback_failed = -400;
+
+// A state of all its devices takes some kilobytes (unit: bytes).
+constexpr std::uint64_t longest_message = 1 << 20;
+constexpr std::size_t longest_answer = 4096;
+constexpr Nanoseconds handshake_time = 1'000'000'000;
+
+}  // namespace
+
+std::string WebSocket::load() {
+    if (wslay_.queue != nullptr) {
+        return {};
+    }
+    if (!library_.load({"libwslay.so.1", "libwslay.dylib", "libwslay.dll"},
+                       "wslay_event_context_client_init")) {
+        return "wslay is not installed: install it (Debian: apt-get install libwslay1)";
+    }
+    const bool all = library_.find("wslay_event_context_client_init", wslay_.init) &&
+                     library_.find("wslay_event_context_free", wslay_.free) &&
+                     library_.find("wslay_event_config_set_max_recv_msg_length", wslay_.set_most) &&
+                     library_.find("wslay_event_set_error", wslay_.set_error) &&
+                     library_.find("wslay_event_recv", wslay_.receive) &&
+                     library_.find("wslay_event_send", wslay_.send) &&
+                     library_.find("wslay_event_queue_msg", wslay_.queue);
+    return all ? "" : "the installed wslay is too old: version 1.1 or later is needed";
+}
+
+std::string WebSocket::open(std::uint16_t port) {
+    close();
+    if (std::string problem = load(); !problem.empty()) {
+        return problem;
+    }
+    if (std::string problem = shake_hands(port); !problem.empty()) {
+        socket_.close();
+        return problem;
+    }
+    Callbacks callbacks{};
+    callbacks.receive = [](Context* context, std::uint8_t* into, std::size_t room, int, void* self) -> Size {
+        WebSocket& socket = *static_cast<WebSocket*>(self);
+        if (!socket.begun_.empty()) {
+            const std::size_t size = std::min(room, socket.begun_.size());
+            std::memcpy(into, socket.begun_.data(), size);
+            socket.begun_.erase(0, size);
+            return static_cast<Size>(size);
+        }
+        const StreamSocket::Received got = socket.socket_.receive({into, room}, 0);
+        if (got.state == StreamSocket::State::done) {
+            return static_cast<Size>(got.bytes);
+        }
+        socket.wslay_.set_error(context,
+                                got.state == StreamSocket::State::nothing ? would_block : callback_failed);
+        return -1;
+    };
+    callbacks.send = [](Context* context, const std::uint8_t* bytes, std::size_t size, int,
+                        void* self) -> Size {
+        WebSocket& socket = *static_cast<WebSocket*>(self);
+        if (socket.socket_.send({bytes, size}) == StreamSocket::State::done) {
+            return static_cast<Size>(size);
+        }
+        socket.wslay_.set_error(context, callback_failed);
+        return -1;
+    };
+    // Masks keep proxies on the way from mistaking one protocol for another; on one machine there are none.
+    callbacks.mask = [](Context*, std::uint8_t* into, std::size_t size, void* self) -> int {
+        std::uint32_t& mask = static_cast<WebSocket*>(self)->mask_;
+        for (std::size_t i = 0; i < size; ++i) {
+            mask = mask * 1664525u + 1013904223u;
+            into[i] = static_cast<std::uint8_t>(mask >> 24);
+        }
+        return 0;
+    };
+    callbacks.arrived = [](Context*, const Arrival* arrival, void* self) {
+        WebSocket& socket = *static_cast<WebSocket*>(self);
+        if (arrival->opcode == opcode_text) {
+            socket.arrived_.assign(reinterpret_cast<const char*>(arrival->bytes), arrival->size);
+            socket.has_arrived_ = true;
+        }
+    };
+    if (wslay_.init(&context_, &callbacks, this) != 0) {
+        context_ = nullptr;
+        socket_.close();
+        return "wslay does not start: is memory short?";
+    }
+    wslay_.set_most(context_, longest_message);
+    is_gone_ = has_arrived_ = false;
+    return {};
+}
+
+// RFC 6455, 4.1. The key only shows that the service read the request; to a service of this machine any will
+// do.
+std::string WebSocket::shake_hands(std::uint16_t port) {
+    if (const std::string why = socket_.connect_here(port); !why.empty()) {
+        return "nobody answers at port " + std::to_string(port) + " of this machine: " + why;
+    }
+    const std::string request =
+        "GET / HTTP/1.1\r\nHost: localhost:" + std::to_string(port) +
+        "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: dGFjdHVzLWhhcHRpY3MhIQ==\r\nSec-WebSocket-Version: 13\r\n\r\n";
+    const std::string no_web_socket = "port " + std::to_string(port) + " of this machine is no WebSocket's";
+    if (socket_.send({reinterpret_cast<const std::uint8_t*>(request.data()), request.size()}) !=
+        StreamSocket::State::done) {
+        return no_web_socket;
+    }
+    std::string answer;
+    std::size_t end = std::string::npos;
+    while (end == std::string::npos) {
+        std::array<std::uint8_t, 1024> part{};
+        const StreamSocket::Received got = socket_.receive(part, handshake_time);
+        if (got.state != StreamSocket::State::done || answer.size() > longest_answer) {
+            return no_web_socket;
+        }
+        answer.append(reinterpret_cast<const char*>(part.data()), got.bytes);
+        end = answer.find("\r\n\r\n");
+    }
+    begun_ = answer.substr(end + 4);
+    return answer.rfind("HTTP/1.1 101", 0) == 0 ? "" : no_web_socket;
+}
+
+void WebSocket::close() {
+    if (context_ != nullptr) {
+        wslay_.free(context_);
+        context_ = nullptr;
+    }
+    socket_.close();
+    begun_.clear();
+}
+
+bool WebSocket::receive(std::string& text, Nanoseconds at_most) {
+    has_arrived_ = false;
+    is_gone_ = is_gone_ || wslay_.receive(context_) != 0;
+    if (!has_arrived_ && !is_gone_ && at_most > 0) {
+        socket_.wait(at_most);
+        is_gone_ = wslay_.receive(context_) != 0;
+    }
+    is_gone_ = is_gone_ || wslay_.send(context_) != 0;  // what the protocol itself answers
+    if (has_arrived_) {
+        text.swap(arrived_);
+    }
+    return has_arrived_;
+}
+
+void WebSocket::send(const std::string& text) {
+    const Message message{opcode_text, reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+    is_gone_ = is_gone_ || wslay_.queue(context_, &message) != 0 || wslay_.send(context_) != 0;
+}
+
+}  // namespace tactus

@@ -1,0 +1,133 @@
+#include "devices/vendors/force_dimension_driver.hpp"
+
+#include <algorithm>
+
+#include "devices/falcon/falcon_arm.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr int type_falcon = 60;
+constexpr Nanoseconds period = 1'000'000;
+
+// Their x points to the user, y to the right, z up; ours x to the right, y up, z to the user.
+Vec3 from_device(double x, double y, double z) {
+    return {y, z, x};
+}
+
+// 0 is fine; 1 (too soon) and 2 (a motor gives less than asked) are no errors.
+bool failed(int result) {
+    return result < 0;
+}
+
+}  // namespace
+
+std::string ForceDimensionDriver::load() {
+    if (dhd_.stop != nullptr) {
+        return {};
+    }
+    if (!library_.load({"libdrd.so.3", "libdrd.so", "libdhd.so.3", "libdhd.so", "drd64.dll", "dhd64.dll",
+                        "libdrd.dylib", "libdhd.dylib"},
+                       "dhdGetDeviceCount")) {
+        return "Force Dimension's library is not installed: install its SDK, so that libdrd or libdhd is "
+               "where the "
+               "system looks for libraries";
+    }
+    const bool all =
+        library_.find("dhdGetDeviceCount", dhd_.device_count) && library_.find("dhdOpenID", dhd_.open_id) &&
+        library_.find("dhdClose", dhd_.close) && library_.find("dhdGetSystemType", dhd_.system_type) &&
+        library_.find("dhdGetSystemName", dhd_.system_name) &&
+        library_.find("dhdEnableForce", dhd_.enable_force) &&
+        library_.find("dhdGetPosition", dhd_.get_position) &&
+        library_.find("dhdGetLinearVelocity", dhd_.get_velocity) &&
+        library_.find("dhdSetForce", dhd_.set_force) && library_.find("dhdGetButtonMask", dhd_.get_buttons) &&
+        library_.find("dhdSetGravityCompensation", dhd_.set_gravity_compensation) &&
+        library_.find("dhdErrorGetLastStr", dhd_.last_error) && library_.find("dhdStop", dhd_.stop);
+    return all ? ""
+               : "Force Dimension's library is of a version that lacks what is needed: install SDK 3.9 or "
+                 "later";
+}
+
+std::string ForceDimensionDriver::open(const std::atomic<bool>&) {
+    if (std::string problem = load(); !problem.empty()) {
+        return problem;
+    }
+    const int count = dhd_.device_count();
+    std::string problem = wanted_.empty()
+                              ? "no device of Force Dimension is plugged in: plug it in, with its power"
+                              : "the device " + wanted_ + " is not plugged in";
+    for (int i = 0; i < count && !is_open_; ++i) {
+        if (std::string why = open_one(i); !why.empty()) {
+            problem = std::move(why);
+        }
+    }
+    return is_open_ ? "" : problem;
+}
+
+// Empty where it is open now, or is not the one that is wanted.
+std::string ForceDimensionDriver::open_one(int index) {
+    const int device = dhd_.open_id(static_cast<char>(index));
+    if (failed(device)) {
+        return std::string("the device cannot be opened: ") + dhd_.last_error() +
+               " (is another program using it? may this user open it?)";
+    }
+    device_ = static_cast<char>(device);
+    is_open_ = true;
+    const char* const name = dhd_.system_name(device_);
+    id_ = std::string(name != nullptr ? name : "device") + "-" + std::to_string(index);
+    if (!wanted_.empty() && wanted_ != id_) {
+        close();
+        return {};
+    }
+    type_ = dhd_.system_type(device_);
+    dhd_.set_gravity_compensation(1, device_);
+    if (failed(dhd_.enable_force(1, device_))) {
+        const std::string why = dhd_.last_error();
+        close();
+        return "the device gives no force: " + why;
+    }
+    next_ = monotonic_now();
+    return {};
+}
+
+void ForceDimensionDriver::close() {
+    if (is_open_) {
+        dhd_.set_force(0.0, 0.0, 0.0, device_);
+        dhd_.close(device_);
+        is_open_ = false;
+    }
+}
+
+Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) {
+    next_ = std::max(next_ + period, monotonic_now() - period);
+    timer_.sleep_until(std::min(next_, until));
+    double x = 0.0, y = 0.0, z = 0.0, vx = 0.0, vy = 0.0, vz = 0.0;
+    if (failed(dhd_.get_position(&x, &y, &z, device_)) || failed(dhd_.get_velocity(&vx, &vy, &vz, device_))) {
+        return Exchange::lost;
+    }
+    sample.position = from_device(x, y, z);
+    sample.velocity = from_device(vx, vy, vz);
+    sample.buttons = dhd_.get_buttons(device_);
+    sample.connected = true;
+    const Vec3 force = forces.living(monotonic_now());
+    return failed(dhd_.set_force(force.z, force.x, force.y, device_)) ? Exchange::lost : Exchange::reading;
+}
+
+// Brakes, and no force.
+void ForceDimensionDriver::let_go() {
+    dhd_.stop(device_);
+}
+
+// What the library does not tell is held to what the smallest of its devices can do.
+DeviceCapabilities ForceDimensionDriver::capabilities() const {
+    DeviceCapabilities device = falcon_capabilities();
+    if (type_ != type_falcon) {
+        device.radius = 0.06;
+        device.max_force = 12.0;
+        device.damping = 3.0;
+    }
+    return device;
+}
+
+}  // namespace tactus

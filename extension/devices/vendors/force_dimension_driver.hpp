@@ -1,0 +1,55 @@
+// Devices of Force Dimension (omega, delta, sigma, and the Falcon with their library), by their own library.
+//
+// Threads: see driver.hpp. The library's calls wait for the wire.
+#pragma once
+
+#include "devices/driver.hpp"
+#include "devices/runtime_library.hpp"
+#include "platform/sleep.hpp"
+
+namespace tactus {
+
+class ForceDimensionDriver final : public Driver {
+public:
+    // `id` as id() gives it; empty: the first that is free.
+    explicit ForceDimensionDriver(std::string id) : wanted_(std::move(id)) {}
+    ~ForceDimensionDriver() override { close(); }
+
+    std::string open(const std::atomic<bool>& stop) override;
+    void close() override;
+    Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) override;
+    void let_go() override;
+    DeviceCapabilities capabilities() const override;
+    std::string id() const override { return id_; }
+
+private:
+    struct Functions {
+        int (*device_count)() = nullptr;
+        int (*open_id)(char) = nullptr;
+        int (*close)(char) = nullptr;
+        int (*system_type)(char) = nullptr;
+        const char* (*system_name)(char) = nullptr;
+        int (*enable_force)(unsigned char, char) = nullptr;
+        int (*get_position)(double*, double*, double*, char) = nullptr;
+        int (*get_velocity)(double*, double*, double*, char) = nullptr;
+        int (*set_force)(double, double, double, char) = nullptr;
+        unsigned (*get_buttons)(char) = nullptr;
+        int (*set_gravity_compensation)(int, char) = nullptr;
+        int (*stop)(char) = nullptr;
+        const char* (*last_error)() = nullptr;
+    };
+
+    std::string load();
+    std::string open_one(int index);
+
+    std::string wanted_, id_;
+    RuntimeLibrary library_;
+    Functions dhd_;
+    SleepTimer timer_;
+    char device_ = -1;
+    bool is_open_ = false;
+    int type_ = 0;
+    Nanoseconds next_ = 0;  // exchange
+};
+
+}  // namespace tactus

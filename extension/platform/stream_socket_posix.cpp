@@ -1,0 +1,90 @@
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "platform/stream_socket.hpp"
+#include "platform/system_message.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr int send_time = 100;  // (unit: milliseconds)
+
+#ifdef MSG_NOSIGNAL
+constexpr int send_flags = MSG_NOSIGNAL;
+#else
+constexpr int send_flags = 0;
+#endif
+
+bool ready(int handle, short events, int milliseconds) {
+    pollfd file{handle, events, 0};
+    return poll(&file, 1, milliseconds) > 0;
+}
+
+}  // namespace
+
+std::string StreamSocket::connect_here(std::uint16_t port) {
+    close();
+    const int made = socket(AF_INET, SOCK_STREAM, 0);
+    if (made < 0) {
+        return system_message(errno);
+    }
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+        const std::string why = system_message(errno);
+        ::close(made);
+        return why;
+    }
+    const int on = 1;
+    setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    fcntl(made, F_SETFL, O_NONBLOCK);
+    fcntl(made, F_SETFD, FD_CLOEXEC);
+    handle_ = made;
+    return {};
+}
+
+void StreamSocket::close() {
+    if (handle_ != closed) {
+        ::close(static_cast<int>(handle_));
+        handle_ = closed;
+    }
+}
+
+void StreamSocket::wait(Nanoseconds at_most) const {
+    ready(static_cast<int>(handle_), POLLIN, static_cast<int>(at_most / 1'000'000));
+}
+
+StreamSocket::Received StreamSocket::receive(std::span<std::uint8_t> into, Nanoseconds at_most) {
+    const int handle = static_cast<int>(handle_);
+    const ssize_t got = ready(handle, POLLIN, static_cast<int>(at_most / 1'000'000))
+                            ? recv(handle, into.data(), into.size(), 0)
+                            : -2;
+    if (got > 0) {
+        return {State::done, static_cast<std::size_t>(got)};
+    }
+    return {got == -2 || (got < 0 && (errno == EAGAIN || errno == EINTR)) ? State::nothing : State::gone, 0};
+}
+
+StreamSocket::State StreamSocket::send(std::span<const std::uint8_t> bytes) {
+    const int handle = static_cast<int>(handle_);
+    while (!bytes.empty()) {
+        const ssize_t sent = ::send(handle, bytes.data(), bytes.size(), send_flags);
+        if (sent > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(sent));
+        } else if (sent == 0 || (errno != EAGAIN && errno != EINTR) || !ready(handle, POLLOUT, send_time)) {
+            return State::gone;
+        }
+    }
+    return State::done;
+}
+
+}  // namespace tactus

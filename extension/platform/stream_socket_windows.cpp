@@ -1,0 +1,91 @@
+#include <winsock2.h>
+
+#include "platform/stream_socket.hpp"
+#include "platform/system_message.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr int send_time = 100;  // (unit: milliseconds)
+
+int winsock() {
+    static const int failed = [] {
+        WSADATA data;
+        return WSAStartup(MAKEWORD(2, 2), &data);
+    }();
+    return failed;
+}
+
+bool ready(SOCKET handle, short events, int milliseconds) {
+    WSAPOLLFD file{handle, events, 0};
+    return WSAPoll(&file, 1, milliseconds) > 0;
+}
+
+}  // namespace
+
+std::string StreamSocket::connect_here(std::uint16_t port) {
+    close();
+    if (const int failed = winsock(); failed != 0) {
+        return system_message(failed);
+    }
+    const SOCKET made = socket(AF_INET, SOCK_STREAM, 0);
+    if (made == INVALID_SOCKET) {
+        return system_message(WSAGetLastError());
+    }
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+        const std::string why = system_message(WSAGetLastError());
+        closesocket(made);
+        return why;
+    }
+    const char on = 1;
+    setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+    u_long without_waiting = 1;
+    ioctlsocket(made, FIONBIO, &without_waiting);
+    handle_ = static_cast<std::int64_t>(made);
+    return {};
+}
+
+void StreamSocket::close() {
+    if (handle_ != closed) {
+        closesocket(static_cast<SOCKET>(handle_));
+        handle_ = closed;
+    }
+}
+
+void StreamSocket::wait(Nanoseconds at_most) const {
+    ready(static_cast<SOCKET>(handle_), POLLRDNORM, static_cast<int>(at_most / 1'000'000));
+}
+
+StreamSocket::Received StreamSocket::receive(std::span<std::uint8_t> into, Nanoseconds at_most) {
+    const auto handle = static_cast<SOCKET>(handle_);
+    if (!ready(handle, POLLRDNORM, static_cast<int>(at_most / 1'000'000))) {
+        return {State::nothing, 0};
+    }
+    const int got = recv(handle, reinterpret_cast<char*>(into.data()), static_cast<int>(into.size()), 0);
+    if (got > 0) {
+        return {State::done, static_cast<std::size_t>(got)};
+    }
+    return {got < 0 && WSAGetLastError() == WSAEWOULDBLOCK ? State::nothing : State::gone, 0};
+}
+
+StreamSocket::State StreamSocket::send(std::span<const std::uint8_t> bytes) {
+    const auto handle = static_cast<SOCKET>(handle_);
+    while (!bytes.empty()) {
+        const int sent =
+            ::send(handle, reinterpret_cast<const char*>(bytes.data()), static_cast<int>(bytes.size()), 0);
+        if (sent > 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(sent));
+        } else if (sent == 0 || WSAGetLastError() != WSAEWOULDBLOCK ||
+                   !ready(handle, POLLWRNORM, send_time)) {
+            return State::gone;
+        }
+    }
+    return State::done;
+}
+
+}  // namespace tactus

@@ -1,0 +1,189 @@
+#include "session/robot_side.hpp"
+
+#include <algorithm>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "network/plausibility.hpp"
+
+namespace tactus {
+
+namespace {
+
+// As stiff as robots of this size are held; what of it is safe decides the robot's damping.
+constexpr Wall wanted_coupling{1000.0, 5.0};
+
+// Less is noise of the observer, not contact (unit: newtons).
+constexpr double least_contact = 0.3;
+
+// Of a robot that does not say what it weighs (unit: kilograms).
+constexpr double usual_mass = 0.2;
+
+RobotBody body_of(const DeviceCapabilities& robot) {
+    return {robot.mass > 0.0 ? robot.mass : usual_mass, robot.viscous, robot.coulomb};
+}
+
+}  // namespace
+
+RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
+                     std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
+    : channel_(settings, link, std::move(port), endpoint), seconds_(to_seconds(session.period)) {
+    set_buffers();
+}
+
+void RobotSide::set_buffers() {
+    JitterBufferSettings buffer;
+    buffer.depth = settings().buffer_depth;
+    buffer.sparse = settings().deadband.enabled;
+    buffer.seconds = seconds_;
+    peer_period_ = channel_.link().statistics().peer_hello.period;
+    buffer.sample_seconds = peer_period_ > 0 ? to_seconds(peer_period_) : seconds_;
+    buffer.guess_seconds = 2.0 * to_seconds(settings().deadband.longest_silence);
+    for (Pointer& pointer : pointers_) {
+        pointer.buffer.set_settings(buffer);
+    }
+}
+
+void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
+    if (channel_.begin_tick(now) || channel_.link().statistics().peer_hello.period != peer_period_) {
+        set_buffers();
+    }
+    receive();
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
+            play(loop, pointers_[i], slot);
+        }
+    }
+}
+
+void RobotSide::receive() {
+    while (const Packet* const packet = channel_.receive()) {
+        if (channel_.peer_has_started()) {
+            statistics_.sample = no_sample;
+            for (Pointer& pointer : pointers_) {
+                if (pointer.buffer.counts().exact > 0) {
+                    pointer.buffer.restart();
+                }
+                pointer.holds = false;
+            }
+        }
+        if (const auto* const samples = std::get_if<OperatorSamples>(&packet->message)) {
+            for (std::size_t i = 0; i < samples->count; ++i) {
+                if (samples->samples[i].pointer < most_proxies) {
+                    pointers_[samples->samples[i].pointer].buffer.insert(samples->samples[i]);
+                }
+            }
+        }
+    }
+}
+
+void RobotSide::play(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) {
+    const bool waits = pointer.buffer.play(pointer.played) == Playing::waiting;
+    const RobotView robot = loop.robot(slot.description.device);
+    if (waits || !pointer.played.connected || !robot.connected || !channel_.link().hears_peer()) {
+        pointer.holds = false;
+        return;
+    }
+    const double scale = robot.workspace.scale;
+    const RobotBody body = body_of(robot.capabilities);
+    if (!pointer.holds) {
+        pointer.holds = true;
+        pointer.target = slot.hand;
+        pointer.passivity.reset();
+        pointer.observer.reset();
+    }
+    // Forces keep their size in the scene, ways do not.
+    pointer.contact =
+        pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
+    statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
+    const Wall coupling = safe_wall({seconds_, robot.capabilities.delay}, robot.capabilities.damping / scale,
+                                    {wanted_coupling.stiffness / scale, wanted_coupling.damping / scale});
+    const Vec3 before = pointer.target;
+    pointer.target = next_target(before, hand_of(pointer, slot, coupling), settings().stand_in.speed,
+                                 robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
+    pointer.velocity = (pointer.target - before) / seconds_;
+    pointer.coupling = coupling;
+}
+
+// Where the operator's stand-in would have the robot.
+Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const {
+    const Pose& frame = settings().frame;
+    const OperatorSample& played = pointer.played;
+    if (settings().passivity != Passivity::none) {
+        FarPassivity::In in;
+        in.sample = played.sequence;
+        in.hand = to_parent(frame, played.position);
+        in.force = direction_to_parent(frame, played.force);
+        in.own_force = pointer.contact;
+        in.seconds = seconds_;
+        return pointer.passivity.hand(settings().passivity, settings().passive, in);
+    }
+    StandInInput in;
+    in.hand = to_parent(frame, played.position);
+    in.velocity = direction_to_parent(frame, played.velocity);
+    in.force = direction_to_parent(frame, played.force);
+    in.own_hand = pointer.target;
+    in.own_proxy = slot.hand;
+    in.in_contact = glm::length(pointer.contact) > least_contact;
+    in.stiffness = coupling.stiffness;
+    in.seconds = seconds_;
+    return stand_in_hand(settings().control, settings().stand_in, in);
+}
+
+void RobotSide::set_forces(SessionLoop& loop, Nanoseconds) {
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        SessionLoop::ProxySlot& slot = loop.proxy(i);
+        const Pointer& pointer = pointers_[i];
+        if (slot.proxy) {
+            slot.state.force = pointer.holds ? drive_force(pointer.coupling, pointer.target, pointer.velocity,
+                                                           slot.hand, slot.hand_velocity)
+                                             : Vec3(0.0);
+            slot.state.hand = slot.state.position = slot.hand;
+        }
+    }
+}
+
+void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
+    send_forces(loop, now);
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        Pointer& pointer = pointers_[i];
+        if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
+            statistics_.energy.far_J +=
+                pointer.holds ? glm::dot(pointer.contact, slot.hand - pointer.had_hand) : 0.0;
+            pointer.had_hand = slot.hand;
+        }
+    }
+    statistics_.buffer = pointers_[0].buffer.counts();
+    statistics_.buffer_depth = pointers_[0].buffer.depth();
+    channel_.end_tick(statistics_);
+}
+
+void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
+    ForceSamples message;
+    for (std::size_t i = 0; i < most_proxies && message.count < ForceSamples::most; ++i) {
+        const Pointer& pointer = pointers_[i];
+        const bool due = force_needs_sending(settings().deadband, pointer.force_sent, pointer.contact) ||
+                         now - pointer.force_sent_at >= settings().deadband.longest_silence;
+        if (!pointer.holds || !due) {
+            continue;
+        }
+        ForceSample& sample = message.samples[message.count++];
+        sample.pointer = static_cast<std::uint16_t>(i);
+        sample.true_at = channel_.link().local_time(now);
+        sample.newest_operator_sample = pointer.played.sequence;
+        sample.force = glm::clamp(direction_to_local(settings().frame, pointer.contact),
+                                  -plausible::max_force, plausible::max_force);
+        sample.proxy = to_local(settings().frame, loop.proxy(i).hand);
+        sample.object = no_object;
+    }
+    if (message.count == 0 || !channel_.try_send(message)) {
+        return;
+    }
+    for (std::size_t i = 0; i < message.count; ++i) {
+        Pointer& pointer = pointers_[message.samples[i].pointer];
+        pointer.force_sent = pointer.contact;
+        pointer.force_sent_at = now;
+    }
+}
+
+}  // namespace tactus

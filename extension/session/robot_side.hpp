@@ -1,0 +1,58 @@
+// The far side of scenario 3: the environment is a real one, and a robot goes there where the operator's hand
+// is. The devices of this side's session are the robots, one for each pointer; bodies of the session are only
+// shown.
+//
+//     operator's place -> stand-in (C') -> target within the workspace -> drive -> HandSafety -> robot
+//     robot's place, force of its motors -> momentum observer -> contact force -> operator
+#pragma once
+
+#include "core/teleop/jitter_buffer.hpp"
+#include "core/teleop/robot_drive.hpp"
+#include "session/channel.hpp"
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+class RobotSide final : public TeleopSide {
+public:
+    RobotSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
+              std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint);
+
+    void set_hands(SessionLoop& loop, Nanoseconds now) override;
+    void set_forces(SessionLoop& loop, Nanoseconds now) override;
+    void report(SessionLoop& loop, Nanoseconds now) override;
+    bool simulates() const override { return false; }
+    bool drives() const override { return true; }
+    const ForceLimits& limits() const override { return channel_.settings().limits; }
+
+private:
+    struct Pointer {
+        JitterBuffer<OperatorSample> buffer;
+        OperatorSample played;
+        FarPassivity passivity;
+        ContactObserver observer;
+        bool holds = false;  // an operator's hand is there and the robot answers
+        Vec3 target{0.0};    // in this side's scene (unit: meters)
+        Vec3 velocity{0.0};  // of the target (unit: meters per second)
+        Wall coupling;       // of the robot to the target
+        Vec3 contact{0.0};   // on the robot, in this side's scene (unit: newtons)
+        Vec3 had_hand{0.0};  // one tick ago (unit: meters)
+        Vec3 force_sent{0.0};
+        Nanoseconds force_sent_at = 0;
+    };
+
+    const TeleopSettings& settings() const { return channel_.settings(); }
+    void set_buffers();
+    void receive();
+    void play(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot);
+    Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
+    void send_forces(SessionLoop& loop, Nanoseconds now);
+
+    Channel channel_;
+    double seconds_;               // of a tick
+    Nanoseconds peer_period_ = 0;  // of a tick of the operator, as the buffers have it
+    std::array<Pointer, most_proxies> pointers_;
+    TeleopStatistics statistics_;
+};
+
+}  // namespace tactus

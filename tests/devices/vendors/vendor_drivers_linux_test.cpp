@@ -1,0 +1,173 @@
+// Drivers by vendors' libraries, against stand-ins with the same C symbols. Time is real; nobody looks at how
+// much.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "devices/driver_device.hpp"
+#include "devices/vendors/force_dimension_driver.hpp"
+#include "devices/vendors/openhaptics_driver.hpp"
+#include "platform/sleep.hpp"
+#include "stand_ins/stand_ins.hpp"
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds ms = 1'000'000;
+
+template <typename StandIn>
+StandIn& stand_in(std::initializer_list<const char*> names, const char* function) {
+    static RuntimeLibrary library;
+    StandIn* (*get)() = nullptr;
+    EXPECT_TRUE(library.load(names, function) && library.find(function, get));
+    return *get();
+}
+stand_ins::ForceDimension& dhd() {
+    return stand_in<stand_ins::ForceDimension>({"libdhd.so"}, "stand_in_force_dimension");
+}
+stand_ins::OpenHaptics& hd() {
+    return stand_in<stand_ins::OpenHaptics>({"libHD.so"}, "stand_in_openhaptics");
+}
+
+bool tick_until(DriverDevice& device, const Vec3& force,
+                const std::function<bool(const DeviceSample&)>& done) {
+    SleepTimer timer;
+    for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end;) {
+        const Nanoseconds now = monotonic_now();
+        const DeviceSample sample = device.read(now);
+        if (done(sample)) {
+            return true;
+        }
+        device.write(now, force);
+        timer.sleep_until(now + ms);
+    }
+    ADD_FAILURE() << "it says: " << device.health().text;
+    return false;
+}
+
+bool wait_until(const std::function<bool()>& done) {
+    SleepTimer timer;
+    for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end && !done();) {
+        timer.sleep_until(monotonic_now() + ms);
+    }
+    return done();
+}
+
+bool is_connected(const DeviceSample& sample) {
+    return sample.connected;
+}
+
+void put(std::atomic<double> (&values)[3], double x, double y, double z) {
+    values[0] = x;
+    values[1] = y;
+    values[2] = z;
+}
+Vec3 values_of(const std::atomic<double> (&values)[3]) {
+    return {values[0].load(), values[1].load(), values[2].load()};
+}
+
+TEST(ForceDimension, PlacesAndForcesAreInOurAxes) {
+    put(dhd().position, 0.01, 0.02, 0.03);
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    EXPECT_TRUE(tick_until(device, {1.0, 2.0, 3.0}, [](const DeviceSample& sample) {
+        return sample.connected && values_of(dhd().force) == Vec3(3.0, 1.0, 2.0);
+    }));
+    EXPECT_EQ(device.read(0).position, Vec3(0.02, 0.03, 0.01));
+    EXPECT_EQ(device.health().id, "omega.3-0");
+    EXPECT_EQ(dhd().wrong_calls, 0);
+}
+
+TEST(ForceDimension, AStalledLoopLetsTheHandGo) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    EXPECT_TRUE(wait_until([] { return values_of(dhd().force) == Vec3(0.0); }));
+    EXPECT_FALSE(dhd().braked);
+}
+
+TEST(ForceDimension, ALibraryThatHangsIsStoppedByTheWatchdog) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    dhd().hangs = true;
+    EXPECT_TRUE(wait_until([] { return dhd().braked && values_of(dhd().force) == Vec3(0.0); }));
+    dhd().hangs = false;
+    EXPECT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    EXPECT_GE(device.health().let_go, 1u);
+}
+
+TEST(ForceDimension, ComesBackAfterItWasUnplugged) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    ASSERT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+    dhd().unplugged = true;
+    ASSERT_TRUE(tick_until(device, Vec3(0.0), [](const DeviceSample& sample) { return !sample.connected; }));
+    EXPECT_TRUE(wait_until([&] { return device.health().text.find("plug") != std::string::npos; }));
+    dhd().unplugged = false;
+    EXPECT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+}
+
+TEST(ForceDimension, ADeviceInUseAndAnotherOneAreSaid) {
+    dhd().in_use = true;
+    DriverDevice taken(std::make_unique<ForceDimensionDriver>(""));
+    EXPECT_TRUE(wait_until([&] { return taken.health().text.find("already opened") != std::string::npos; }));
+    dhd().in_use = false;
+    EXPECT_TRUE(tick_until(taken, Vec3(0.0), is_connected));
+}
+
+TEST(OpenHaptics, PlacesTurnsAndForcesComeThroughItsFrames) {
+    put(hd().position, 10.0, 20.0, 30.0);
+    hd().buttons = 2;
+    DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
+    EXPECT_TRUE(tick_until(device, {0.5, 1.0, 1.5}, [](const DeviceSample& sample) {
+        return sample.connected && values_of(hd().force) == Vec3(0.5, 1.0, 1.5);
+    }));
+    const DeviceSample sample = device.read(0);
+    EXPECT_LT(glm::distance(sample.position, Vec3(0.01, 0.02, 0.03)), 1e-12);
+    EXPECT_LT(glm::distance(sample.rotation * Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0)), 1e-12);
+    EXPECT_EQ(sample.buttons, 2u);
+    EXPECT_EQ(device.capabilities().max_force, 3.3);
+    EXPECT_NEAR(device.capabilities().radius, 0.035, 1e-12);
+    EXPECT_EQ(device.health().id, "Touch 0815");
+    EXPECT_EQ(hd().wrong_calls, 0);
+}
+
+TEST(OpenHaptics, AStalledLoopLetsTheHandGo) {
+    DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    EXPECT_TRUE(wait_until([] { return values_of(hd().force) == Vec3(0.0); }));
+}
+
+TEST(OpenHaptics, AServoThreadThatHangsIsStoppedByTheWatchdog) {
+    DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    hd().hangs = true;
+    EXPECT_TRUE(wait_until([] { return values_of(hd().force) == Vec3(0.0); }));
+    hd().hangs = false;
+    EXPECT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+}
+
+TEST(OpenHaptics, SaysThatItsStylusBelongsIntoTheInkwell) {
+    hd().calibration = 0x5002;
+    DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
+    EXPECT_TRUE(wait_until([&] { return device.health().text.find("inkwell") != std::string::npos; }));
+    EXPECT_FALSE(device.read(0).connected);
+    hd().calibration = 0x5000;
+    EXPECT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+}
+
+TEST(OpenHaptics, ADeviceThatIsNotThereIsSaidAndFoundLater) {
+    hd().unplugged = true;
+    DriverDevice device(std::make_unique<OpenHapticsDriver>("Left"));
+    EXPECT_TRUE(wait_until([&] { return device.health().text.find("'Left'") != std::string::npos; }));
+    hd().unplugged = false;
+    EXPECT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+    EXPECT_EQ(device.health().id, "Left");
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,97 @@
+// Stands in for Force Dimension's libdhd.
+#include <time.h>
+
+#include "stand_ins/stand_ins.hpp"
+
+namespace {
+
+tactus::stand_ins::ForceDimension device;
+constexpr char the_one = 0;
+
+// 0, or an error where the call is out of place.
+int checked(char id, bool is_in_place = true) {
+    const bool right = id == the_one && device.is_open && is_in_place;
+    device.wrong_calls += right ? 0 : 1;
+    return right && !device.unplugged ? 0 : -1;
+}
+
+void wait_while_hung() {
+    while (device.hangs) {
+        const timespec span{0, 1'000'000};
+        nanosleep(&span, nullptr);
+    }
+}
+
+}  // namespace
+
+#define STAND_IN extern "C" __attribute__((visibility("default")))
+
+STAND_IN tactus::stand_ins::ForceDimension* stand_in_force_dimension() {
+    return &device;
+}
+STAND_IN int dhdGetDeviceCount() {
+    return device.unplugged ? 0 : device.devices.load();
+}
+STAND_IN int dhdOpenID(char id) {
+    if (id != the_one || device.in_use || device.unplugged) {
+        return -1;
+    }
+    device.wrong_calls += device.is_open ? 1 : 0;
+    device.is_open = true;
+    device.braked = false;
+    return the_one;
+}
+STAND_IN int dhdClose(char id) {
+    const int result = checked(id);
+    device.is_open = device.forces_on = false;
+    return result;
+}
+STAND_IN int dhdGetSystemType(char id) {
+    return checked(id) == 0 ? 33 : -1;
+}
+STAND_IN const char* dhdGetSystemName(char id) {
+    return checked(id) == 0 ? "omega.3" : nullptr;
+}
+STAND_IN int dhdEnableForce(unsigned char on, char id) {
+    device.forces_on = on != 0;
+    return checked(id);
+}
+STAND_IN int dhdGetPosition(double* x, double* y, double* z, char id) {
+    wait_while_hung();
+    *x = device.position[0];
+    *y = device.position[1];
+    *z = device.position[2];
+    return checked(id);
+}
+STAND_IN int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
+    *x = *y = *z = 0.0;
+    return checked(id) == 0 ? 1 : -1;  // asked too soon after the last time: no error
+}
+STAND_IN int dhdSetForce(double x, double y, double z, char id) {
+    const int result = checked(id, device.forces_on);
+    if (result == 0) {
+        device.force[0] = x;
+        device.force[1] = y;
+        device.force[2] = z;
+        device.braked = false;
+        ++device.set_forces;
+    }
+    return result;
+}
+STAND_IN unsigned dhdGetButtonMask(char id) {
+    return checked(id) == 0 ? device.buttons.load() : 0u;
+}
+STAND_IN int dhdSetGravityCompensation(int, char id) {
+    return checked(id);
+}
+STAND_IN int dhdStop(char id) {
+    const int result = checked(id);
+    for (auto& one : device.force) {
+        one = 0.0;
+    }
+    device.braked = true;
+    return result;
+}
+STAND_IN const char* dhdErrorGetLastStr() {
+    return device.in_use ? "device already opened" : "communication error";
+}

@@ -1,0 +1,140 @@
+"""Answers as Haply's service does, for tests: states of one Inverse3 and its grip, a thousand times a second, one more
+only after the last has been answered with a force.
+
+    haply_service.py [silent|nonsense|uncalibrated]
+
+Prints its port, then each force that is another one, as "x y z". A line on stdin: "drop" closes the connection.
+"""
+
+import base64
+import hashlib
+import json
+import os
+import select
+import socket
+import struct
+import sys
+import time
+
+GUID = "258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
+
+
+def state(calibrated: bool) -> dict:
+    return {
+        "session_id": 1,
+        "inverse3": [
+            {
+                "device_id": "048D",
+                "config": {"type": "inverse3", "handedness": "right", "coordinate_origin": "device_base"},
+                "state": {
+                    "cursor_position": {"x": 0.05, "y": -0.15, "z": 0.19},
+                    "cursor_velocity": {"x": 0.1, "y": 0.2, "z": 0.3},
+                    "mode": "idle",
+                },
+                "status": {"calibrated": calibrated, "in_use": False, "power_supply": True, "ready": True, "started": True},
+            }
+        ],
+        "verse_grip": [],
+        "wireless_verse_grip": [
+            {
+                "device_id": "0",
+                "state": {
+                    "buttons": {"a": True, "b": False, "c": True},
+                    "orientation": {"x": 0.0, "y": 0.0, "z": 0.7071067811865476, "w": 0.7071067811865476},
+                },
+                "status": {"connected": True, "awake": True, "ready": True},
+            }
+        ],
+        "custom_verse_grip": [],
+    }
+
+
+def shake_hands(client: socket.socket) -> None:
+    request = b""
+    while b"\r\n\r\n" not in request:
+        request += client.recv(4096)
+    headers = dict(line.split(": ", 1) for line in request.decode().split("\r\n")[1:] if ": " in line)
+    digest = hashlib.sha1((headers["Sec-WebSocket-Key"] + GUID).encode()).digest()
+    client.sendall(
+        b"HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        b"Sec-WebSocket-Accept: " + base64.b64encode(digest) + b"\r\n\r\n"
+    )
+
+
+def frame(text: str) -> bytes:
+    payload = text.encode()
+    head = struct.pack("!BB", 0x81, len(payload)) if len(payload) < 126 else struct.pack("!BBH", 0x81, 126, len(payload))
+    return head + payload
+
+
+def exactly(client: socket.socket, count: int) -> bytes:
+    got = b""
+    while len(got) < count:
+        part = client.recv(count - len(got))
+        if not part:
+            raise ConnectionError
+        got += part
+    return got
+
+
+def message(client: socket.socket) -> str | None:
+    """None: a frame of the protocol's own. A client's frames have to be masked."""
+    first, second = exactly(client, 2)
+    assert second & 0x80, "not masked"
+    size = second & 0x7F
+    if size == 126:
+        (size,) = struct.unpack("!H", exactly(client, 2))
+    mask = exactly(client, 4)
+    payload = bytes(byte ^ mask[i % 4] for i, byte in enumerate(exactly(client, size)))
+    return payload.decode() if first & 0x0F == 1 else None
+
+
+def force_of(text: str) -> tuple[float, float, float]:
+    said = json.loads(text)
+    (device,) = said["inverse3"]
+    command = device["commands"]["set_cursor_force"]
+    assert device["device_id"] == "048D" and command["execute"] is True and said["session"] == {}
+    return tuple(round(command["vector"][axis], 3) for axis in "xyz")
+
+
+def serve(client: socket.socket, manner: str) -> None:
+    shake_hands(client)
+    last = None
+    while True:
+        if manner != "silent":
+            client.sendall(frame("{]" if manner == "nonsense" else json.dumps(state(manner != "uncalibrated"))))
+        while True:
+            readable, _, _ = select.select([client, sys.stdin], [], [], 0.05)
+            if sys.stdin in readable:
+                if not os.read(sys.stdin.fileno(), 100):
+                    sys.exit(0)
+                return
+            if client not in readable:
+                break  # no answer yet: it is told again, as the real one does at its own pace
+            text = message(client)
+            if text is not None:
+                if (force := force_of(text)) != last:
+                    print(*force, flush=True)
+                    last = force
+                break
+        time.sleep(0.0008)
+
+
+def main(manner: str) -> None:
+    listener = socket.create_server(("127.0.0.1", 0))
+    print(listener.getsockname()[1], flush=True)
+    while True:
+        readable, _, _ = select.select([listener, sys.stdin], [], [])
+        if sys.stdin in readable and not os.read(sys.stdin.fileno(), 100):
+            return
+        if listener in readable:
+            client, _ = listener.accept()
+            try:
+                serve(client, manner)
+            except (ConnectionError, OSError):
+                pass
+            client.close()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1] if len(sys.argv) > 1 else "")

@@ -1,0 +1,38 @@
+// Libraries of the same names and C symbols as the vendors', for tests: what the driver says is checked, and
+// what the device says comes from the test. Shared by the stand-in and its test through one function.
+#pragma once
+
+#include <atomic>
+
+namespace tactus::stand_ins {
+
+// Of libdhd. One device, "omega.3".
+struct ForceDimension {
+    std::atomic<int> devices{1};
+    std::atomic<bool> in_use{false}, unplugged{false}, hangs{false};
+    std::atomic<double> position[3]{};  // in the device's own axes (unit: meters)
+    std::atomic<double> force[3]{};     // what the motors give (unit: newtons)
+    std::atomic<unsigned> buttons{0};
+    std::atomic<bool> is_open{false}, forces_on{false}, braked{false};
+    std::atomic<int> set_forces{0};
+    std::atomic<int> wrong_calls{0};  // with another device, before it is open, without forces enabled
+};
+
+// Of libHD. One device.
+struct OpenHaptics {
+    std::atomic<bool> unplugged{false}, hangs{false};
+    std::atomic<unsigned> calibration{0x5000};
+    std::atomic<double> position[3]{};  // (unit: millimeters)
+    std::atomic<double> force[3]{};     // (unit: newtons)
+    std::atomic<int> buttons{0};
+    std::atomic<bool> is_open{false}, ticks{false};
+    std::atomic<int> frames{0};
+    std::atomic<int> wrong_calls{0};  // outside of a frame, of another device, unknown names
+};
+
+}  // namespace tactus::stand_ins
+
+extern "C" {
+tactus::stand_ins::ForceDimension* stand_in_force_dimension();
+tactus::stand_ins::OpenHaptics* stand_in_openhaptics();
+}
