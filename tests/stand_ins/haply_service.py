@@ -94,7 +94,8 @@ def force_of(text: str) -> tuple[float, float, float]:
     (device,) = said["inverse3"]
     command = device["commands"]["set_cursor_force"]
     assert device["device_id"] == "048D" and command["execute"] is True and said["session"] == {}
-    return tuple(round(command["vector"][axis], 3) for axis in "xyz")
+    # Without a sign of nothing.
+    return tuple(round(command["vector"][axis], 3) + 0.0 for axis in "xyz")
 
 
 def serve(client: socket.socket, manner: str) -> None:
