@@ -13,7 +13,7 @@ MAY_INCLUDE = {
     "platform": ["core"],
     "realtime": ["core", "platform"],
     "physics": ["core", "platform", "realtime"],
-    "devices": ["core", "realtime", "physics"],
+    "devices": ["core", "platform", "realtime", "physics"],
     "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
     "world": ["core", "platform", "realtime", "physics", "devices", "network", "session"],
@@ -77,7 +77,9 @@ def stage_tests(target, layer):
 
 
 def stage_benches(target):
-    return _links(target, "bench", {name: Path("extension", name) for name in _ENGINE_FREE} | _SHARED_BY_TESTS)
+    """The include folder of benches, and of the devices that are played for benches and tests."""
+    links = {name: Path("extension", name) for name in _ENGINE_FREE} | {"played": Path("tests/played")}
+    return _links(target, "bench", links | _SHARED_BY_TESTS)
 
 
 _SHARED_BY_TESTS = {"support": Path("tests/support"), "shared": Path("tests/shared")}

@@ -1,5 +1,7 @@
 """Compiler flags: one set for everything, so that the same numbers come out of every build."""
 
+import subprocess
+
 # A fused multiply-add rounds once where the source rounds twice; whether one is made depends on inlining.
 SAME_BITS = ["-ffp-contract=off"]
 # gcc 12 warns of overlap inside its own std::string (-Wrestrict, its bug 105651).
@@ -89,3 +91,15 @@ def flags_of_file(platform, source, sanitizers):
     anywhere = ANY_PROCESSOR[platform.architecture] if source in RUN_ANYWHERE else []
     audit = [f"-DTACTUS_SANITIZE_{name.upper()}=1" for name in sanitizers.split(",") if name]
     return [*anywhere, *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]
+
+
+def umockdev():
+    """Flags to compile and link with umockdev, which plays devices of the system; none where it is not installed."""
+    command = ["pkg-config", "--cflags", "--libs", "umockdev-1.0"]
+    try:
+        words = subprocess.run(command, text=True, capture_output=True, check=True).stdout.split()
+    except (OSError, subprocess.CalledProcessError):
+        return [], []
+    folders = [word.removeprefix("-I") for word in words if word.startswith("-I")]
+    compile = [word for folder in folders for word in ("-isystem", folder)]
+    return compile, [word.removeprefix("-l") for word in words if word.startswith("-l")]

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import build
+import project
 from setup import cache, godot, jolt
 
 
@@ -17,8 +18,23 @@ def names() -> list[str]:
 
 
 def run_in_godot(script: Path, result: Path) -> int:
-    command = [godot.command(), "--headless", "--path", cache.clone() / "demo_project", "--script", script, "--", result]
+    build.build("template_release", "extension")
+    command = [godot.command(), "--headless", "--path", _project_of_release(), "--script", script, "--", result]
     return subprocess.run(command).returncode
+
+
+def _project_of_release() -> Path:
+    """An empty project with the library that players get; a Godot that has an editor would take the one for debugging."""
+    folder = cache.emptied(cache.clone() / "build/bench_project")
+    addon = folder / "addons/tactus"
+    addon.mkdir(parents=True)
+    own = project.FOLDER / "addons/tactus"
+    (addon / "bin").symlink_to(own / "bin")
+    description = (own / "tactus.gdextension").read_text()
+    (addon / "tactus.gdextension").write_text(description.replace("template_debug", "template_release"))
+    (folder / "project.godot").write_text("config_version=5\n")
+    project.name_extension(folder)
+    return folder
 
 
 def draw(name: str, result: Path) -> None:

@@ -9,6 +9,13 @@ needs() { # needs PACKAGE COMMAND…: the package is missing when the command fa
     "$@" >/dev/null 2>&1 || missing+=("$package")
 }
 
+optional=()
+wants() { # wants PACKAGE COMMAND…: without the package some tests are left out
+    local package="$1"
+    shift
+    "$@" >/dev/null 2>&1 || optional+=("$package")
+}
+
 needs python3 test -x /usr/bin/python3
 needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
 needs ca-certificates test -e /etc/ssl/certs/ca-certificates.crt
@@ -19,6 +26,10 @@ needs libsodium-dev test -e /usr/include/sodium.h
 needs libgtest-dev test -e /usr/include/gtest/gtest.h
 needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
+# Plays devices on USB for the tests.
+wants pkg-config command -v pkg-config
+wants libumockdev-dev pkg-config --exists umockdev-1.0
+wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
 for extra in "$@"; do
     needs make command -v make
     case "$extra" in
@@ -29,6 +40,14 @@ for extra in "$@"; do
     esac
 done
 
+if [ ${#optional[@]} -gt 0 ] && command -v apt-get >/dev/null; then
+    if [ "$(id -u)" -eq 0 ]; then
+        missing+=("${optional[@]}")
+    else
+        echo "Left out: tests with devices that are played on USB. They need" >&2
+        echo "  sudo apt-get install --yes --no-install-recommends ${optional[*]}" >&2
+    fi
+fi
 [ ${#missing[@]} -gt 0 ] || exit 0
 # What the same is called elsewhere. Godot itself is fetched on Debian only: there, one of version 4.4 or later must be on
 # the PATH or in GODOT.

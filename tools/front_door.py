@@ -4,7 +4,7 @@ import sys
 
 import build
 import project
-from setup import cache, platforms, steps
+from setup import cache, device_access, platforms, steps
 from setup.steps import Step
 
 
@@ -16,6 +16,8 @@ def main(command: str, arguments: list[str]) -> int:
 def needed(command: str, arguments: list[str]) -> list[Step]:
     if command == "test" and (emulated := [platforms.tested_by(argument) for argument in arguments]) and any(emulated):
         return steps.for_platforms([platform for platform in emulated if platform])
+    if "--device-access" in arguments:
+        return []
     plan = steps.dependencies()
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
     if command == "bench" or any(argument.startswith("--sanitize") for argument in arguments):
@@ -27,7 +29,9 @@ def needed(command: str, arguments: list[str]) -> list[Step]:
     return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]
 
 
-def setup(_: list[str]) -> int:
+def setup(arguments: list[str]) -> int:
+    if "--device-access" in arguments:
+        return device_access.install()
     print(f"All there. What was fetched and built outside the clone is in {cache.root()}.")
     return 0
 

@@ -21,12 +21,16 @@ def import_resources() -> None:
     _stamp().write_text(_content())
 
 
-def import_into(folder: Path) -> None:
-    """Any project with the addon in it."""
-    # The first scan would meet the scenes before the extension whose classes they use.
+def name_extension(folder: Path) -> None:
+    """So that a Godot that has not scanned the project yet loads it: scenes use its classes."""
     extension_list = folder / ".godot/extension_list.cfg"
     extension_list.parent.mkdir(exist_ok=True)
     extension_list.write_text("res://addons/tactus/tactus.gdextension\n")
+
+
+def import_into(folder: Path) -> None:
+    """Any project with the addon in it."""
+    name_extension(folder)
     done = subprocess.run(
         [str(godot.command()), "--headless", "--path", folder, "--import"],
         text=True,

@@ -164,7 +164,7 @@ func _meet(link: MMTLink, device: HapticDevice) -> bool:
 	var bodies := link.get_parent().find_children("*", "PhysicsBody3D", true, false).size()
 	var deadline := Time.get_ticks_msec() + int(LONGEST_MEETING * 1000.0)
 	while not link.is_peer_connected() or link.get_statistics().objects < bodies:
-		if Time.get_ticks_msec() > deadline:
+		if Time.get_ticks_msec() > deadline or link.get_state() == MMTLink.STATE_LEFT:
 			return false
 		await get_tree().process_frame
 	if _way != null:

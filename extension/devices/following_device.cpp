@@ -1,8 +1,27 @@
 #include "devices/following_device.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace tactus {
+
+namespace {
+
+// The hand stays at least this far in front of the camera (unit: meters).
+constexpr double nearest_depth = 0.02;
+
+}  // namespace
+
+std::optional<Vec3> under_pointer(const ScreenRay& ray, const Vec3& before, double deeper) {
+    const double depth = std::max(nearest_depth, glm::dot(before - ray.eye, ray.forward) + deeper);
+    const double slant = glm::dot(ray.direction, ray.forward);
+    if (!(slant > 0.0)) {
+        return std::nullopt;
+    }
+    const Vec3 place = ray.eye + ray.direction * (depth / slant);
+    return glm::length(place) < farthest_hand ? std::optional(place) : std::nullopt;
+}
 
 Follower follow(const Follower& from, const Vec3& target, double rate, double seconds) {
     const double decay = std::exp(-rate * seconds);

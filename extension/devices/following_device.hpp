@@ -6,6 +6,8 @@
 // Threads: aim() belongs to the Godot side, read() and write() to the haptic thread.
 #pragma once
 
+#include <optional>
+
 #include "core/ports/device.hpp"
 #include "realtime/triple_buffer.hpp"
 
@@ -15,6 +17,20 @@ struct HandTarget {
     Vec3 position{0.0};         // where the hand is wanted, in the device's own frame (unit: meters)
     std::uint32_t buttons = 0;  // bit i: button i is held
 };
+
+// No hand goes farther from the origin (unit: meters).
+constexpr double farthest_hand = 1e6;
+
+// A point of the screen as its camera sees it, in the scene (unit: meters).
+struct ScreenRay {
+    Vec3 eye{0.0};
+    Vec3 direction{0.0, 0.0, -1.0};  // of length 1
+    Vec3 forward{0.0, 0.0, -1.0};    // that the camera looks along, of length 1
+};
+
+// Where on the ray a hand is that was at `before`: as deep in the scene as it was, and deeper by this much.
+// Nothing where the ray leads to no place.
+std::optional<Vec3> under_pointer(const ScreenRay& ray, const Vec3& before, double deeper);
 
 // The follower's state and its step: x″ = ω²·(target − x) − 2ω·x′, solved exactly for a target at rest. With
 // y = x − target and c = x′ + ω·y at the start of a step of length t

@@ -11,9 +11,8 @@ namespace tactus {
 
 using namespace godot;
 
-CollisionObject3D* BodyMirror::body() const {
-    return Object::cast_to<CollisionObject3D>(ObjectDB::get_instance(id_));
-}
+BodyMirror::BodyMirror(CollisionObject3D& body)
+    : id_(body.get_instance_id()), body_(&body), rigid_(Object::cast_to<RigidBody3D>(&body)) {}
 
 // Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its
 // own, and what is outside the world still finds the body where it is.
@@ -26,9 +25,9 @@ void BodyMirror::hold_still_in_godot(CollisionObject3D& body) const {
 
 void BodyMirror::remember_place(CollisionObject3D& body) {
     place_ = body.get_global_transform();
-    if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
-        linear_velocity_ = rigid->get_linear_velocity();
-        angular_velocity_ = rigid->get_angular_velocity();
+    if (rigid_ != nullptr) {
+        linear_velocity_ = rigid_->get_linear_velocity();
+        angular_velocity_ = rigid_->get_angular_velocity();
     }
 }
 
@@ -40,7 +39,7 @@ BodyPlace BodyMirror::remembered() const {
 void BodyMirror::listen(CollisionObject3D& node, const Ref<PhysicsMaterial>& material,
                         const MirrorContext& context) {
     if (ObjectDB::get_instance(watch_) == nullptr) {
-        watch_ = BodyWatch::put_into(node, context.news);
+        watch_ = BodyWatch::put_into(node, context.news, place_);
     }
     std::vector<Ref<Resource>> resources;
     for (const Ref<Shape3D>& shape : shapes_of(node)) {
@@ -56,7 +55,7 @@ void BodyMirror::listen(CollisionObject3D& node, const Ref<PhysicsMaterial>& mat
 // Reads the body as it is and has a twin of it built: at once where that takes no time. What the workers
 // build is handed over where everybody's is, or the order of bodies, which physics computes in, would depend
 // on how fast they are.
-void BodyMirror::plan(Session& session, const MirrorContext& context) {
+void BodyMirror::plan(const MirrorContext& context) {
     CollisionObject3D& node = *body();
     tried_ = true;
     place_problem_.clear();
@@ -72,20 +71,32 @@ void BodyMirror::plan(Session& session, const MirrorContext& context) {
     if (form.touchable) {
         hold_still_in_godot(node);
     }
-    const bool ready = twin_.plan({std::move(form), read_values(node, material, context.defaults),
-                                   read_makings(node), remembered(), is_rigid(node)},
-                                  *context.workers);
-    if (ready) {
-        take_ready(session, context);
+    BodyPlan plan{std::move(form), read_values(node, material, context.defaults), read_makings(node),
+                  remembered(), is_rigid(node)};
+    if (twin_.plan(std::move(plan), context.workers)) {
+        hand_over(context);
     }
 }
 
-void BodyMirror::take_ready(Session& session, const MirrorContext& context) {
+void BodyMirror::hand_over(const MirrorContext& context) {
     CollisionObject3D* node = body();
-    if (node != nullptr && twin_.take_ready(session, context.takes_effect)) {
+    if (node != nullptr && twin_.take_ready(context.session, context.takes_effect)) {
         hold_still_in_godot(*node);
         remember_place(*node);
-        twin_.stand_at(session, remembered());
+        twin_.stand_at(context.session, remembered());
+    }
+}
+
+void BodyMirror::take_ready(const MirrorContext& context) {
+    hand_over(context);
+    say_problems(context.complaints);
+}
+
+void BodyMirror::say_problems(Complaints& complaints) const {
+    if (const CollisionObject3D* node = body()) {
+        for (const std::string& problem : problems()) {
+            complaints.say(*node, problem);
+        }
     }
 }
 
@@ -110,8 +121,7 @@ std::vector<std::string> BodyMirror::problems() const {
     return all;
 }
 
-void BodyMirror::send_place(const Transform3D& place, Session& session, double seconds,
-                            std::uint64_t takes_effect) {
+void BodyMirror::send_place(const Transform3D& place, const MirrorContext& context) {
     if (place == place_) {
         place_problem_.clear();
         return;
@@ -119,82 +129,117 @@ void BodyMirror::send_place(const Transform3D& place, Session& session, double s
     place_problem_ = problem_of_place(place);
     if (place_problem_.empty()) {
         place_ = place;
-        twin_.set_pose(session, pose_of(place_), seconds, takes_effect);
+        twin_.set_pose(context.session, pose_of(place_), context.seconds, context.takes_effect);
     }
 }
 
-void BodyMirror::send_speed(const CollisionObject3D& node, Session& session, std::uint64_t takes_effect) {
-    const auto* rigid = Object::cast_to<RigidBody3D>(&node);
-    if (rigid == nullptr || twin_.values().motion != Motion::Dynamic) {
-        return;
-    }
-    const Vector3 linear = rigid->get_linear_velocity();
-    const Vector3 angular = rigid->get_angular_velocity();
-    if (!(linear == linear_velocity_) || !(angular == angular_velocity_)) {
-        linear_velocity_ = linear;
-        angular_velocity_ = angular;
-        twin_.set_velocity(session, from_godot(linear), from_godot(angular), takes_effect);
+// One that is no number is none, and is written over.
+bool BodyMirror::has_other_speed() const {
+    const Vector3 linear = rigid_->get_linear_velocity();
+    const Vector3 angular = rigid_->get_angular_velocity();
+    return linear.is_finite() && angular.is_finite() &&
+           !(linear == linear_velocity_ && angular == angular_velocity_);
+}
+
+void BodyMirror::send_speed(const MirrorContext& context) {
+    if (rigid_ != nullptr && twin_.values().motion == Motion::Dynamic && has_other_speed()) {
+        linear_velocity_ = rigid_->get_linear_velocity();
+        angular_velocity_ = rigid_->get_angular_velocity();
+        twin_.set_velocity(context.session, from_godot(linear_velocity_), from_godot(angular_velocity_),
+                           context.takes_effect);
     }
 }
 
-void BodyMirror::synchronise(Session& session, const MirrorContext& context, double seconds) {
+void BodyMirror::synchronise(const MirrorContext& context, bool shapes_changed) {
     CollisionObject3D* node = body();
     if (node == nullptr) {
         return;
     }
     const Transform3D place = node->get_global_transform();
-    if (needs_a_new_twin(*node, place, context.shapes_changed)) {
-        plan(session, context);
+    if (needs_a_new_twin(*node, place, shapes_changed)) {
+        plan(context);
     }
     if (handle() != no_handle) {
         hold_still_in_godot(*node);
         const Ref<PhysicsMaterial> material = material_of(*node);
-        twin_.set_values(session, read_values(*node, material, context.defaults));
+        twin_.set_values(context.session, read_values(*node, material, context.defaults));
         if (material_ != (material.is_valid() ? material->get_instance_id() : 0)) {
             listen(*node, material, context);
         }
-        send_place(place, session, seconds, context.takes_effect);
-        send_speed(*node, session, context.takes_effect);
+        send_place(place, context);
+        send_speed(context);
+        if (twin_.values().motion != Motion::Dynamic) {
+            come_to_rest();
+        }
     }
+    say_problems(context.complaints);
 }
 
-bool BodyMirror::follow(Session& session, const MirrorContext& context, double seconds) {
+void BodyMirror::follow(const MirrorContext& context) {
     CollisionObject3D* node = handle() != no_handle ? body() : nullptr;
     if (node == nullptr) {
-        return false;
-    }
-    send_place(node->get_global_transform(), session, seconds, context.takes_effect);
-    send_speed(*node, session, context.takes_effect);
-    return !place_problem_.empty();
-}
-
-void BodyMirror::follow_speed(Session& session, const MirrorContext& context) {
-    if (const CollisionObject3D* node = handle() != no_handle ? body() : nullptr) {
-        send_speed(*node, session, context.takes_effect);
-    }
-}
-
-// Moving the node may call a script, which may let it go.
-void BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
-    auto* rigid = place_problem_.empty() ? Object::cast_to<RigidBody3D>(body()) : nullptr;
-    if (rigid == nullptr || !twin_.takes(state, tick)) {
         return;
     }
-    const Transform3D pose = to_godot(state.pose);
-    rigid->set_linear_velocity(to_godot(state.linear_velocity));
-    rigid->set_angular_velocity(to_godot(state.angular_velocity));
-    rigid->set_global_transform(Transform3D(pose.basis * key_.scaling, pose.origin));
-    if (ObjectDB::get_instance(id_) != nullptr && rigid->is_inside_tree()) {
-        remember_place(*rigid);
+    send_place(node->get_global_transform(), context);
+    send_speed(context);
+    if (!place_problem_.empty()) {
+        context.complaints.say(*node, place_problem_);
     }
+}
+
+void BodyMirror::follow_speed(const MirrorContext& context) {
+    if (handle() != no_handle && is_there()) {
+        send_speed(context);
+    }
+}
+
+// What moves is asked here whether a script has moved it: to be told of its place as well would cost as much
+// again. Moving the node may call a script, which may let it go.
+BodyMirror::Applied BodyMirror::apply(const BodyState& state, std::uint64_t tick) {
+    const auto is_in_scene = [this] { return is_there() && rigid_->is_inside_tree(); };
+    if (rigid_ == nullptr || !place_problem_.empty() || !is_in_scene()) {
+        return Applied::no;
+    }
+    if (has_other_speed() || has_other_place()) {
+        return Applied::elsewhere;
+    }
+    if (!twin_.takes(state, tick)) {
+        return Applied::no;
+    }
+    if (!std::exchange(moves_, true)) {
+        BodyWatch::tell_of_places(watch_, false);
+    }
+    linear_velocity_ = to_godot(state.linear_velocity);
+    angular_velocity_ = to_godot(state.angular_velocity);
+    if (!(rigid_->get_linear_velocity() == linear_velocity_)) {
+        rigid_->set_linear_velocity(linear_velocity_);
+    }
+    if (!(rigid_->get_angular_velocity() == angular_velocity_)) {
+        rigid_->set_angular_velocity(angular_velocity_);
+    }
+    const Transform3D pose = to_godot(state.pose);
+    rigid_->set_global_transform(Transform3D(pose.basis * key_.scaling, pose.origin));
+    if (is_in_scene()) {
+        place_ = rigid_->get_global_transform();
+    }
+    return Applied::yes;
+}
+
+bool BodyMirror::come_to_rest() {
+    if (!std::exchange(moves_, false)) {
+        return false;
+    }
+    BodyWatch::tell_of_places(watch_, true);
+    return is_there() && rigid_->is_inside_tree() && (has_other_speed() || has_other_place());
 }
 
 void BodyMirror::release(Session& session) {
     twin_.remove(session);
     tried_ = false;
     BodyWatch::take_out(std::exchange(watch_, 0));
-    if (auto* rigid = Object::cast_to<RigidBody3D>(body())) {
-        PhysicsServer3D::get_singleton()->body_set_mode(rigid->get_rid(), own_mode(*rigid));
+    moves_ = false;
+    if (rigid_ != nullptr && is_there()) {
+        PhysicsServer3D::get_singleton()->body_set_mode(rigid_->get_rid(), own_mode(*rigid_));
     }
 }
 

@@ -3,51 +3,62 @@
 #pragma once
 
 #include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/variant/utility_functions.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/body_watch.hpp"
-#include "nodes/conversions.hpp"
+#include "nodes/messages.hpp"
 #include "world/body_twin.hpp"
 
 namespace tactus {
 
 // What all mirrors of a world share in one synchronise().
 struct MirrorContext {
+    Session& session;
+    Complaints& complaints;
+    Workers& workers;  // for bodies of many triangles
     BodyDefaults defaults;
-    std::shared_ptr<BodyNews> news;  // where what Godot tells of the bodies goes
-    bool shapes_changed = false;     // a resource of the body has changed since the last time
+    double seconds = 0.0;            // what moved on Godot's side since the last time took so long for it
     std::uint64_t takes_effect = 0;  // the first tick that has certainly taken what is sent now
-    Workers* workers = nullptr;      // for bodies of many triangles
+    std::shared_ptr<BodyNews> news;  // where what Godot tells of the bodies goes
 };
 
 class BodyMirror {
 public:
-    explicit BodyMirror(godot::CollisionObject3D& body) : id_(body.get_instance_id()) {}
+    explicit BodyMirror(godot::CollisionObject3D& body);
 
     std::uint64_t id() const { return id_; }
     SessionHandle handle() const { return twin_.handle(); }
     const BodyTwin& twin() const { return twin_; }
-    godot::CollisionObject3D* body() const;  // null when the node is gone
+    godot::CollisionObject3D* body() const { return is_there() ? body_ : nullptr; }  // null: it is gone
 
-    // Brings the session up to date. What moved on Godot's side since the last call took `seconds` for it.
-    void synchronise(Session& session, const MirrorContext& context, double seconds);
-
-    // Its place and speed alone. Whether problems() may be other ones now.
-    bool follow(Session& session, const MirrorContext& context, double seconds);
+    // Brings the session up to date, and says what is wrong. `shapes_changed`: a resource of the body has
+    // changed since the last time.
+    void synchronise(const MirrorContext& context, bool shapes_changed);
+    // Its place and speed alone.
+    void follow(const MirrorContext& context);
     // Its speed alone, which Godot tells nobody of.
-    void follow_speed(Session& session, const MirrorContext& context);
-    // Whether its speed is the physics'.
-    bool is_thrown() const { return handle() != no_handle && twin_.values().motion == Motion::Dynamic; }
+    void follow_speed(const MirrorContext& context);
+    bool can_be_thrown() const { return rigid_ != nullptr; }
+    bool moves() const { return moves_; }
     bool has_haptic_mesh() const { return !twin_.planned().form.touched.empty(); }
 
-    // Hands over a twin that has become ready.
-    void take_ready(Session& session, const MirrorContext& context);
+    // Hands over a twin that has become ready, and says what is wrong with it.
+    void take_ready(const MirrorContext& context);
 
     // `tick` is the tick of the snapshot that the state is from.
-    void apply(const BodyState& state, std::uint64_t tick);
+    enum class Applied {
+        no,         // it is shown already, or made without what was sent last
+        yes,        // until come_to_rest(), Godot tells of its place no more
+        elsewhere,  // no: a script has given the node a place or speed meanwhile: follow() that first
+    };
+    Applied apply(const BodyState& state, std::uint64_t tick);
+    // It is shown as it is for another frame. Whether a script has given the node a place or speed meanwhile.
+    bool come_to_rest();
 
     // Takes the twin out and gives the body back to Godot's own physics.
     void release(Session& session);
@@ -56,30 +67,39 @@ public:
     std::vector<std::string> problems() const;
 
 private:
-    void plan(Session& session, const MirrorContext& context);
+    void plan(const MirrorContext& context);
+    void hand_over(const MirrorContext& context);
+    void say_problems(Complaints& complaints) const;
     bool needs_a_new_twin(godot::CollisionObject3D& body, const godot::Transform3D& place,
                           bool shapes_changed);
     void listen(godot::CollisionObject3D& node, const godot::Ref<godot::PhysicsMaterial>& material,
                 const MirrorContext& context);
-    void send_place(const godot::Transform3D& place, Session& session, double seconds,
-                    std::uint64_t takes_effect);
-    void send_speed(const godot::CollisionObject3D& node, Session& session, std::uint64_t takes_effect);
+    void send_place(const godot::Transform3D& place, const MirrorContext& context);
+    void send_speed(const MirrorContext& context);
+    bool is_there() const { return godot::UtilityFunctions::is_instance_id_valid(static_cast<int64_t>(id_)); }
+    // Than when the node was seen or set last; while it is there, and rigid.
+    bool has_other_speed() const;
+    bool has_other_place() const { return !(rigid_->get_global_transform() == place_); }
     void hold_still_in_godot(godot::CollisionObject3D& body) const;
     void remember_place(godot::CollisionObject3D& body);
     BodyPlace remembered() const;
 
+    // What a body that moves needs in every frame stands together, with the beginning of the twin.
     std::uint64_t id_;
-    std::uint64_t watch_ = 0;  // id of the BodyWatch in it
-    BodyTwin twin_;
-    std::uint64_t material_ = 0;  // id of the PhysicsMaterial that it listens to; 0: none
-    ShapeKey key_;
-    std::uint64_t mesh_changes_ = 0;
-    godot::Transform3D place_;  // of Godot's body, when we last saw or set it
+    godot::CollisionObject3D* body_;  // while it is there
+    godot::RigidBody3D* rigid_;       // the same; null where it is none
+    godot::Transform3D place_;        // of Godot's body, when it was seen or set last
     godot::Vector3 linear_velocity_;
     godot::Vector3 angular_velocity_;
-    bool tried_ = false;
-    bool was_nowhere_ = false;   // when the newest twin was planned: there could be none
     std::string place_problem_;  // of where it is now; the twin stays where it was
+    ShapeKey key_;
+    BodyTwin twin_;
+    std::uint64_t watch_ = 0;     // id of the BodyWatch in it
+    std::uint64_t material_ = 0;  // id of the PhysicsMaterial that it listens to; 0: none
+    std::uint64_t mesh_changes_ = 0;
+    bool moves_ = false;  // as shown last
+    bool tried_ = false;
+    bool was_nowhere_ = false;  // when the newest twin was planned: there could be none
 };
 
 }  // namespace tactus

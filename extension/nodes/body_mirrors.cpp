@@ -6,6 +6,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -13,33 +14,11 @@ using namespace godot;
 
 namespace {
 
-// Bodies that are looked at in a frame whatever was told: as many as cost a few hundredths of a millisecond,
-// and in a large scene so many that each has its turn within about a second.
-constexpr std::size_t min_turns = 12;
-constexpr std::size_t frames_a_round = 96;
+// Of all the bodies: no more than cost a tenth of a millisecond, in a large scene.
+constexpr Turns looks{.frames_a_round = 96, .min = 4, .max = 32};
 
 // Speeds are cheaper to ask for, and a throw should not wait.
-constexpr std::size_t frames_a_round_of_speeds = 16;
-
-std::size_t turns(std::size_t count, std::size_t frames) {
-    return std::min(count, std::max(min_turns, count / frames));
-}
-
-void collect(const Node& node, std::vector<CollisionObject3D*>& bodies, std::vector<Joint3D*>& joints,
-             std::vector<Node*>& others) {
-    const int count = node.get_child_count();
-    for (int i = 0; i < count; ++i) {
-        Node* child = node.get_child(i);
-        if (is_solid_body(child)) {
-            bodies.push_back(Object::cast_to<CollisionObject3D>(child));
-        } else if (auto* joint = Object::cast_to<Joint3D>(child)) {
-            joints.push_back(joint);
-        } else {
-            others.push_back(child);
-        }
-        collect(*child, bodies, joints, others);
-    }
-}
+constexpr Turns looks_at_speeds{.frames_a_round = 16, .min = 12, .max = 256};
 
 }  // namespace
 
@@ -63,7 +42,7 @@ BodyMirror* BodyMirrors::of(std::uint64_t node) const {
 }
 
 BodyMirror* BodyMirrors::of_handle(SessionHandle handle) const {
-    return handle < by_handle_.size() ? by_handle_[handle] : nullptr;
+    return handle < by_handle_.size() ? by_handle_[handle].mirror : nullptr;
 }
 
 // Mirrors of what has come; those of what has gone are let go.
@@ -94,40 +73,43 @@ void BodyMirrors::match(std::vector<std::unique_ptr<Mirror>>& mirrors, const std
     }
 }
 
-void BodyMirrors::find(const Node& root, Session& session, Complaints& complaints) {
+void BodyMirrors::find(const Node& root, const MirrorContext& context) {
     std::vector<CollisionObject3D*> bodies;
     std::vector<Joint3D*> joints;
-    std::vector<Node*> others;
-    collect(root, bodies, joints, others);
-    for (const Node* other : std::exchange(is_first_look_, false) ? others : std::vector<Node*>()) {
-        say_kind(*other, complaints);
-    }
-    match(joints_, joints, session);
-    match(bodies_, bodies, session);
+    for_each_below(root, [&](Node& node) {
+        if (is_solid_body(&node)) {
+            bodies.push_back(Object::cast_to<CollisionObject3D>(&node));
+        } else if (auto* joint = Object::cast_to<Joint3D>(&node)) {
+            joints.push_back(joint);
+        } else if (is_first_look_) {
+            context.complaints.say(node, problem_of_kind(node));
+        }
+    });
+    is_first_look_ = false;
+    match(joints_, joints, context.session);
+    match(bodies_, bodies, context.session);
     by_node_.clear();
     building_.clear();
-    std::ranges::fill(by_handle_, nullptr);
+    rigid_.clear();
+    std::ranges::fill(by_handle_, Shown{});
     for (const auto& mirror : bodies_) {
         by_node_[mirror->id()] = mirror.get();
+        if (mirror->can_be_thrown()) {
+            rigid_.push_back(mirror.get());
+        }
         take_handle(*mirror, no_handle);
     }
     handles_changed_ = true;
 }
 
-void BodyMirrors::say_kind(const Node& node, Complaints& complaints) {
-    if (const String problem = problem_of_kind(node); !problem.is_empty()) {
-        complaints.say(node, problem);
-    }
-}
-
 void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
     if (mirror.handle() != before) {
         handles_changed_ = true;
-        if (before != no_handle && by_handle_[before] == &mirror) {
-            by_handle_[before] = nullptr;
+        if (before != no_handle && by_handle_[before].mirror == &mirror) {
+            by_handle_[before] = {};
         }
         if (mirror.handle() != no_handle) {
-            by_handle_[mirror.handle()] = &mirror;
+            by_handle_[mirror.handle()] = {&mirror, mirror.twin().shown_change(), mirror.moves()};
         }
     }
     std::erase(building_, &mirror);
@@ -136,124 +118,85 @@ void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
     }
 }
 
-void BodyMirrors::say_problems(const BodyMirror& mirror, Complaints& complaints) {
-    const CollisionObject3D* body = mirror.body();
-    if (body == nullptr) {
-        return;
-    }
-    for (const std::string& problem : mirror.problems()) {
-        complaints.say(*body, to_godot(problem));
-    }
-}
-
-void BodyMirrors::look_at(BodyMirror& mirror, Session& session, const MirrorContext& context, double seconds,
-                          Complaints& complaints) {
+// Whoever changes a mirror may have given it another handle.
+template <class Change>
+void BodyMirrors::change(BodyMirror& mirror, const Change& change) {
     const SessionHandle before = mirror.handle();
-    mirror.synchronise(session, context, seconds);
+    change(mirror);
     take_handle(mirror, before);
-    say_problems(mirror, complaints);
 }
 
-void BodyMirrors::look_at_motion(BodyMirror& mirror, Session& session, const MirrorContext& context,
-                                 double seconds, Complaints& complaints) {
-    if (mirror.follow(session, context, seconds)) {
-        say_problems(mirror, complaints);
-    }
-}
-
-void BodyMirrors::look_at_bodies(Session& session, const MirrorContext& context, double seconds,
-                                 Complaints& complaints) {
+void BodyMirrors::look_at_bodies(const MirrorContext& context) {
     moved_.clear();
     changed_.clear();
     std::swap(moved_, news_->moved);
     std::swap(changed_, news_->changed);
     const bool meshes_changed = std::exchange(mesh_changes_, HapticMesh::changes()) != HapticMesh::changes();
+    const auto look_at = [&](BodyMirror& mirror, bool shapes_changed = false) {
+        change(mirror, [&](BodyMirror& one) { one.synchronise(context, shapes_changed); });
+    };
+    const auto each = [this](const std::vector<std::uint64_t>& ids, const auto& look) {
+        for (const std::uint64_t id : ids) {
+            if (BodyMirror* mirror = of(id)) {
+                look(*mirror);
+            }
+        }
+    };
     if (!in_turn_ || std::exchange(all_changed_, false)) {
-        MirrorContext whole = context;
-        whole.shapes_changed = whole.shapes_changed || !changed_.empty();
         for (const auto& mirror : bodies_) {
-            look_at(*mirror, session, whole, seconds, complaints);
+            look_at(*mirror, !changed_.empty());
         }
         return;
     }
-    MirrorContext changed = context;
-    changed.shapes_changed = true;
-    for (const std::uint64_t id : changed_) {
-        if (BodyMirror* mirror = of(id)) {
-            look_at(*mirror, session, changed, seconds, complaints);
-        }
-    }
-    for (const std::uint64_t id : moved_) {
-        if (BodyMirror* mirror = of(id)) {
-            look_at_motion(*mirror, session, context, seconds, complaints);
-        }
-    }
+    each(changed_, [&](BodyMirror& mirror) { look_at(mirror, true); });
+    each(moved_, [&](BodyMirror& mirror) { mirror.follow(context); });
     for (const auto& mirror : bodies_) {
         if (meshes_changed && mirror->has_haptic_mesh()) {
-            look_at(*mirror, session, context, seconds, complaints);
+            look_at(*mirror);
         }
     }
-    for (const std::uint64_t id : touched_) {
-        if (BodyMirror* mirror = of(id)) {
-            look_at(*mirror, session, context, seconds, complaints);
-        }
-    }
-    for (std::size_t i = turns(bodies_.size(), frames_a_round); i > 0; --i) {
-        next_body_ = next_body_ + 1 < bodies_.size() ? next_body_ + 1 : 0;
-        look_at(*bodies_[next_body_], session, context, seconds, complaints);
-    }
-    for (std::size_t i = turns(bodies_.size(), frames_a_round_of_speeds); i > 0; --i) {
-        next_rigid_ = next_rigid_ + 1 < bodies_.size() ? next_rigid_ + 1 : 0;
-        if (bodies_[next_rigid_]->is_thrown()) {
-            bodies_[next_rigid_]->follow_speed(session, context);
-        }
-    }
+    each(touched_, look_at);
+    body_turns_.take(looks, bodies_, [&](const auto& mirror) { look_at(*mirror); });
+    speed_turns_.take(looks_at_speeds, rigid_, [&](BodyMirror* mirror) { mirror->follow_speed(context); });
 }
 
-void BodyMirrors::look_at_joints(Session& session, Complaints& complaints) {
+void BodyMirrors::look_at_joints(const MirrorContext& context) {
     const FindMirror mirror_of = [this](const Node* node) {
         return node != nullptr ? of(node->get_instance_id()) : nullptr;
     };
-    const bool all = std::exchange(handles_changed_, false) || !in_turn_;
-    for (std::size_t i = all ? joints_.size() : turns(joints_.size(), frames_a_round); i > 0; --i) {
-        next_joint_ = next_joint_ + 1 < joints_.size() ? next_joint_ + 1 : 0;
-        JointMirror& joint = *joints_[next_joint_];
-        joint.synchronise(session, mirror_of);
-        if (joint.node() != nullptr && !joint.problem().empty()) {
-            complaints.say(*joint.node(), to_godot(joint.problem()));
+    const auto look_at = [&](const std::unique_ptr<JointMirror>& joint) {
+        joint->synchronise(context.session, mirror_of);
+        if (joint->node() != nullptr) {
+            context.complaints.say(*joint->node(), joint->problem());
         }
+    };
+    if (std::exchange(handles_changed_, false) || !in_turn_) {
+        std::ranges::for_each(joints_, look_at);
+    } else {
+        joint_turns_.take(looks, joints_, look_at);
     }
 }
 
-void BodyMirrors::synchronise(const Node& root, Session& session, const MirrorContext& context,
-                              double seconds, Complaints& complaints) {
-    MirrorContext with_news = context;
-    with_news.news = news_;
+void BodyMirrors::synchronise(const Node& root, MirrorContext context) {
+    context.news = news_;
     for (const std::uint64_t id : std::exchange(others_, {})) {
         auto* other = Object::cast_to<Node>(ObjectDB::get_instance(id));
         if (other != nullptr && root.is_ancestor_of(other)) {
-            say_kind(*other, complaints);
+            context.complaints.say(*other, problem_of_kind(*other));
         }
     }
     if (std::exchange(tree_changed_, false)) {
-        find(root, session, complaints);
+        find(root, context);
     }
-    look_at_bodies(session, with_news, seconds, complaints);
+    look_at_bodies(context);
     // Stepped time waits, so that every run has the same bodies in the same ticks.
     if (!in_turn_ && !building_.empty()) {
-        context.workers->wait();
+        context.workers.wait();
     }
-    take_ready(session, with_news, complaints);
-    look_at_joints(session, complaints);
-}
-
-void BodyMirrors::take_ready(Session& session, const MirrorContext& context, Complaints& complaints) {
     for (BodyMirror* mirror : std::vector(building_)) {
-        const SessionHandle before = mirror->handle();
-        mirror->take_ready(session, context);
-        take_handle(*mirror, before);
-        say_problems(*mirror, complaints);
+        change(*mirror, [&](BodyMirror& one) { one.take_ready(context); });
     }
+    look_at_joints(context);
 }
 
 SessionHandle BodyMirrors::body_of(std::uint64_t node) const {
@@ -267,8 +210,23 @@ std::uint64_t BodyMirrors::node_of(SessionHandle body) const {
 }
 
 void BodyMirrors::show(const BodyState& state, std::uint64_t tick) {
-    if (BodyMirror* mirror = of_handle(state.handle)) {
-        mirror->apply(state, tick);
+    BodyMirror* const mirror = of_handle(state.handle);
+    if (mirror == nullptr) {
+        return;
+    }
+    Shown& shown = by_handle_[state.handle];
+    bool is_elsewhere = false;
+    if (shown.change != state.changed_at) {
+        const BodyMirror::Applied applied = mirror->apply(state, tick);
+        is_elsewhere = applied == BodyMirror::Applied::elsewhere;
+        if (applied == BodyMirror::Applied::yes) {
+            shown = {mirror, state.changed_at, true};
+        }
+    } else if (std::exchange(shown.moves, false)) {
+        is_elsewhere = mirror->come_to_rest();
+    }
+    if (is_elsewhere) {
+        news_->moved.push_back(mirror->id());
     }
 }
 

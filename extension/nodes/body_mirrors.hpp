@@ -18,6 +18,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/scene_view.hpp"
 #include "world/body_queries.hpp"
+#include "world/rotation.hpp"
 #include "world/scene_facts.hpp"
 
 namespace tactus {
@@ -38,8 +39,7 @@ public:
     void note_all_changed() { all_changed_ = true; }
 
     // Brings the session up to date with all that stands below `root`.
-    void synchronise(const godot::Node& root, Session& session, const MirrorContext& context, double seconds,
-                     Complaints& complaints);
+    void synchronise(const godot::Node& root, MirrorContext context);
     // Bodies that a hand touches now.
     void touched(const std::vector<std::uint64_t>& bodies) { touched_ = bodies; }
 
@@ -56,26 +56,27 @@ private:
     template <class Mirror, class NodeType>
     void match(std::vector<std::unique_ptr<Mirror>>& mirrors, const std::vector<NodeType*>& found,
                Session& session);
-    void find(const godot::Node& root, Session& session, Complaints& complaints);
-    void look_at_bodies(Session& session, const MirrorContext& context, double seconds,
-                        Complaints& complaints);
-    // Those that wait for their triangles get them.
-    void take_ready(Session& session, const MirrorContext& context, Complaints& complaints);
-    void look_at_joints(Session& session, Complaints& complaints);
-    void look_at(BodyMirror& mirror, Session& session, const MirrorContext& context, double seconds,
-                 Complaints& complaints);
-    void look_at_motion(BodyMirror& mirror, Session& session, const MirrorContext& context, double seconds,
-                        Complaints& complaints);
+    void find(const godot::Node& root, const MirrorContext& context);
+    void look_at_bodies(const MirrorContext& context);
+    void look_at_joints(const MirrorContext& context);
+    template <class Change>
+    void change(BodyMirror& mirror, const Change& change);
     void take_handle(BodyMirror& mirror, SessionHandle before);
-    static void say_kind(const godot::Node& node, Complaints& complaints);
-    static void say_problems(const BodyMirror& mirror, Complaints& complaints);
 
     bool in_turn_;
     std::shared_ptr<BodyNews> news_ = std::make_shared<BodyNews>();
     std::vector<std::unique_ptr<BodyMirror>> bodies_;
     std::vector<std::unique_ptr<JointMirror>> joints_;
     std::unordered_map<std::uint64_t, BodyMirror*> by_node_;
-    std::vector<BodyMirror*> by_handle_;
+    // By the session's handle, with the change (BodyState::changed_at) that is shown: a body at rest costs no
+    // look at anything else.
+    struct Shown {
+        BodyMirror* mirror = nullptr;
+        std::uint64_t change = 0;
+        bool moves = false;
+    };
+    std::vector<Shown> by_handle_;
+    std::vector<BodyMirror*> rigid_;     // of them all, those that can be thrown
     std::vector<BodyMirror*> building_;  // in the order in which they were planned
     std::vector<std::uint64_t> touched_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
@@ -84,9 +85,7 @@ private:
     bool all_changed_ = true;
     bool handles_changed_ = false;
     std::uint64_t mesh_changes_ = 0;
-    std::size_t next_body_ = 0;   // whose turn it is
-    std::size_t next_rigid_ = 0;  // likewise, for its speed
-    std::size_t next_joint_ = 0;
+    Rotation body_turns_, speed_turns_, joint_turns_;
     std::vector<std::uint64_t> moved_, changed_;  // of this frame; members keep their memory
 };
 

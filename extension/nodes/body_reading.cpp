@@ -20,13 +20,6 @@ using namespace godot;
 
 namespace {
 
-// A frame scaled more than this is a mistake: single precision has seven digits for all of it.
-constexpr real_t min_scale = 1e-6F;
-constexpr real_t max_scale = 1e6F;
-
-// As the physics has it (unit: meters).
-constexpr real_t max_distance = 1e7F;
-
 using Axis = PhysicsServer3D::BodyAxis;
 
 constexpr Axis axes[6] = {PhysicsServer3D::BODY_AXIS_LINEAR_X,  PhysicsServer3D::BODY_AXIS_LINEAR_Y,
@@ -82,23 +75,6 @@ Ref<PhysicsMaterial> material_of(const CollisionObject3D& body) {
         return still->get_physics_material_override();
     }
     return Ref<PhysicsMaterial>();
-}
-
-std::string problem_of_place(const Transform3D& place) {
-    if (!place.is_finite()) {
-        return "its transform is not made of finite numbers: reset it in the inspector";
-    }
-    const Vector3 scale = place.basis.get_scale().abs();
-    for (const real_t factor : {scale.x, scale.y, scale.z}) {
-        if (!(factor >= min_scale && factor <= max_scale)) {
-            return "it is scaled by " + from_godot(String::num(static_cast<double>(factor))) +
-                   " along an axis, and that cannot be touched: scale it by something between 1e-6 and 1e6";
-        }
-    }
-    const Vector3 far = place.origin.abs();
-    return std::max({far.x, far.y, far.z}) > max_distance
-               ? "it stands farther from the origin than 10,000 km: move it nearer"
-               : std::string();
 }
 
 bool is_solid_body(const Object* object) {

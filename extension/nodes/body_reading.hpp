@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "core/haptics/touch_material.hpp"
+#include "nodes/conversions.hpp"
 #include "nodes/shape_reading.hpp"
 #include "world/body_form.hpp"
+#include "world/problem_of_place.hpp"
 
 namespace tactus {
 
@@ -40,8 +42,10 @@ struct ShapeKey {
     }
 };
 
-// What keeps a body from being touched where it stands, and what to do; empty where nothing does.
-std::string problem_of_place(const godot::Transform3D& place);
+// See world/problem_of_place.hpp.
+inline std::string problem_of_place(const godot::Transform3D& place) {
+    return problem_of_place(matrix_of(place.basis), from_godot(place.origin));
+}
 
 // Whether a world mirrors this object at all: areas are not solid.
 bool is_solid_body(const godot::Object* object);

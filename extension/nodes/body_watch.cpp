@@ -8,7 +8,8 @@ namespace tactus {
 
 using namespace godot;
 
-std::uint64_t BodyWatch::put_into(Node& body, const std::shared_ptr<BodyNews>& news) {
+std::uint64_t BodyWatch::put_into(Node& body, const std::shared_ptr<BodyNews>& news,
+                                  const Transform3D& known) {
     auto* watch = memnew(BodyWatch);
     body.add_child(watch, false, INTERNAL_MODE_BACK);
     if (watch->get_parent() == nullptr) {
@@ -16,6 +17,7 @@ std::uint64_t BodyWatch::put_into(Node& body, const std::shared_ptr<BodyNews>& n
         return 0;
     }
     watch->news_ = news;
+    watch->known_ = &known;
     watch->body_ = body.get_instance_id();
     watch->set_notify_transform(true);
     return watch->get_instance_id();
@@ -26,6 +28,12 @@ void BodyWatch::take_out(std::uint64_t id) {
         watch->news_.reset();
         listen_to(id, {});
         watch->queue_free();
+    }
+}
+
+void BodyWatch::tell_of_places(std::uint64_t id, bool tell) {
+    if (auto* watch = Object::cast_to<BodyWatch>(ObjectDB::get_instance(id))) {
+        watch->set_notify_transform(tell);
     }
 }
 
@@ -54,8 +62,9 @@ void BodyWatch::resource_changed() {
     }
 }
 
+// It stands where its body stands, to the bit.
 void BodyWatch::_notification(int what) {
-    if (what == NOTIFICATION_TRANSFORM_CHANGED && news_ != nullptr) {
+    if (what == NOTIFICATION_TRANSFORM_CHANGED && news_ != nullptr && !(get_global_transform() == *known_)) {
         news_->moved.push_back(body_);
     }
 }

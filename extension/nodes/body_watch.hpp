@@ -23,10 +23,14 @@ class BodyWatch : public godot::Node3D {
 
 public:
     // Puts one into the body, which does not have to be in the scene tree. Returns its id; 0 where Godot
-    // takes no child at the moment.
-    static std::uint64_t put_into(godot::Node& body, const std::shared_ptr<BodyNews>& news);
+    // takes no child at the moment. `known`: where the body was put or found last, which is no news; it lives
+    // until take_out().
+    static std::uint64_t put_into(godot::Node& body, const std::shared_ptr<BodyNews>& news,
+                                  const godot::Transform3D& known);
     // Takes it out; nothing where it has gone with its body.
     static void take_out(std::uint64_t watch);
+    // Whether it tells that the body was moved; it does at first.
+    static void tell_of_places(std::uint64_t watch, bool tell);
     // These are what the body is made of now.
     static void listen_to(std::uint64_t watch, const std::vector<godot::Ref<godot::Resource>>& resources);
 
@@ -39,6 +43,7 @@ private:
 
     std::shared_ptr<BodyNews> news_;  // null: nobody listens any more
     std::uint64_t body_ = 0;
+    const godot::Transform3D* known_ = nullptr;  // while there is news_
     std::vector<godot::Ref<godot::Resource>> resources_;
 };
 

@@ -51,6 +51,14 @@ inline Mat3 matrix_of(const godot::Basis& basis) {
                 from_godot(basis.get_column(2)));
 }
 
+inline godot::Basis basis_of(const Mat3& matrix) {
+    godot::Basis basis;
+    for (int i = 0; i < 3; ++i) {
+        basis.set_column(i, to_godot(matrix[i]));
+    }
+    return basis;
+}
+
 // A frame that turns has its scaling rounded anew each time; none at all stays none.
 inline godot::Basis without_rounding(const godot::Basis& scaling) {
     return scaling.is_equal_approx(godot::Basis()) ? godot::Basis() : scaling;

@@ -11,6 +11,7 @@
 #include <godot_cpp/classes/xr_controller3d.hpp>
 
 #include "nodes/conversions.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -38,17 +39,12 @@ bool takes_mouse(const Control& control) {
            static_cast<double>(own.x * own.y) > covers_view * static_cast<double>(view.x * view.y);
 }
 
-const Control* control_over_view(const Node& node) {
-    const auto* control = Object::cast_to<Control>(&node);
-    if (control != nullptr && takes_mouse(*control)) {
-        return control;
-    }
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        if (const Control* below = control_over_view(*node.get_child(i))) {
-            return below;
-        }
-    }
-    return nullptr;
+const Node* control_over_view(const Node& scene) {
+    const auto takes_it = [](const Node& node) {
+        const auto* control = Object::cast_to<Control>(&node);
+        return control != nullptr && takes_mouse(*control);
+    };
+    return takes_it(scene) ? &scene : find_below(scene, takes_it);
 }
 
 }  // namespace
@@ -102,7 +98,7 @@ String problem_of_mouse(const Node& node) {
         return "the mouse needs a camera to move the hand before: add a Camera3D that sees the hand, and "
                "make it current";
     }
-    const Control* over = nullptr;
+    const Node* over = nullptr;
     if (is_edited) {
         over = control_over_view(*scene);
     } else if (const Control* hovered = node.get_viewport()->gui_get_hovered_control();

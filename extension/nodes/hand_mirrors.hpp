@@ -3,13 +3,12 @@
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "nodes/body_mirrors.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "session/session.hpp"
+#include "world/hand_twins.hpp"
 
 namespace tactus {
 
@@ -45,29 +44,22 @@ public:
     void forget_retired() { retired_.clear(); }
 
 private:
-    struct DeviceLink {
-        HapticDevice* node = nullptr;
-        std::shared_ptr<Device> port;
-        SessionHandle handle = no_handle;
-        Workspace sent;
+    template <class NodeType, class Twin>
+    struct Mirror {
+        NodeType* node = nullptr;
+        Twin twin;
     };
-    struct ProxyLink {
-        ProxyPointer* node = nullptr;
-        SessionHandle handle = no_handle;
-        ProxyDescription sent;
-    };
+    using DeviceMirror = Mirror<HapticDevice, DeviceTwin>;
+    using ProxyMirror = Mirror<ProxyPointer, ProxyTwin>;
 
-    void synchronise_devices(Session& session, Complaints& complaints);
-    void synchronise_proxies(Session& session, Complaints& complaints);
-    void connect_device(DeviceLink& link, Session& session, Complaints& complaints);
-    void drop_device(DeviceLink& link, Session& session);
-    SessionHandle device_handle(const HapticDevice* node) const;
+    void synchronise(DeviceMirror& mirror, Session& session, Complaints& complaints);
+    void synchronise(ProxyMirror& mirror, Session& session, Complaints& complaints);
 
     const HapticWorld& world_;
     std::shared_ptr<Device> stand_in_;
-    std::vector<DeviceLink> devices_;
-    std::vector<ProxyLink> proxies_;
-    std::vector<std::shared_ptr<Device>> retired_;  // live until the loop has let go of them
+    std::vector<DeviceMirror> devices_;
+    std::vector<ProxyMirror> proxies_;
+    RetiredPorts retired_;
     std::vector<std::uint64_t> touched_;
 };
 

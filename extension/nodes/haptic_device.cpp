@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <godot_cpp/classes/engine.hpp>
+#include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 
+#include "devices/drivers.hpp"
 #include "devices/path_device.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -23,12 +25,6 @@ using namespace godot;
 
 namespace {
 
-// The hand of a mouse stays at least this far in front of the camera (unit: meters).
-constexpr double nearest_depth = 0.02;
-
-// No hand goes farther from the origin (unit: meters).
-constexpr double farthest_hand = 1e6;
-
 // How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
 constexpr double even_scale = 1e-3;
 
@@ -39,6 +35,7 @@ void HapticDevice::changed() {
     port_.reset();
     follower_.reset();
     arm_.reset();
+    driven_.reset();
     steered_ = Vec3(0.0);
     set_process_internal(!Engine::get_singleton()->is_editor_hint() &&
                          (is_steered() || driver() == DRIVER_NODE));
@@ -68,16 +65,6 @@ Node3D* HapticDevice::target_node() const {
                                                    : nullptr;
 }
 
-Vector3 HapticDevice::get_hand_position() const {
-    return to_godot(state_.position);
-}
-Vector3 HapticDevice::get_hand_velocity() const {
-    return to_godot(state_.velocity);
-}
-Vector3 HapticDevice::get_force() const {
-    return to_godot(state_.force);
-}
-
 String HapticDevice::problem() const {
     if (follows_path() && path_.is_null()) {
         return "the driver follows a path and there is none: set 'path' to a HapticPath, or choose another "
@@ -85,6 +72,13 @@ String HapticDevice::problem() const {
     }
     if (follows_path() && !path_problem_.is_empty()) {
         return "its path cannot be followed: " + path_problem_;
+    }
+    if (driver() == DRIVER_FALCON && firmware_.is_empty()) {
+        return "the Falcon needs its firmware at every start: set 'firmware' to the maker's image "
+               "(novint.bin, from its own software)";
+    }
+    if (driver() == DRIVER_FALCON && !FileAccess::file_exists(firmware_)) {
+        return "there is no file '" + firmware_ + "': set 'firmware' to the maker's image (novint.bin)";
     }
     if (driver() == DRIVER_NODE && target_node() == nullptr) {
         return target_.is_empty()
@@ -104,8 +98,11 @@ String HapticDevice::get_state_text() const {
     if (HapticWorld::of(this) == nullptr) {
         return "no HapticWorld is running: put one into the scene, best above this node";
     }
+    if (const std::string said = driven_ != nullptr ? driven_->health().text : ""; !said.empty()) {
+        return to_godot(said);
+    }
     if (!state_.connected) {
-        return "waiting for the first tick";
+        return driven_ != nullptr ? "waiting for the device" : "waiting for the first tick";
     }
     const std::string too_stiff =
         explain_stiffness(state_.stiffness_wanted, state_.stiffness_used, state_.lag);
@@ -126,19 +123,12 @@ String HapticDevice::hindrance() const {
 
 PackedStringArray HapticDevice::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    const String wrong = problem();
-    if (!wrong.is_empty()) {
-        warnings.push_back("This HapticDevice does nothing: " + wrong + ".");
-    }
+    warn(warnings, "This HapticDevice does nothing", problem());
     if (!is_inside_tree()) {
         return warnings;
     }
-    if (const String hindered = hindrance(); !hindered.is_empty()) {
-        warnings.push_back("The hand of this HapticDevice will not move: " + hindered + ".");
-    }
-    if (const String lost = problem_without_world(*this); !lost.is_empty()) {
-        warnings.push_back("This HapticDevice does nothing: " + lost + ".");
-    }
+    warn(warnings, "The hand of this HapticDevice will not move", hindrance());
+    warn(warnings, "This HapticDevice does nothing", problem_without_world(*this));
     const Vector3 scale = get_global_transform().basis.get_scale().abs();
     if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
         std::abs(scale.x - scale.z) > even_scale * scale.x) {
@@ -160,6 +150,10 @@ std::shared_ptr<Device> HapticDevice::port() {
         arm_ = std::make_shared<SimulatedArm>(path_->hand_path(), arm_settings_);
         port_ = arm_;
     }
+    if (port_ == nullptr && is_driven()) {
+        driven_ = open_driver();
+        port_ = driven_;
+    }
     if (port_ == nullptr) {
         const Workspace mapping = workspace();
         mouse_target_ = start();
@@ -168,6 +162,21 @@ std::shared_ptr<Device> HapticDevice::port() {
         port_ = follower_;
     }
     return port_;
+}
+
+std::shared_ptr<DriverDevice> HapticDevice::open_driver() const {
+    DriverSettings settings;
+    settings.id = from_godot(device_id_);
+    settings.weight = gravity_compensation_;
+    if (!firmware_.is_empty()) {
+        const PackedByteArray image = FileAccess::get_file_as_bytes(firmware_);
+        settings.firmware.assign(image.ptr(), image.ptr() + image.size());
+    }
+    return std::make_shared<DriverDevice>(make_driver(DriverKind::falcon, std::move(settings)));
+}
+
+String HapticDevice::get_open_device_id() const {
+    return driven_ != nullptr ? to_godot(driven_->health().id) : String();
 }
 
 void HapticDevice::take_state(const DeviceState& state) {
@@ -218,19 +227,14 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     if (driver() != DRIVER_MOUSE || follower_ == nullptr || camera == nullptr) {
         return;
     }
-    const Vec3 eye = from_godot(camera->project_ray_origin(screen_position));
-    const Vec3 ray = from_godot(camera->project_ray_normal(screen_position));
-    const Vec3 forward = -from_godot(camera->get_global_transform().basis.get_column(2).normalized());
-    const double depth = std::max(nearest_depth, glm::dot(mouse_target_ - eye, forward) + depth_change);
-    const double slant = glm::dot(ray, forward);
-    if (!(slant > 0.0)) {
+    const ScreenRay ray{from_godot(camera->project_ray_origin(screen_position)),
+                        from_godot(camera->project_ray_normal(screen_position)),
+                        -from_godot(camera->get_global_transform().basis.get_column(2).normalized())};
+    const std::optional<Vec3> target = under_pointer(ray, mouse_target_, depth_change);
+    if (!target) {
         return;
     }
-    const Vec3 target = eye + ray * (depth / slant);
-    if (!(glm::length(target) < farthest_hand)) {
-        return;  // a camera that is nowhere sees no place
-    }
-    mouse_target_ = target;
+    mouse_target_ = *target;
     const Workspace mapping = workspace();
     const auto buttons = static_cast<std::uint32_t>(Input::get_singleton()->get_mouse_button_mask());
     follower_->aim({tactus::to_local(mapping.pose, mouse_target_) / mapping.scale, buttons});

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/ports/device.hpp"
+#include "devices/driver_device.hpp"
 #include "devices/following_device.hpp"
 #include "devices/simulated_arm.hpp"
 #include "devices/steering.hpp"
@@ -30,7 +31,8 @@ public:
         DRIVER_AUTOMATIC,
         DRIVER_KEYBOARD,
         DRIVER_GAMEPAD,
-        DRIVER_NODE
+        DRIVER_NODE,
+        DRIVER_FALCON = 16
     };
     enum Steering : int64_t {
         STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
@@ -40,10 +42,11 @@ public:
     TACTUS_PROPERTIES(HapticDevice)
 
     bool is_device_connected() const { return state_.connected; }
-    godot::Vector3 get_hand_position() const;
-    godot::Vector3 get_hand_velocity() const;
-    godot::Vector3 get_force() const;
+    godot::Vector3 get_hand_position() const { return to_godot(state_.position); }
+    godot::Vector3 get_hand_velocity() const { return to_godot(state_.velocity); }
+    godot::Vector3 get_force() const { return to_godot(state_.force); }
     int64_t get_buttons() const { return state_.buttons; }
+    godot::String get_open_device_id() const;
     godot::String get_state_text() const;
 
     // Puts the hand of a mouse under this point of the screen, at the depth where it is now.
@@ -76,6 +79,8 @@ private:
     void arm_changed();
     // The one that is meant where that is left open.
     Driver driver() const;
+    bool is_driven() const { return driver() >= DRIVER_FALCON; }
+    std::shared_ptr<DriverDevice> open_driver() const;
     bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
     bool is_steered() const { return driver() == DRIVER_KEYBOARD || driver() == DRIVER_GAMEPAD; }
     godot::Node3D* target_node() const;
@@ -90,6 +95,9 @@ private:
     SteeringSettings steering_;
     godot::NodePath target_;
     ArmSettings arm_settings_;
+    godot::String firmware_;
+    godot::String device_id_;
+    double gravity_compensation_ = 0.0;
     double force_limit_ = 8.0;
     double force_scale_ = 1.0;
     double edge_speed_ = 0.0;
@@ -99,6 +107,7 @@ private:
     std::shared_ptr<Device> port_;
     std::shared_ptr<FollowingDevice> follower_;  // the same as port_ where the hand is told where to be
     std::shared_ptr<SimulatedArm> arm_;          // the same as port_ where the driver is the arm
+    std::shared_ptr<DriverDevice> driven_;       // the same as port_ where it has a driver of its own
     Vec3 mouse_target_{0.0};                     // in the scene (unit: meters)
     Vec3 steered_{0.0};                          // in the device's own frame (unit: meters)
     DeviceState state_;

@@ -86,9 +86,7 @@ PackedStringArray HapticFeedback::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (is_inside_tree()) {
         for (const String& wrong : {problem(), problem_without_world(*this)}) {
-            if (!wrong.is_empty()) {
-                warnings.push_back("This HapticFeedback is silent: " + wrong + ".");
-            }
+            warn(warnings, "This HapticFeedback is silent", wrong);
         }
     }
     return warnings;

@@ -156,20 +156,15 @@ String HapticMesh::problem() const {
 
 PackedStringArray HapticMesh::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    if (const String wrong = problem(); !wrong.is_empty()) {
-        warnings.push_back("This HapticMesh is not felt: " + wrong + ".");
-    }
+    warn(warnings, "This HapticMesh is not felt", problem());
     const ShapeReading reading = read(Basis());
     const std::string error =
         reading.meshes.empty() ? reading.error : reading.meshes.front().source->triangles().error;
-    if (!error.empty()) {
-        warnings.push_back("This mesh cannot be touched: " + to_godot(error) + ".");
-    }
+    warn(warnings, "This mesh cannot be touched", to_godot(error));
     if (use_library_mass_ && !is_giving_mass()) {
-        warnings.push_back(
-            "This HapticMesh gives its body no mass: set 'library_mesh' to a mesh to which library.json "
-            "gives "
-            "one and leave 'mesh' empty, or switch 'use_library_mass' off.");
+        warn(warnings, "This HapticMesh gives its body no mass",
+             "set 'library_mesh' to a mesh to which library.json gives one and leave 'mesh' empty, or switch "
+             "'use_library_mass' off");
     }
     return warnings;
 }

@@ -11,8 +11,6 @@ namespace {
 
 constexpr double max_length = 1e6;  // of a point from the origin (unit: meters)
 
-constexpr int line_steps = 600;  // points of a drawn path: 3 mm apart on the path of the thesis
-
 bool starts_with(const StringName& name, const char* prefix) {
     return String(name).begins_with(prefix);
 }
@@ -69,17 +67,7 @@ Vector3 HapticPath::sample_velocity(double time) const {
 }
 
 Ref<ArrayMesh> HapticPath::create_line_mesh(double thickness) const {
-    const HandPath path = hand_path();
-    std::vector<Vec3> points;
-    const bool closed = form_ == FORM_CIRCLE_WAVE;
-    if (problem_with(path).empty()) {
-        const Nanoseconds duration = path_duration(path);
-        for (int i = 0; i < line_steps; ++i) {
-            points.push_back(
-                sample_path(path, duration * i / (closed ? line_steps : line_steps - 1)).position);
-        }
-    }
-    return drawn_mesh(tube(points, thickness, closed));
+    return drawn_mesh(drawn_path(hand_path(), thickness));
 }
 
 void HapticPath::_validate_property(PropertyInfo& property) const {

@@ -44,17 +44,14 @@ String HapticRecorder::problem() const {
 
 PackedStringArray HapticRecorder::_get_configuration_warnings() const {
     PackedStringArray warnings;
-    if (const String lost = is_inside_tree() ? problem_without_world(*this) : String(); !lost.is_empty()) {
-        warnings.push_back("This HapticRecorder records nothing: " + lost + ".");
-    }
-    if (is_inside_tree() && !problem().is_empty()) {
-        warnings.push_back("This HapticRecorder cannot record all: " + problem() + ".");
+    if (is_inside_tree()) {
+        warn(warnings, "This HapticRecorder records nothing", problem_without_world(*this));
+        warn(warnings, "This HapticRecorder cannot record all", problem());
     }
     // Without autostart a script starts it, and may set the paths just before.
     if (autostart_ && !has_file()) {
-        warnings.push_back(
-            "This HapticRecorder writes nothing: set 'csv_path', 'trace_path' or both, or switch 'autostart' "
-            "off where a script sets them.");
+        warn(warnings, "This HapticRecorder writes nothing",
+             "set 'csv_path', 'trace_path' or both, or switch 'autostart' off where a script sets them");
     }
     return warnings;
 }

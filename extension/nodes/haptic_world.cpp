@@ -17,6 +17,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 #include "nodes/world_run.hpp"
 #include "realtime/workers.hpp"
 #include "world/status_words.hpp"
@@ -55,36 +56,18 @@ Dictionary distribution(const DurationHistogram& periods) {
     return result;
 }
 
-bool has_body(const Node& node) {
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        if (is_solid_body(node.get_child(i)) || has_body(*node.get_child(i))) {
-            return true;
+// What the editor already knows to be wrong with a node of a world.
+void warn_of(Node& node, PackedStringArray& warnings) {
+    const String name = "'" + String(node.get_name()) + "'";
+    if (is_solid_body(&node)) {
+        for (const std::string& problem :
+             problems_of(read_form(*Object::cast_to<CollisionObject3D>(&node)))) {
+            warn(warnings, name + " cannot be touched as it should be", to_godot(problem));
         }
-    }
-    return false;
-}
-
-// Bodies that the editor already knows cannot be touched, each with what to do.
-void find_problems(const Node& node, PackedStringArray& problems) {
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        Node* child = node.get_child(i);
-        if (is_solid_body(child)) {
-            for (const std::string& problem :
-                 problems_of(read_form(*Object::cast_to<CollisionObject3D>(child)))) {
-                problems.push_back("'" + String(child->get_name()) +
-                                   "' cannot be touched as it should be: " + to_godot(problem) + ".");
-            }
-        }
-        if (const auto* joint = Object::cast_to<Joint3D>(child)) {
-            if (const std::string problem = problem_of_joint(*joint); !problem.empty()) {
-                problems.push_back("'" + String(child->get_name()) +
-                                   "' does not join as it should: " + to_godot(problem) + ".");
-            }
-        }
-        if (const String problem = problem_of_kind(*child); !problem.is_empty()) {
-            problems.push_back("'" + String(child->get_name()) + "' cannot be touched: " + problem + ".");
-        }
-        find_problems(*child, problems);
+    } else if (const auto* joint = Object::cast_to<Joint3D>(&node)) {
+        warn(warnings, name + " does not join as it should", to_godot(problem_of_joint(*joint)));
+    } else {
+        warn(warnings, name + " cannot be touched", problem_of_kind(node));
     }
 }
 
@@ -94,7 +77,6 @@ HapticWorld::HapticWorld() : gravity_(project_gravity()) {}
 HapticWorld::~HapticWorld() = default;
 
 // --- properties
-// ------------------------------------------------------------------------------------------------------
 
 void HapticWorld::gravity_changed() {
     if (run_ != nullptr) {
@@ -119,12 +101,10 @@ std::shared_ptr<const HeightImage> HapticWorld::default_texture() const {
 }
 
 // --- life
-// ------------------------------------------------------------------------------------------------------------
 
 HapticWorld* HapticWorld::of(const Node* node) {
-    for (Node* above = node->get_parent(); above != nullptr; above = above->get_parent()) {
-        auto* world = Object::cast_to<HapticWorld>(above);
-        if (world != nullptr && world->is_running()) {
+    for (HapticWorld* world = above(node); world != nullptr; world = above(world)) {
+        if (world->is_running()) {
             return world;
         }
     }
@@ -257,19 +237,13 @@ void HapticWorld::_notification(int what) {
 }
 
 void HapticWorld::node_added(Node* node) {
-    if (node == nullptr) {
-        return;
-    }
-    if (run_ != nullptr) {
+    if (node != nullptr && run_ != nullptr) {
         run_->scene_changed(*node);
     }
 }
 
 void HapticWorld::node_removed(Node* node) {
-    if (node == nullptr) {
-        return;
-    }
-    if (run_ == nullptr) {
+    if (node == nullptr || run_ == nullptr) {
         return;
     }
     if (auto* device = Object::cast_to<HapticDevice>(node)) {
@@ -297,7 +271,6 @@ void HapticWorld::finish_recording(HapticRecorder* recorder) {
 }
 
 // --- time
-// ------------------------------------------------------------------------------------------------------------
 
 // Scripts that are called on the way, when bodies move, may stop the world: the run stays until its work is
 // done.
@@ -354,7 +327,6 @@ void HapticWorld::report_status(double seconds) {
 }
 
 // --- looking at it
-// ---------------------------------------------------------------------------------------------------
 
 int64_t HapticWorld::get_ticks() const {
     return run_ != nullptr ? static_cast<int64_t>(run_->loop().ticks()) : 0;
@@ -400,12 +372,12 @@ PackedStringArray HapticWorld::_get_configuration_warnings() const {
                            "', and stays inactive: remove one of the two, or put them side by side.");
         return warnings;
     }
-    find_problems(*this, warnings);
-    if (const String outside = is_inside_tree() ? problem_of_outside(*this) : String(); !outside.is_empty()) {
-        warnings.push_back(outside + ".");
+    for_each_below(*this, [&warnings](Node& node) { warn_of(node, warnings); });
+    if (is_inside_tree()) {
+        warn(warnings, "This HapticWorld leaves something out", problem_of_outside(*this));
     }
-    if (!has_body(*this)) {
-        warnings.push_back("This HapticWorld is empty: " + problem_of_emptiness(*this) + ".");
+    if (find_below(*this, [](const Node& node) { return is_solid_body(&node); }) == nullptr) {
+        warn(warnings, "This HapticWorld is empty", problem_of_emptiness(*this));
     }
     return warnings;
 }

@@ -18,6 +18,7 @@ namespace tactus {
 
 class HapticRecorder;
 class WorldRun;
+struct BodyPush;
 
 // Its subtree is what can be touched. While the scene plays, it runs the haptic loop with a physics world of
 // its own, and moves the RigidBody3D nodes of its subtree.
@@ -86,8 +87,8 @@ private:
     // many changes at once are one start, and none happens while something of the world is in use.
     enum class Change { none, loop, world };
 
-    bool can_push(const char* method, const Body* body, const godot::Vector3& with,
-                  const godot::Vector3& at = {}) const;
+    // By the script's `method`; for_a_frame: see WorldRun::push().
+    void push(const char* method, const Body* body, const BodyPush& push, bool for_a_frame);
     std::vector<QueriedBody> touchable(int64_t mask) const;
     bool can_ask(const char* method, const godot::Vector3& where, double size) const;
     void start();

@@ -1,5 +1,7 @@
 // What scripts do to the bodies of a world: Godot's own physics, which RigidBody3D's methods speak to, does
 // not move them.
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 
 #include "nodes/conversions.hpp"
@@ -26,9 +28,8 @@ Dictionary dictionary_of(const BodyPoint& found, const BodyMirrors& mirrors) {
 
 }  // namespace
 
-// As the method of a RigidBody3D has it: `position` is seen from the body's place, in the world's axes.
-bool HapticWorld::can_push(const char* method, const Body* body, const Vector3& with,
-                           const Vector3& at) const {
+// As the method of a RigidBody3D has it: a position is seen from the body's place, in the world's axes.
+void HapticWorld::push(const char* method, const Body* body, const BodyPush& push, bool for_a_frame) {
     const char* wrong = nullptr;
     const auto* rigid = Object::cast_to<RigidBody3D>(body);
     if (run_ == nullptr) {
@@ -39,50 +40,38 @@ bool HapticWorld::can_push(const char* method, const Body* body, const Vector3& 
             "the next frame";
     } else if (rigid->is_freeze_enabled()) {
         wrong = "the body is frozen: switch its 'freeze' off";
-    } else if (!with.is_finite() || !at.is_finite()) {
+    } else if (!std::isfinite(glm::length(push.impulse + push.point + push.turn))) {
         wrong = "what it is given is not made of finite numbers";
     }
     if (wrong != nullptr) {
         UtilityFunctions::push_error(name_of(*this), ": ", method, "() did nothing: ", wrong, ".");
+        return;
     }
-    return wrong == nullptr;
+    run_->push(run_->body_of(body), push, for_a_frame);
 }
 
 void HapticWorld::apply_central_impulse(Body* body, const Vector3& impulse) {
-    if (can_push("apply_central_impulse", body, impulse)) {
-        run_->push(run_->body_of(body), {.impulse = from_godot(impulse), .central = true}, false);
-    }
+    push("apply_central_impulse", body, {.impulse = from_godot(impulse), .central = true}, false);
 }
 
 void HapticWorld::apply_impulse(Body* body, const Vector3& impulse, const Vector3& position) {
-    if (can_push("apply_impulse", body, impulse, position)) {
-        run_->push(run_->body_of(body), {.impulse = from_godot(impulse), .point = from_godot(position)},
-                   false);
-    }
+    push("apply_impulse", body, {.impulse = from_godot(impulse), .point = from_godot(position)}, false);
 }
 
 void HapticWorld::apply_torque_impulse(Body* body, const Vector3& impulse) {
-    if (can_push("apply_torque_impulse", body, impulse)) {
-        run_->push(run_->body_of(body), {.central = true, .turn = from_godot(impulse)}, false);
-    }
+    push("apply_torque_impulse", body, {.central = true, .turn = from_godot(impulse)}, false);
 }
 
 void HapticWorld::apply_central_force(Body* body, const Vector3& force) {
-    if (can_push("apply_central_force", body, force)) {
-        run_->push(run_->body_of(body), {.impulse = from_godot(force), .central = true}, true);
-    }
+    push("apply_central_force", body, {.impulse = from_godot(force), .central = true}, true);
 }
 
 void HapticWorld::apply_force(Body* body, const Vector3& force, const Vector3& position) {
-    if (can_push("apply_force", body, force, position)) {
-        run_->push(run_->body_of(body), {.impulse = from_godot(force), .point = from_godot(position)}, true);
-    }
+    push("apply_force", body, {.impulse = from_godot(force), .point = from_godot(position)}, true);
 }
 
 void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
-    if (can_push("apply_torque", body, torque)) {
-        run_->push(run_->body_of(body), {.central = true, .turn = from_godot(torque)}, true);
-    }
+    push("apply_torque", body, {.central = true, .turn = from_godot(torque)}, true);
 }
 
 Vector3 HapticWorld::get_linear_velocity(Body* body) const {

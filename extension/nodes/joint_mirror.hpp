@@ -6,6 +6,7 @@
 
 #include "nodes/body_mirror.hpp"
 #include "nodes/joint_reading.hpp"
+#include "world/joint_twin.hpp"
 
 namespace tactus {
 
@@ -18,42 +19,18 @@ public:
 
     std::uint64_t id() const { return id_; }
     const godot::Joint3D* node() const;  // null when it is gone
+    const JointTwin& twin() const { return twin_; }
 
-    // Joins what there is to join, once both bodies are in the session; anew when the joint or one of the
-    // bodies' twins has changed. Call after the bodies.
+    // Joins what there is to join, once both bodies are in the session. Call after the bodies.
     void synchronise(Session& session, const FindMirror& mirror_of);
-    void release(Session& session);
+    void release(Session& session) { twin_.remove(session); }
 
     // Why it does not join, or only in part; empty where it does.
     const std::string& problem() const { return problem_; }
 
-    // What it joins, and how, for who tells others of it (see Session::add_joint). no_handle: it does not.
-    SessionHandle handle() const { return handle_; }
-    SessionHandle first() const { return first_; }
-    SessionHandle second() const { return second_; }
-    const JointDescription& joined() const { return joined_; }
-    // Another one whenever it joins anew.
-    std::uint64_t revision() const { return revision_; }
-
 private:
-    struct Ends {
-        BodyMirror* first = nullptr;   // null: the world
-        BodyMirror* second = nullptr;  // likewise
-        bool complete = false;         // all that is named is there
-    };
-
-    Ends find_ends(const godot::Joint3D& node, const FindMirror& mirror_of);
-    JointDescription in_bodies(const Ends& ends, const JointDescription& joint);
-
     std::uint64_t id_;
-    SessionHandle handle_ = no_handle;
-    SessionHandle first_ = no_handle;
-    SessionHandle second_ = no_handle;
-    JointDescription sent_;    // as it was read
-    JointDescription joined_;  // with frames in those of the bodies
-    Pose frame_in_first_, frame_in_second_;
-    std::uint64_t ids_[2] = {0, 0};  // of the bodies that these are of; 0: the world
-    std::uint64_t revision_ = 0;
+    JointTwin twin_;
     std::string problem_;
 };
 

@@ -1,6 +1,5 @@
 #include "nodes/joint_reading.hpp"
 
-#include <algorithm>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/generic6_dof_joint3d.hpp>
 #include <godot_cpp/classes/hinge_joint3d.hpp>
@@ -108,15 +107,6 @@ JointReading read_joint(const godot::Joint3D& node) {
         reading.usable = false;
     }
     return reading;
-}
-
-bool same_joint(const JointDescription& a, const JointDescription& b) {
-    const auto same = [](const JointRange& left, const JointRange& right) {
-        return left.lower == right.lower && left.upper == right.upper;
-    };
-    return a.kind == b.kind && std::ranges::equal(a.linear, b.linear, same) &&
-           std::ranges::equal(a.angular, b.angular, same) && a.motor_speed == b.motor_speed &&
-           a.motor_torque == b.motor_torque && a.bodies_collide == b.bodies_collide;
 }
 
 }  // namespace tactus

@@ -19,7 +19,4 @@ struct JointReading {
 
 JointReading read_joint(const godot::Joint3D& node);
 
-// All but the frames.
-bool same_joint(const JointDescription& a, const JointDescription& b);
-
 }  // namespace tactus

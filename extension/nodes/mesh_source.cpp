@@ -1,5 +1,6 @@
 #include "nodes/mesh_source.hpp"
 
+#include <functional>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
@@ -35,43 +36,23 @@ PackedPlace place_of(const Vector3& v) {
     return {v.x, v.y, v.z};
 }
 
+// What is read later, on another thread: the packed arrays are Godot's own, shared.
+struct Surface {
+    std::size_t triangle_count = 0;
+    std::function<void(MeshCollector&)> add_to;
+};
+
+Surface surface_of(const PackedVector3Array& corners, const PackedInt32Array& indices) {
+    const auto named = static_cast<std::size_t>(indices.is_empty() ? corners.size() : indices.size());
+    return {named / 3, [corners, indices](MeshCollector& collector) {
+                collector.add(places(corners), {indices.ptr(), static_cast<std::size_t>(indices.size())});
+            }};
+}
+
 // Taken as bytes, a surface costs the main thread little: Mesh::surface_get_arrays() decodes them, 100 ms for
 // two million triangles.
-struct RawSurface {
-    PackedByteArray corner_bytes, index_bytes;
-    SurfaceBytes layout;  // without the bytes
-
-    SurfaceBytes bytes() const {
-        SurfaceBytes whole = layout;
-        whole.corners = bytes_of(corner_bytes);
-        whole.indices = bytes_of(index_bytes);
-        return whole;
-    }
-};
-
-struct Surface {
-    PackedVector3Array corners;
-    PackedInt32Array indices;       // into corners; empty: each corner in turn
-    std::optional<RawSurface> raw;  // instead of both
-
-    std::size_t triangle_count() const {
-        const auto listed = raw ? raw->layout.corner_count : static_cast<std::size_t>(corners.size());
-        const auto named = raw ? raw->layout.index_count : static_cast<std::size_t>(indices.size());
-        return (named == 0 ? listed : named) / 3;
-    }
-
-    void add_to(MeshCollector& collector) const {
-        if (raw) {
-            const SurfaceBytes bytes = raw->bytes();
-            collector.add(read_corners(bytes), read_indices(bytes));
-        } else {
-            collector.add(places(corners), {indices.ptr(), static_cast<std::size_t>(indices.size())});
-        }
-    }
-};
-
 // Nothing where the surface is not laid out as known here.
-std::optional<RawSurface> raw_surface(const Ref<Mesh>& mesh, int surface) {
+std::optional<Surface> raw_surface(const Ref<Mesh>& mesh, int surface) {
     const Dictionary data = RenderingServer::get_singleton()->mesh_get_surface(mesh->get_rid(), surface);
     const std::int64_t format = data.get("format", 0);
     const std::int64_t version = format >> RenderingServer::ARRAY_FLAG_FORMAT_VERSION_SHIFT &
@@ -80,18 +61,25 @@ std::optional<RawSurface> raw_surface(const Ref<Mesh>& mesh, int surface) {
         (format & RenderingServer::ARRAY_FLAG_USE_2D_VERTICES) != 0) {
         return std::nullopt;
     }
-    RawSurface raw;
-    raw.corner_bytes = data.get("vertex_data", PackedByteArray());
-    raw.index_bytes = data.get("index_data", PackedByteArray());
-    const std::int64_t corners = data.get("vertex_count", 0);
-    const std::int64_t indices = data.get("index_count", 0);
+    const PackedByteArray corners = data.get("vertex_data", PackedByteArray());
+    const PackedByteArray indices = data.get("index_data", PackedByteArray());
     const AABB box = data.get("aabb", AABB());
-    raw.layout.corner_count = static_cast<std::size_t>(corners);
-    raw.layout.index_count = static_cast<std::size_t>(indices);
-    raw.layout.compressed = (format & RenderingServer::ARRAY_FLAG_COMPRESS_ATTRIBUTES) != 0;
-    raw.layout.box_corner = place_of(box.position);
-    raw.layout.box_size = place_of(box.size);
-    return is_whole(raw.bytes()) ? std::optional(std::move(raw)) : std::nullopt;
+    const std::int64_t corner_count = data.get("vertex_count", 0);
+    const std::int64_t index_count = data.get("index_count", 0);
+    const SurfaceBytes bytes{.corners = bytes_of(corners),
+                             .indices = bytes_of(indices),
+                             .corner_count = static_cast<std::size_t>(corner_count),
+                             .index_count = static_cast<std::size_t>(index_count),
+                             .compressed = (format & RenderingServer::ARRAY_FLAG_COMPRESS_ATTRIBUTES) != 0,
+                             .box_corner = place_of(box.position),
+                             .box_size = place_of(box.size)};
+    if (!is_whole(bytes)) {
+        return std::nullopt;
+    }
+    return Surface{(bytes.index_count == 0 ? bytes.corner_count : bytes.index_count) / 3,
+                   [corners, indices, bytes](MeshCollector& collector) {
+                       collector.add(read_corners(bytes), read_indices(bytes));
+                   }};
 }
 
 bool is_of_triangles(const Ref<Mesh>& mesh) {
@@ -110,7 +98,7 @@ bool is_of_triangles(const Ref<Mesh>& mesh) {
 std::shared_ptr<TriangleSource> source_of(std::vector<Surface> surfaces) {
     std::size_t count = 0;
     for (const Surface& surface : surfaces) {
-        count += surface.triangle_count();
+        count += surface.triangle_count;
     }
     auto read = [surfaces = std::move(surfaces)] {
         MeshCollector collector;
@@ -131,18 +119,18 @@ std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
     }
     std::vector<Surface> surfaces;
     for (int32_t i = 0; i < mesh->get_surface_count(); ++i) {
-        if (std::optional<RawSurface> raw = raw_surface(mesh, i)) {
-            surfaces.push_back({{}, {}, std::move(raw)});
+        if (std::optional<Surface> raw = raw_surface(mesh, i)) {
+            surfaces.push_back(std::move(*raw));
         } else {
             const Array arrays = mesh->surface_get_arrays(i);
-            surfaces.push_back({arrays[Mesh::ARRAY_VERTEX], arrays[Mesh::ARRAY_INDEX], {}});
+            surfaces.push_back(surface_of(arrays[Mesh::ARRAY_VERTEX], arrays[Mesh::ARRAY_INDEX]));
         }
     }
     return source_of(std::move(surfaces));
 }
 
 std::shared_ptr<TriangleSource> source_of(const PackedVector3Array& faces) {
-    return source_of(std::vector<Surface>{{faces, PackedInt32Array(), {}}});
+    return source_of(std::vector<Surface>{surface_of(faces, PackedInt32Array())});
 }
 
 }  // namespace tactus

@@ -4,10 +4,13 @@
 #include <cmath>
 #include <godot_cpp/classes/node.hpp>
 #include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/utility_functions.hpp>
 #include <string>
 #include <unordered_set>
+
+#include "nodes/conversions.hpp"
 
 namespace tactus {
 
@@ -35,6 +38,15 @@ inline void refuse(const godot::Object& who, const char* property, const godot::
                                         godot::String::utf8(wanted), ".");
 }
 
+// A node's warning in the editor: what follows from a problem, and the problem, which says what to do. An
+// empty one warns of nothing.
+inline void warn(godot::PackedStringArray& warnings, const godot::String& effect,
+                 const godot::String& problem) {
+    if (!problem.is_empty()) {
+        warnings.push_back(effect + ": " + problem + ".");
+    }
+}
+
 // Whether the value is one of an enum's, counted from 0 to `last`; says why not.
 template <class Enum>
 bool is_one_of(const godot::Object& who, const char* property, Enum value, Enum last, const char* constants) {
@@ -46,16 +58,20 @@ bool is_one_of(const godot::Object& who, const char* property, Enum value, Enum 
     return false;
 }
 
-// Says each text once.
+// Says each text once; an empty one says nothing.
 class Complaints {
 public:
     void say(const godot::Node& node, const godot::String& text) {
+        if (text.is_empty()) {
+            return;
+        }
         const godot::String whole = name_of(node) + ": " + text;
-        if (said_.insert(whole.utf8().get_data()).second) {
+        if (said_.insert(from_godot(whole)).second) {
             godot::UtilityFunctions::push_warning(whole);
         }
     }
-    void forget() { said_.clear(); }
+    void say(const godot::Node& node, const std::string& text) { say(node, to_godot(text)); }
+    void say(const godot::Node& node, const char* text) { say(node, godot::String::utf8(text)); }
 
 private:
     std::unordered_set<std::string> said_;

@@ -63,7 +63,6 @@ MMTLink::MMTLink() : seed_(usual_conditions().seed) {
 }
 
 // --- properties
-// ------------------------------------------------------------------------------------------------------
 
 void MMTLink::changed() {
     ++revision_;
@@ -143,7 +142,6 @@ bool MMTLink::_set(const StringName& name, const Variant& value) {
 }
 
 // --- what the world's run takes from here
-// ---------------------------------------------------------------------------
 
 LinkPlan MMTLink::plan() {
     LinkPlan plan;
@@ -236,7 +234,6 @@ std::shared_ptr<MemoryLinkPair> MMTLink::wire(MMTLink& partner) {
 }
 
 // --- looking at it
-// ---------------------------------------------------------------------------------------------------
 
 LinkReport MMTLink::at_rest() const {
     LinkReport report;
@@ -246,7 +243,6 @@ LinkReport MMTLink::at_rest() const {
 
 void MMTLink::clear_report() {
     report_ = at_rest();
-    restarts_seen_ = 0;
 }
 
 // Where no world runs it, this node alone can say why.
@@ -264,15 +260,13 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     const LinkReport before = std::exchange(report_, report);
     const bool was_connected = before.state == LinkState::connected;
     const bool is_connected = report.state == LinkState::connected;
-    const bool restarted = report.teleop.link.peer_restarts > restarts_seen_;
-    restarts_seen_ = report.teleop.link.peer_restarts;
     const auto say = [this](const char* signal, const auto&... values) {
         post_signal(*this, signal, {values...});
     };
     if (before.state != report.state || before.text != report.text) {
         say("state_changed", static_cast<int64_t>(report.state), to_godot(report.text));
     }
-    if (restarted) {
+    if (report.teleop.link.peer_restarts > before.teleop.link.peer_restarts) {
         say("peer_restarted");
     }
     if (is_connected && !was_connected) {
@@ -283,13 +277,13 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     for (const ModelNews& one : news) {
         switch (one.kind) {
             case ModelNews::Kind::discovered:
-                say("object_discovered", one.name, NodeId{one.node});
+                say("object_discovered", to_godot(one.name), NodeId{one.node});
                 break;
             case ModelNews::Kind::removed:
-                say("object_removed", one.name);
+                say("object_removed", to_godot(one.name));
                 break;
             case ModelNews::Kind::refused:
-                say("object_refused", one.name, one.why);
+                say("object_refused", to_godot(one.name), to_godot(one.why));
                 break;
         }
     }
@@ -331,12 +325,9 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
     if (!is_inside_tree()) {
         return warnings;
     }
-    if (const String wrong = problem(); !wrong.is_empty()) {
-        warnings.push_back("This MMTLink does nothing: " + wrong + ".");
-    }
-    if (const String wrong = conditions_.is_valid() ? conditions_->trace_problem() : String();
-        !wrong.is_empty()) {
-        warnings.push_back("The conditions of this MMTLink emulate no trace: " + wrong + ".");
+    warn(warnings, "This MMTLink does nothing", problem());
+    if (conditions_.is_valid()) {
+        warn(warnings, "The conditions of this MMTLink emulate no trace", conditions_->trace_problem());
     }
     const HapticWorld* world = HapticWorld::above(this);
     if (world != nullptr &&

@@ -114,7 +114,6 @@ private:
     std::uint64_t way_revision_ = 1;
     std::shared_ptr<MemoryLinkPair> wire_;
     LinkReport report_;
-    std::uint64_t restarts_seen_ = 0;
 };
 
 }  // namespace tactus

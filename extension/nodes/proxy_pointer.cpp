@@ -1,7 +1,6 @@
 #include "nodes/proxy_pointer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <godot_cpp/classes/cylinder_mesh.hpp>
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/sphere_mesh.hpp>
@@ -16,16 +15,13 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "world/hand_picture.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
 namespace {
-
-// Of the pictures, relative to the proxy's radius.
-constexpr double hand_size = 0.5;
-constexpr double line_size = 0.2;
 
 constexpr double min_radius = 1e-6;  // (unit: meters)
 constexpr double max_radius = 1e3;
@@ -52,18 +48,11 @@ Ref<CylinderMesh> line_mesh() {
     return mesh;
 }
 
-// Stretches a unit cylinder along y from one point to another.
-Transform3D between(const Vector3& from, const Vector3& to, double thickness) {
-    const Vector3 way = to - from;
-    const Vector3 y = way.normalized();
-    const Vector3 x = (std::abs(y.y) < 0.9f ? Vector3(0, 1, 0) : Vector3(1, 0, 0)).cross(y).normalized();
-    const Vector3 z = x.cross(y);
-    const auto thin = static_cast<real_t>(thickness);
-    Basis basis;
-    basis.set_column(0, x * thin);
-    basis.set_column(1, way);
-    basis.set_column(2, z * thin);
-    return Transform3D(basis, (from + to) * 0.5f);
+void place(MeshInstance3D* picture, const PicturePart& part) {
+    if (picture != nullptr) {
+        picture->set_visible(part.is_visible);
+        picture->set_global_transform(Transform3D(basis_of(part.axes), to_godot(part.center)));
+    }
 }
 
 }  // namespace
@@ -77,29 +66,6 @@ void ProxyPointer::set_radius(double meters) {
     }
     radius_ = meters;
     place_pictures();
-}
-
-Vector3 ProxyPointer::get_force() const {
-    return to_godot(state_.force);
-}
-Vector3 ProxyPointer::get_hand_position() const {
-    return to_godot(state_.hand);
-}
-Vector3 ProxyPointer::get_proxy_position() const {
-    return to_godot(state_.position);
-}
-bool ProxyPointer::is_touching() const {
-    return (state_.status & proxy_touching) != 0;
-}
-bool ProxyPointer::is_present() const {
-    return state_.handle != no_handle && (state_.status & proxy_absent) == 0;
-}
-
-bool ProxyPointer::is_being_let_out() const {
-    return (state_.status & proxy_letting_out) != 0;
-}
-bool ProxyPointer::is_squeezed() const {
-    return (state_.status & proxy_squeezed) != 0;
 }
 
 TypedArray<Dictionary> ProxyPointer::get_contacts() const {
@@ -186,9 +152,7 @@ PackedStringArray ProxyPointer::_get_configuration_warnings() const {
     PackedStringArray warnings;
     if (is_inside_tree()) {
         for (const String& wrong : {problem(), problem_without_world(*this), problem_of_scene()}) {
-            if (!wrong.is_empty()) {
-                warnings.push_back("This ProxyPointer cannot touch: " + wrong + ".");
-            }
+            warn(warnings, "This ProxyPointer cannot touch", wrong);
         }
     }
     if (radius_was_refused_) {
@@ -298,27 +262,17 @@ void ProxyPointer::place_pictures() {
     if (!is_inside_tree()) {
         return;
     }
-    const bool running = state_.handle != no_handle;
-    const Vector3 proxy = get_global_position();
-    const Vector3 hand = running ? to_godot(state_.hand) : proxy;
-    const auto ball = [](const Vector3& place, double radius) {
-        const auto size = static_cast<real_t>(radius);
-        return Transform3D(Basis::from_scale(Vector3(size, size, size)), place);
-    };
-    if (proxy_picture_ != nullptr) {
-        proxy_picture_->set_visible(show_proxy_ && is_visible_in_tree() && (!running || is_present()));
-        proxy_picture_->set_global_transform(ball(proxy, radius_));
-    }
-    if (hand_picture_ != nullptr) {
-        const bool visible = show_hand_ && is_visible_in_tree() && running;
-        const bool apart = static_cast<double>(proxy.distance_to(hand)) > 1e-3 * radius_;
-        hand_picture_->set_visible(visible);
-        hand_picture_->set_global_transform(ball(hand, hand_size * radius_));
-        line_picture_->set_visible(visible && apart && is_present());
-        if (apart) {
-            line_picture_->set_global_transform(between(proxy, hand, line_size * radius_));
-        }
-    }
+    const bool is_seen = is_visible_in_tree();
+    const HandPicture picture = hand_picture({.proxy = from_godot(get_global_position()),
+                                              .hand = state_.hand,
+                                              .radius = radius_,
+                                              .is_running = state_.handle != no_handle,
+                                              .is_present = is_present(),
+                                              .shows_proxy = show_proxy_ && is_seen,
+                                              .shows_hand = show_hand_ && is_seen});
+    place(proxy_picture_, picture.proxy);
+    place(hand_picture_, picture.hand);
+    place(line_picture_, picture.line);
 }
 
 void ProxyPointer::_notification(int what) {

@@ -34,13 +34,13 @@ public:
     void set_radius(double meters);
     double get_radius() const { return radius_; }
 
-    godot::Vector3 get_force() const;
-    godot::Vector3 get_hand_position() const;
-    godot::Vector3 get_proxy_position() const;
-    bool is_touching() const;
-    bool is_present() const;
-    bool is_being_let_out() const;
-    bool is_squeezed() const;
+    godot::Vector3 get_force() const { return to_godot(state_.force); }
+    godot::Vector3 get_hand_position() const { return to_godot(state_.hand); }
+    godot::Vector3 get_proxy_position() const { return to_godot(state_.position); }
+    bool is_touching() const { return has(proxy_touching); }
+    bool is_present() const { return state_.handle != no_handle && !has(proxy_absent); }
+    bool is_being_let_out() const { return has(proxy_letting_out); }
+    bool is_squeezed() const { return has(proxy_squeezed); }
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     godot::TypedArray<godot::Dictionary> get_contacts() const;
@@ -80,6 +80,7 @@ private:
                                        const godot::Ref<godot::Material>& look);
 
     HapticDevice* nearest_device() const;
+    bool has(ProxyStatus bit) const { return (state_.status & bit) != 0; }
 
     godot::NodePath device_;
     mutable std::uint64_t nearest_ = 0;        // id of the nearest device

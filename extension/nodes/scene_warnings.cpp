@@ -12,10 +12,12 @@
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -57,9 +59,7 @@ void look_in_editor(Node& node, Watched& memory) {
 void look_in_game(Node& node, Watched& memory) {
     if (const auto* link = Object::cast_to<MMTLink>(&node)) {
         static Complaints complaints;
-        if (const String problem = link->is_networked() ? link->problem() : String(); !problem.is_empty()) {
-            complaints.say(node, problem);
-        }
+        complaints.say(node, link->is_networked() ? link->problem() : String());
         return;
     }
     const auto* mesh = Object::cast_to<HapticMesh>(&node);
@@ -95,22 +95,26 @@ void look_at_all() {
 // Every one, or only those that have a material for touch.
 enum class Outside { any, made_to_be_felt };
 
-const Node* body_outside(const Node& node, Outside which) {
-    if (is_solid_body(&node)) {
-        const auto& body = *Object::cast_to<CollisionObject3D>(&node);
-        if (which == Outside::any || Object::cast_to<HapticMaterial>(material_of(body).ptr()) != nullptr) {
-            return &node;
+// Below a node, or the node itself.
+const Node* body_outside(const Node& top, Outside which) {
+    const auto is_one = [which](const Node& node) {
+        return is_solid_body(&node) &&
+               (which == Outside::any ||
+                Object::cast_to<HapticMaterial>(
+                    material_of(*Object::cast_to<CollisionObject3D>(&node)).ptr()) != nullptr);
+    };
+    const Node* found = is_one(top) ? &top : nullptr;
+    const auto look = [&](const Node& node) {
+        if (Object::cast_to<HapticWorld>(&node) != nullptr) {
+            return Walk::past;
         }
+        found = is_one(node) ? &node : nullptr;
+        return found != nullptr ? Walk::end : Walk::on;
+    };
+    if (found == nullptr) {
+        walk_below(top, look);
     }
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        const Node* child = node.get_child(i);
-        const bool is_world = Object::cast_to<HapticWorld>(child) != nullptr;
-        const Node* found = is_world ? nullptr : body_outside(*child, which);
-        if (found != nullptr) {
-            return found;
-        }
-    }
-    return nullptr;
+    return found;
 }
 
 // Of the scene that the world is part of.
@@ -126,34 +130,9 @@ const Node& top_of(const HapticWorld& world) {
     return *top;
 }
 
-void add_bodies(const Node& node, const Vec3& hand, double radius, SceneReading& scene) {
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        Node* child = node.get_child(i);
-        if (is_solid_body(child)) {
-            auto& body = *Object::cast_to<CollisionObject3D>(child);
-            const BodyForm form = read_form(body);
-            if (form.touchable) {
-                scene.facts.add(static_cast<std::uint32_t>(body.get_collision_layer()), reach_of(form));
-            }
-            if (form.touchable && scene.around_hand == nullptr &&
-                is_inside(form, pose_of(body.get_global_transform()), hand, radius)) {
-                scene.around_hand = child;
-            }
-        }
-        add_bodies(*child, hand, radius, scene);
-    }
-}
-
-bool has_world(const Node& node) {
-    if (Object::cast_to<HapticWorld>(&node) != nullptr) {
-        return true;
-    }
-    for (int i = 0; i < node.get_child_count(); ++i) {
-        if (has_world(*node.get_child(i))) {
-            return true;
-        }
-    }
-    return false;
+bool has_world(const Node& scene) {
+    const auto is_world = [](const Node& node) { return Object::cast_to<HapticWorld>(&node) != nullptr; };
+    return is_world(scene) || find_below(scene, is_world) != nullptr;
 }
 
 }  // namespace
@@ -180,7 +159,21 @@ String problem_of_outside(const HapticWorld& world) {
 
 SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radius) {
     SceneReading scene;
-    add_bodies(world, hand, radius, scene);
+    for_each_below(world, [&](Node& node) {
+        if (!is_solid_body(&node)) {
+            return;
+        }
+        auto& body = *Object::cast_to<CollisionObject3D>(&node);
+        const BodyForm form = read_form(body);
+        if (!form.touchable) {
+            return;
+        }
+        scene.facts.add(static_cast<std::uint32_t>(body.get_collision_layer()), reach_of(form));
+        if (scene.around_hand == nullptr &&
+            is_inside(form, pose_of(body.get_global_transform()), hand, radius)) {
+            scene.around_hand = &node;
+        }
+    });
     return scene;
 }
 

@@ -26,17 +26,6 @@ double project_number(const char* name, double otherwise) {
 constexpr const char* too_many_recordings =
     "eight recorders and feedbacks listen to this world already: take one of them away";
 
-// Where another hand is put in the place of the device's own.
-class StandInDevice final : public Device {
-public:
-    DeviceSample read(Nanoseconds) override {
-        DeviceSample sample;
-        sample.connected = true;
-        return sample;
-    }
-    void write(Nanoseconds, const Vec3&) override {}
-};
-
 // Marks a time in which the same is not to be begun again.
 class Busy {
 public:
@@ -93,7 +82,6 @@ void WorldRun::end() {
 }
 
 // --- time
-// ------------------------------------------------------------------------------------------------------------
 
 void WorldRun::stop_loop() {
     loop_.stop();
@@ -116,7 +104,6 @@ void WorldRun::advance(std::int64_t ticks) {
 }
 
 // --- from Godot to the session
-// ---------------------------------------------------------------------------------------
 
 void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
@@ -148,9 +135,8 @@ void WorldRun::look_at_scene() {
     hands_->look_at_scene(facts, complaints_);
     if (bodies_.bodies().empty()) {
         complaints_.say(world_, problem_of_emptiness(world_));
-    } else if (const String outside = looks_ == first ? problem_of_outside(world_) : String();
-               !outside.is_empty()) {
-        complaints_.say(world_, outside);
+    } else if (looks_ == first) {
+        complaints_.say(world_, problem_of_outside(world_));
     }
 }
 
@@ -176,17 +162,14 @@ void WorldRun::synchronise_bodies(double seconds) {
     }
     defaults_.touch = touch;
     defaults_.texture = texture;
-    MirrorContext context;
-    context.defaults = defaults_;
-    // In real time a tick may be under way that has already taken its commands.
-    context.takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
-    context.workers = &Workers::shared();
     bodies_.touched(hands_->touched());
-    bodies_.synchronise(world_, session_, context, seconds, complaints_);
+    // In real time a tick may be under way that has already taken its commands.
+    const std::uint64_t takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
+    bodies_.synchronise(
+        world_, {session_, complaints_, Workers::shared(), defaults_, seconds, takes_effect, nullptr});
 }
 
 // --- the far side
-// ----------------------------------------------------------------------------------------------------
 
 void WorldRun::start_links() {
     std::vector<WorldLink*> attached;
@@ -237,9 +220,9 @@ void WorldRun::tell_far_side(Nanoseconds now) {
     }
     std::vector<WorldLink::ToldJoint> joints;
     for (const auto& joint : bodies_.joints()) {
-        if (joint->handle() != no_handle) {
-            joints.push_back({joint->handle(), joint->first(), joint->second(), &joint->joined(), joint->id(),
-                              joint->revision()});
+        if (const JointTwin& twin = joint->twin(); twin.handle() != no_handle) {
+            joints.push_back(
+                {twin.handle(), twin.first(), twin.second(), &twin.joined(), joint->id(), twin.revision()});
         }
     }
     const auto describe = [&](std::size_t i) {
@@ -252,7 +235,6 @@ void WorldRun::tell_far_side(Nanoseconds now) {
 }
 
 // --- recording
-// -------------------------------------------------------------------------------------------------------
 
 void WorldRun::synchronise_recorder() {
     if (recorder_ != nullptr && !recorder_->is_recording()) {
@@ -270,9 +252,7 @@ void WorldRun::synchronise_recorder() {
         recorder_ = recorder;
         recorded_proxy_ = no_handle;
         if (recorder->recording().has_trace()) {
-            if (const std::string error = loop_.trace_ticks(); !error.empty()) {
-                complaints_.say(world_, to_godot(error));
-            }
+            complaints_.say(world_, loop_.trace_ticks());
         }
     }
     if (recorder_ == nullptr) {
@@ -282,9 +262,7 @@ void WorldRun::synchronise_recorder() {
     const SessionHandle proxy = hands_->handle_of(node);
     const Node* object_node = recorder_->object_node();
     const SessionHandle object = body_of(object_node);
-    if (const String problem = recorder_->problem(); !problem.is_empty()) {
-        complaints_.say(*recorder_, problem);
-    }
+    complaints_.say(*recorder_, recorder_->problem());
     if (proxy != no_handle && (proxy != recorded_proxy_ || object != recorded_object_)) {
         recorded_proxy_ = proxy;
         recorded_object_ = object;
@@ -302,9 +280,7 @@ void WorldRun::synchronise_feedback() {
         }
     }
     for (Listener& listener : listeners_) {
-        if (const String problem = listener.node->problem(); !problem.is_empty()) {
-            complaints_.say(*listener.node, problem);
-        }
+        complaints_.say(*listener.node, listener.node->problem());
         const SessionHandle proxy = hands_->handle_of(listener.node->proxy_node());
         if (proxy == no_handle || proxy == listener.proxy) {
             continue;
@@ -328,7 +304,6 @@ void WorldRun::drain() {
 }
 
 // --- what leaves
-// -----------------------------------------------------------------------------------------------------
 
 void WorldRun::forget(HapticRecorder* recorder) {
     if (recorder_ == nullptr || recorder != recorder_) {
@@ -365,7 +340,6 @@ void WorldRun::finish(HapticRecorder* recorder) {
 }
 
 // --- from the session to Godot
-// ---------------------------------------------------------------------------------------
 
 const BodyState* WorldRun::state_of(const Node* node) {
     const SessionHandle body = body_of(node);

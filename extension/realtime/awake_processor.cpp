@@ -2,6 +2,7 @@
 
 #include "platform/processor.hpp"
 #include "platform/realtime_thread.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 
@@ -13,22 +14,25 @@ std::string AwakeProcessor::start(int cpu) {
     if (std::string reason = why_not_to_idle(); !reason.empty()) {
         return reason;
     }
-    cpu_ = cpu;
-    stop_requested_.store(false, std::memory_order_relaxed);
-    return thread_.start("tactus-awake", &AwakeProcessor::run, this);
+    running_ = std::make_shared<Running>();
+    running_->cpu = cpu;
+    return running_->thread.start("tactus-awake", &AwakeProcessor::run, running_.get());
 }
 
+// A thread of idle priority ends when nothing else wants its processor: nobody waits for that here.
 void AwakeProcessor::stop() {
-    stop_requested_.store(true, std::memory_order_relaxed);
-    thread_.join();
+    if (const std::shared_ptr<Running> last = std::move(running_)) {
+        last->stop_requested.store(true, std::memory_order_relaxed);
+        Workers::discard([last] { last->thread.join(); });
+    }
 }
 
 void AwakeProcessor::run(void* self) {
-    const AwakeProcessor& awake = *static_cast<AwakeProcessor*>(self);
-    if (!become_idle_on(awake.cpu_)) {
+    const Running& own = *static_cast<Running*>(self);
+    if (!become_idle_on(own.cpu)) {
         return;
     }
-    while (!awake.stop_requested_.load(std::memory_order_relaxed)) {
+    while (!own.stop_requested.load(std::memory_order_relaxed)) {
         relax_processor();
     }
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <string>
 
 #include "platform/thread.hpp"
@@ -29,9 +30,12 @@ public:
 private:
     static void run(void* self);
 
-    int cpu_ = 0;
-    std::atomic<bool> stop_requested_{false};
-    Thread thread_;
+    struct Running {
+        int cpu = 0;
+        std::atomic<bool> stop_requested{false};
+        Thread thread;
+    };
+    std::shared_ptr<Running> running_;  // null: none
 };
 
 }  // namespace tactus

@@ -5,6 +5,7 @@
 #include "platform/clock.hpp"
 #include "realtime/thread_role.hpp"
 #include "realtime/tick_schedule.hpp"
+#include "realtime/workers.hpp"
 
 namespace tactus {
 
@@ -71,9 +72,10 @@ void TickLoop::stop() {
     }
     stop_requested_.store(true, std::memory_order_release);
     thread_.join();
-    awake_.stop();
-    release_realtime(report_);
     running_ = false;
+    awake_.stop();
+    // All pages of the process are gone through for it, for tens of milliseconds where there are many.
+    Workers::discard([report = report_] { release_realtime(report); });
 }
 
 void TickLoop::run() {

@@ -53,6 +53,7 @@ public:
     // Whether this state, of a snapshot of that tick, is to be shown: it is another one, and made with all
     // that was sent. Once for each.
     bool takes(const BodyState& state, std::uint64_t tick);
+    std::uint64_t shown_change() const { return shown_change_; }  // BodyState::changed_at of that one
 
 private:
     // What is built, and what came of it. Shared with the thread that builds it.
@@ -65,16 +66,17 @@ private:
     void take_out(Session& session);
     bool deform(Session& session, Job& job);
 
+    // What takes() needs comes first: it is asked of every body that moves, in every frame.
     SessionHandle handle_ = no_handle;
+    std::uint64_t shown_change_ = 0;
+    std::uint64_t shown_from_ = 0;  // earlier ticks do not know yet what was sent last
+    BodyPlace place_;
+    BodyValues values_;
+    std::uint64_t revision_ = 0;
+    std::shared_ptr<Job> job_;  // null: nothing is being built
     BodyPlan plan_;
     BodyAddition addition_;  // that the session's body was made from
     BodyMakings made_of_;    // likewise
-    BodyValues values_;
-    BodyPlace place_;
-    std::uint64_t revision_ = 0;
-    std::shared_ptr<Job> job_;        // null: nothing is being built
-    std::uint64_t shown_change_ = 0;  // BodyState::changed_at that is shown
-    std::uint64_t shown_from_ = 0;    // earlier ticks do not know yet what was sent last
     std::vector<std::string> problems_;
 };
 

@@ -147,4 +147,18 @@ Drawing tube(const std::vector<Vec3>& points, double thickness, bool closed) {
     return drawing;
 }
 
+Drawing drawn_path(const HandPath& path, double thickness) {
+    constexpr int steps = 600;  // 3 mm apart on the path of the thesis
+    if (!problem_with(path).empty()) {
+        return {};
+    }
+    const bool closed = std::holds_alternative<CircleWave>(path);
+    const Nanoseconds duration = path_duration(path);
+    std::vector<Vec3> points;
+    for (int i = 0; i < steps; ++i) {
+        points.push_back(sample_path(path, duration * i / (closed ? steps : steps - 1)).position);
+    }
+    return tube(points, thickness, closed);
+}
+
 }  // namespace tactus

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/geometry/shape.hpp"
+#include "devices/hand_path.hpp"
 
 namespace tactus {
 
@@ -19,5 +20,8 @@ Drawing drawn_shape(const Shape& shape);
 // A tube along the points, for lines that stay visible from anywhere (unit of thickness: meters). Less than
 // two points are no line.
 Drawing tube(const std::vector<Vec3>& points, double thickness, bool closed);
+
+// The same along a hand's path; nothing of one that cannot be followed.
+Drawing drawn_path(const HandPath& path, double thickness);
 
 }  // namespace tactus

@@ -3,11 +3,16 @@
 //
 //   --places=N   of the workspace, for each geometry (1000000)
 //   --inputs=N   at random to the safety layer (10000000)
+//   --rounds=N   start-ups and replugs of the played Falcon, a tenth of its stalls (100); 0: none
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <vector>
 
+#ifdef TACTUS_PLAYED_USB
+#include "played/falcon_figures.hpp"
+#include "played/played_usb.hpp"
+#endif
 #include "shared/bench_kit.hpp"
 #include "shared/delta_figures.hpp"
 #include "shared/safety_figures.hpp"
@@ -127,11 +132,51 @@ void report_walls(Report& report) {
                 rows.size(), created, unstable, created_free, unstable_free);
 }
 
+#ifdef TACTUS_PLAYED_USB
+void report_stalls(Report& report, const char* what, const StallFigures& figures) {
+    const std::string name = std::string("safety.") + what;
+    report.set(name + "_to_zero_max_ms", figures.max_ms);
+    report.set(name + "_to_zero_p99_ms", figures.p99_ms);
+    report.set(name + "s_ok_of_" + std::to_string(figures.stalls), figures.ok);
+    std::printf("%-11s %d of %d let go within 2 ms, p99 %.2f ms, max %.2f ms\n", what, figures.ok,
+                figures.stalls, figures.p99_ms, figures.max_ms);
+}
+
+// In real time, so on a machine that does nothing else.
+void report_played_falcon(Report& report, int rounds) {
+    const std::string of = std::to_string(rounds);
+    const double rate = exchanges_per_second(10.0);
+    report.set("falcon.exchanges_per_s", rate);
+    const int starts = starts_ok(rounds, 0.3);
+    report.set("falcon.starts_ok_of_" + of, starts);
+    const int replugs = replugs_ok(rounds);
+    report.set("falcon.replugs_ok_of_" + of, replugs);
+    std::printf(
+        "falcon      %.0f exchanges/s, %d of %d starts with 30 %% of transfers failing, %d of %d replugs\n",
+        rate, starts, rounds, replugs, rounds);
+    StallFigures loop = stall_loop(5 * rounds);
+    StallFigures driver = stall_driver(5 * rounds);
+    report_stalls(report, "loop_stall", loop);
+    report_stalls(report, "driver_stall", driver);
+    loop.max_ms = std::max(loop.max_ms, driver.max_ms);
+    loop.p99_ms = std::max(loop.p99_ms, driver.p99_ms);
+    loop.ok += driver.ok;
+    loop.stalls += driver.stalls;
+    report_stalls(report, "stall", loop);
+}
+#endif
+
 }  // namespace
 
 int main(int count, char** arguments) {
+#ifdef TACTUS_PLAYED_USB
+    if (!run_below_umockdev(arguments)) {
+        return 2;
+    }
+#endif
     Options options(count, arguments);
     const int places = static_cast<int>(options.number("places", 1'000'000));
+    const int rounds = static_cast<int>(options.number("rounds", 100));
     const auto inputs = static_cast<std::int64_t>(options.number("inputs", 10'000'000));
     if (!options.understood()) {
         return 2;
@@ -140,5 +185,13 @@ int main(int count, char** arguments) {
     report_kinematics(report, places);
     report_random_input(report, inputs);
     report_walls(report);
+#ifdef TACTUS_PLAYED_USB
+    if (rounds > 0) {
+        report_played_falcon(report, rounds);
+    }
+#else
+    static_cast<void>(rounds);
+    std::printf("falcon      not played: that needs umockdev (Debian: libumockdev-dev)\n");
+#endif
     return report.write_json(result_path("device")) ? 0 : 1;
 }

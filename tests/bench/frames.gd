@@ -6,11 +6,11 @@ extends SceneTree
 ## Each scene plays at 60 frames a second with a world and without one (the same nodes below a Node3D; bodies
 ## that the world would move are frozen there, so that Godot's own physics does not move them either). Counted
 ## is the time that the kernel gave the main thread, from /proc: sleeping and other threads do not count. The
-## longest frames are given in wall clock, too, where waiting for a lock would show. The median of the rounds
-## is reported.
+## longest frames are given in wall clock, too, where waiting for a lock would show. With and without take
+## turns, and the median of the rounds is reported.
 
-const FRAMES := 120
-const ROUNDS := 5
+const FRAMES := 100
+const ROUNDS := 4
 const SECONDS_OF_BUILDING := 12.0
 
 var _result := {}
@@ -101,19 +101,19 @@ func _scene(with_world: bool, count: int, make: Callable) -> Node3D:
 
 func _measure(key: String, count: int, make: Callable) -> void:
 	var costs := {true: [] as Array[float], false: [] as Array[float]}
-	for with_world: bool in [true, false]:
-		var scene := _scene(with_world, count, make)
-		root.add_child(scene)
-		# Everything has come to rest that is going to, and all changes have been carried out.
-		await _frames(240)
-		for _round in ROUNDS:
+	for _round in ROUNDS:
+		for with_world: bool in [true, false]:
+			var scene := _scene(with_world, count, make)
+			root.add_child(scene)
+			# Everything has come to rest that is going to, and all changes have been carried out.
+			await _frames(120)
 			var begin := _main_thread_ms()
 			await _frames(FRAMES)
 			costs[with_world].append((_main_thread_ms() - begin) / FRAMES)
-		if with_world:
-			_result[key.replace("_ms", "_awake")] = scene.get_statistics().awake_bodies
-		scene.free()
-		await _frames(30)
+			if with_world:
+				_result[key.replace("_ms", "_awake")] = scene.get_statistics().awake_bodies
+			scene.free()
+			await _frames(10)
 	_result[key] = _median(costs[true]) - _median(costs[false])
 	_result[key.replace("_ms", "_without_world_ms")] = _median(costs[false])
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -26,6 +27,28 @@ std::vector<DeviceSample> a_second_of_wild_targets(FollowingDevice& hand) {
         samples.push_back(hand.read(t));
     }
     return samples;
+}
+
+TEST(UnderPointer, KeepsTheDepthAndTakesThePlaceOfThePointer) {
+    const ScreenRay ray{Vec3(0, 0, 1), glm::normalize(Vec3(0.5, 0, -1)), Vec3(0, 0, -1)};
+    const std::optional<Vec3> place = under_pointer(ray, Vec3(0, 0.3, -1), 0.0);
+    ASSERT_TRUE(place);
+    EXPECT_LT(glm::length(*place - Vec3(1, 0, -1)), 1e-12);
+    EXPECT_LT(glm::length(*under_pointer(ray, *place, 2.0) - Vec3(2, 0, -3)), 1e-12);
+}
+
+TEST(UnderPointer, StaysBeforeTheCamera) {
+    const ScreenRay ray{Vec3(0.0), Vec3(0, 0, -1), Vec3(0, 0, -1)};
+    EXPECT_NEAR(under_pointer(ray, Vec3(0, 0, -0.1), -5.0)->z, -0.02, 1e-12);
+    EXPECT_NEAR(under_pointer(ray, Vec3(0, 0, 7), 0.0)->z, -0.02, 1e-12) << "from behind";
+}
+
+TEST(UnderPointer, LeadsToNoPlaceWhereTheCameraSeesNone) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(under_pointer({Vec3(0.0), Vec3(1, 0, 0), Vec3(0, 0, -1)}, Vec3(0, 0, -1), 0.0));
+    EXPECT_FALSE(under_pointer({Vec3(0.0), Vec3(none), Vec3(0, 0, -1)}, Vec3(0, 0, -1), 0.0));
+    EXPECT_FALSE(under_pointer({Vec3(none), Vec3(0, 0, -1), Vec3(0, 0, -1)}, Vec3(0, 0, -1), 0.0));
+    EXPECT_FALSE(under_pointer({Vec3(0, 0, 1e9), Vec3(0, 0, -1), Vec3(0, 0, -1)}, Vec3(0, 0, 1e9), 0.0));
 }
 
 TEST(Follower, ManySmallStepsAreOneLargeStep) {

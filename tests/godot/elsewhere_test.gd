@@ -41,6 +41,94 @@ func _process(_delta: float) -> void:
 			"device": world.get_node("HapticDevice").get_warnings()}))
 """
 
+## A node for each fault that the editor knows of, and what its warning says; the ball moves meanwhile.
+const FAULTS := """[gd_scene format=3]
+[ext_resource type="Script" path="res://look_at_faults.gd" id="look"]
+[sub_resource type="SphereShape3D" id="ball"]
+[sub_resource type="HapticMaterial" id="material"]
+[node name="Scene" type="Node3D"]
+[node name="Outside" type="StaticBody3D" parent="."]
+physics_material_override = SubResource("material")
+[node name="World" type="HapticWorld" parent="."]
+[node name="Csg" type="CSGBox3D" parent="World"]
+use_collision = true
+[node name="Tiles" type="GridMap" parent="World"]
+[node name="Area" type="Area3D" parent="World"]
+[node name="Soft" type="SoftBody3D" parent="World"]
+[node name="Ball" type="StaticBody3D" parent="World"]
+[node name="Shape" type="CollisionShape3D" parent="World/Ball"]
+shape = SubResource("ball")
+[node name="Mouse" type="HapticDevice" parent="World"]
+[node name="Pathless" type="HapticDevice" parent="World"]
+driver = 0
+[node name="Inside" type="ProxyPointer" parent="World"]
+device = NodePath("../Mouse")
+[node name="Large" type="ProxyPointer" parent="World"]
+device = NodePath("../Mouse")
+radius = 30.0
+[node name="Small" type="ProxyPointer" parent="World"]
+device = NodePath("../Mouse")
+radius = 0.000002
+[node name="Masked" type="ProxyPointer" parent="World"]
+device = NodePath("../Mouse")
+collision_mask = 4
+[node name="Blind" type="ProxyPointer" parent="World"]
+device = NodePath("../Mouse")
+collision_mask = 0
+[node name="Handless" type="ProxyPointer" parent="World"]
+device = NodePath("../Nowhere")
+[node name="Look" type="Node" parent="."]
+script = ExtResource("look")
+"""
+const LOOK_AT_FAULTS := """@tool
+extends Node
+var _frames := 0
+var _told := 0
+
+func _enter_tree() -> void:
+	get_tree().node_configuration_warning_changed.connect(_on_changed)
+
+func _on_changed(node: Node) -> void:
+	if _frames > 100 and node.name == &"Inside":
+		_told += 1
+
+func _say(mark: String) -> void:
+	var said := {"told": _told}
+	for node in get_parent().find_children("*", "", true, false):
+		if node.has_method("get_warnings"):
+			said[node.name] = " ".join(node.get_warnings())
+	print(mark, JSON.stringify(said))
+
+func _process(_delta: float) -> void:
+	_frames += 1
+	if _frames == 100:
+		_say("LOOK ")
+		get_node("../World/Ball").position.y = 3.0
+	if _frames > 100 and (_told > 0 or _frames == 2000):
+		_say("AGAIN ")
+		set_process(false)
+		get_tree().quit()
+"""
+const SAID := {
+	"World":
+	[
+		"'Csg' cannot be touched",
+		"bake its collision shape",
+		"a GridMap is not carried over",
+		"an Area3D is not solid",
+		"a SoftBody3D is not carried over",
+		"'Outside' has a HapticMaterial",
+	],
+	"Mouse": ["the mouse needs a camera"],
+	"Pathless": ["set 'path' to a HapticPath"],
+	"Inside": ["its hand begins inside 'Ball'"],
+	"Large": ["the fingertip's radius"],
+	"Small": ["the fingertip's radius"],
+	"Masked": ["'collision_mask' has no layer"],
+	"Blind": ["'collision_mask' is empty"],
+	"Handless": ["set 'device' anew"],
+}
+
 static var _folder := ""
 
 
@@ -52,6 +140,8 @@ func _make_project() -> void:
 	_write("project.godot", PROJECT)
 	_write("look.gd", LOOK)
 	_write("scene.tscn", SCENE)
+	_write("look_at_faults.gd", LOOK_AT_FAULTS)
+	_write("faults.tscn", FAULTS)
 	_write(".godot/extension_list.cfg", "res://third_party/touch/tactus.gdextension\n")
 	_godot(["--import"])
 
@@ -76,10 +166,10 @@ func _godot(arguments: Array) -> String:
 	return output[0]
 
 
-func _what_look_saw(output: String) -> Dictionary:
+func _what_look_saw(output: String, mark := "LOOK ") -> Dictionary:
 	for line in output.split("\n"):
-		if line.begins_with("LOOK "):
-			return JSON.parse_string(line.trim_prefix("LOOK "))
+		if line.begins_with(mark):
+			return JSON.parse_string(line.trim_prefix(mark))
 	check(false, "the scene was not opened: " + output)
 	return {}
 
@@ -99,6 +189,18 @@ func test_the_editor_opens_a_scene_and_runs_nothing_in_it() -> void:
 	)
 	check_equal(seen.device, [], "warnings of the device")
 	check(not output.contains("ERROR"), output)
+
+
+func test_the_editor_warns_of_every_fault_and_no_longer_than_it_is_there() -> void:
+	_make_project()
+	var output := _godot(["--editor", "--quit-after", "3000", "res://faults.tscn"])
+	var seen := _what_look_saw(output)
+	for node: String in SAID:
+		for text: String in SAID[node]:
+			check(text in seen.get(node, ""), "%s does not say '%s': %s" % [node, text, seen.get(node)])
+	var later := _what_look_saw(output, "AGAIN ")
+	check(not "begins inside" in later.get("Inside", "begins inside"), "Inside: %s" % later.get("Inside"))
+	check(later.get("told", 0) > 0, "the editor was not told that a warning is gone")
 
 
 func test_the_library_is_found_where_the_addon_is() -> void:

@@ -86,6 +86,29 @@ func test_a_thrown_body_flies_within_a_few_frames() -> void:
 	check(_bodies[60].position.y > 0.02, "it did not move: %s" % _bodies[60].position)
 
 
+func test_a_body_that_moves_is_moved_and_thrown_by_scripts() -> void:
+	await _start(func() -> Node: return RigidBody3D.new())
+	var body := _bodies[60] as RigidBody3D
+	body.linear_damp_mode = RigidBody3D.DAMP_MODE_REPLACE
+	body.linear_velocity = Vector3(0, 0.5, 0)
+	var flies := func() -> bool: return body.position.y > 0.05
+	check(await until(flies, 2.0), "it does not fly")
+	body.linear_velocity = Vector3(0, 0, 0.5)
+	var turns := func() -> bool: return body.position.z > 0.05
+	check(await until(turns, 1.0), "a speed given on the way is lost: %s" % body.linear_velocity)
+	body.position = Vector3(0, 7, 0)
+	await frames(6)
+	check(body.position.y > 6.9 and body.position.x < 0.1, "it is back on its way: %s" % body.position)
+	body.linear_velocity = Vector3(NAN, 0, 0)
+	await frames(6)
+	check(body.linear_velocity.is_finite(), "its speed is no number: %s" % body.linear_velocity)
+	body.linear_velocity = Vector3.ZERO
+	await until(func() -> bool: return false, 0.7)
+	body.position = Vector3(0, 9, 0)
+	await frames(6)
+	check_near(body.position.y, 9.0, 0.1, "moved after it had come to rest")
+
+
 func test_a_changed_material_is_felt_in_the_next_frames() -> void:
 	await _start(func() -> Node: return StaticBody3D.new())
 	var look := material(400.0)

@@ -20,10 +20,6 @@ radius = 0.05
 radius = 0.05
 height = 0.1
 
-[sub_resource type="SphereMesh" id="tip"]
-radius = 0.01
-height = 0.02
-
 [node name="Scene" type="Node3D"]
 
 [node name="HapticWorld" type="HapticWorld" parent="."]
@@ -38,14 +34,8 @@ mesh = SubResource("ball")
 
 [node name="HapticDevice" type="HapticDevice" parent="HapticWorld"]
 transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.1)
-driver = 1
 
 [node name="ProxyPointer" type="ProxyPointer" parent="HapticWorld"]
-device = NodePath("../HapticDevice")
-radius = 0.01
-
-[node name="Look" type="MeshInstance3D" parent="HapticWorld/ProxyPointer"]
-mesh = SubResource("tip")
 
 [node name="Camera3D" type="Camera3D" parent="."]
 transform = Transform3D(1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0.4)

@@ -15,8 +15,11 @@ ALLOWED = [
     ("physics", '"realtime/thing.hpp"'),
     ("physics", "<Jolt/Jolt.h>"),
     ("devices", '"realtime/thing.hpp"'),
+    ("devices", '"platform/thing.hpp"'),
     ("session", '"devices/thing.hpp"'),
     ("session", '"network/thing.hpp"'),
+    ("world", '"session/thing.hpp"'),
+    ("world", '"platform/thing.hpp"'),
 ]
 FORBIDDEN = [
     ("core", '"realtime/thing.hpp"'),
@@ -24,7 +27,6 @@ FORBIDDEN = [
     ("core", "<Jolt/Jolt.h>"),
     ("platform", '"realtime/thing.hpp"'),
     ("realtime", '"physics/thing.hpp"'),
-    ("devices", '"platform/thing.hpp"'),
     ("physics", '"session/thing.hpp"'),
     ("devices", '"network/thing.hpp"'),
     ("network", '"devices/thing.hpp"'),
@@ -32,8 +34,12 @@ FORBIDDEN = [
     ("session", "<godot_cpp/classes/node.hpp>"),
     ("session", '"nodes/thing.hpp"'),
     ("session", '"platform/thing.hpp"'),
+    ("session", '"world/thing.hpp"'),
+    ("world", '"nodes/thing.hpp"'),
+    ("world", "<godot_cpp/classes/node.hpp>"),
+    ("world", "<Jolt/Jolt.h>"),
 ]
-LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session"]
+LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world"]
 
 
 def _object(number: int, layer: str) -> str:

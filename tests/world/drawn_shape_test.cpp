@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -54,6 +57,24 @@ TEST(Tube, AClosedOneComesBackAndAPointIsNone) {
     EXPECT_EQ(tube(points, 0.1, true).mesh.triangles.size(),
               tube(points, 0.1, false).mesh.triangles.size() / 3 * 4);
     EXPECT_TRUE(tube({{0, 0, 0}}, 0.1, true).mesh.triangles.empty());
+}
+
+TEST(DrawnPath, IsATubeAlongThePathAndClosedWhereItIs) {
+    const Drawing circle = drawn_path(CircleWave{}, 0.01);
+    ASSERT_FALSE(circle.mesh.triangles.empty());
+    KeyframePath line;
+    line.keyframes = {{0, Vec3(0.0)}, {1'000'000'000, Vec3(1, 0, 0)}};
+    const Drawing straight = drawn_path(line, 0.01);
+    double reach = 0.0;
+    for (const Vec3& vertex : straight.mesh.vertices) {
+        reach = std::max(reach, vertex.x);
+        EXPECT_LE(std::abs(vertex.y), 0.011);
+    }
+    EXPECT_NEAR(reach, 1.0, 0.011);
+}
+
+TEST(DrawnPath, IsNothingWhereThePathCannotBeFollowed) {
+    EXPECT_TRUE(drawn_path(KeyframePath{}, 0.01).mesh.triangles.empty());
 }
 
 }  // namespace

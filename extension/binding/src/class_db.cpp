@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <godot_cpp/classes/class_db_singleton.hpp>
-#include <godot_cpp/classes/editor_plugin_registration.hpp>
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/private/bind_virtual.hpp>
 #include <godot_cpp/private/checked_call.hpp>
@@ -240,14 +239,6 @@ void ClassDB::bind_virtual_method(const StringName& class_name, const StringName
     internal::OwnClass* entry = internal::find_own(class_name);
     ERR_FAIL_NULL_MSG(entry, String(class_name) + " is not registered.");
     entry->virtuals.emplace_back(method, call);
-}
-
-void EditorPlugins::add_plugin_class(const StringName& class_name) {
-    internal::interface.editor_add_plugin(class_name._native_ptr());
-}
-
-void EditorPlugins::remove_plugin_class(const StringName& class_name) {
-    internal::interface.editor_remove_plugin(class_name._native_ptr());
 }
 
 }  // namespace godot

@@ -72,10 +72,9 @@ void Proxy::keep_touching(const ConstrainedStep& step) {
 
 // Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
 // Friction has no say in that. False where there is nothing to lift: what a sweep has stopped at is half a
-// skin below rest, and the next step rises by that much on its way. Unless it was stopped at once: a long
-// step strays from a far surface by more, and needs all of the skin.
-bool Proxy::lift(bool stopped_at_once) {
-    if (contacts_.min_gap() >= (stopped_at_once ? -0.125 : -0.625) * tolerances().skin) {
+// skin below rest, and the next step rises by that much on its way. A step that strays needs all of the skin.
+bool Proxy::lift(bool strays) {
+    if (contacts_.min_gap() >= (strays ? -0.125 : -0.625) * tolerances().skin) {
         return false;
     }
     const Vec3 motion = lift_to_rest(contacts_, tolerances().same, surroundings_.work());
@@ -86,6 +85,13 @@ bool Proxy::lift(bool stopped_at_once) {
     FeatureId stopped_by;
     advance(motion, stopped_by);
     return position_ != before;
+}
+
+// The direction of a step along a surface is off by the rounding of the surface's place over the radius:
+// 2^-53 of the largest coordinate, which is a 512th of the skin at most. Over more than 64 radii that makes
+// an eighth of the skin or more, and what stops such a step at once would do so for ever.
+bool Proxy::strays(double length) const {
+    return length > 64.0 * settings_.radius;
 }
 
 // How far a step of that length along a surface may end above it: no surface bends more than the sphere
@@ -120,7 +126,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             surroundings_.find_contacts(position_, contacts_, descent.beyond);
             contacts_hold_ = true;
         }
-        if (lift(descent.stopped_at_once)) {
+        if (lift(descent.strays)) {
             contacts_hold_ = false;
             continue;
         }
@@ -136,7 +142,8 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         FeatureId stopped_by;
         const Hit hit = advance(step.motion, stopped_by);
         contacts_hold_ = false;
-        descent.stopped_at_once = hit.found && position_ == before;
+        const bool stopped_at_once = hit.found && position_ == before;
+        descent.strays = stopped_at_once && strays(tick.residual);
         if (hit.found) {
             surroundings_.keep_in_mind(stopped_by);
         } else {
@@ -152,7 +159,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             break;
         }
         // Stopped at once by something that is no contact: it is one now.
-        if (descent.stopped_at_once && !surroundings_.insist_on(stopped_by, position_)) {
+        if (stopped_at_once && !surroundings_.insist_on(stopped_by, position_)) {
             break;
         }
     }
@@ -213,9 +220,17 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
         put(hand_);
         tick.jumped = true;
     }
-    if (present_ || appear()) {
+    const bool appears = !present_ && appear();
+    if (present_) {
         follow(hand_, given_way, tick);
-    } else {
+    }
+    // The work may have ended before it was lifted out of what it begins too deep in: it begins later, then.
+    if (appears && contacts_hold_ && contacts_.min_gap() < -tolerances().skin) {
+        restart();
+        put(hand_);
+        tick = {};
+    }
+    if (!present_) {
         touching_.clear();
         tick.status |= proxy_absent;
     }

@@ -109,7 +109,7 @@ private:
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
         bool slid = false;
-        bool stopped_at_once = false;
+        bool strays = false;  // the last step was stopped at once, and would be so again: see lift
     };
 
     void put(const Vec3& place);
@@ -127,7 +127,8 @@ private:
     void descend(const Vec3& hand, ProxyTick& tick);
     ConstrainedStep plan(const Vec3& pull, Descent& descent);
     void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
-    bool lift(bool stopped_at_once);
+    bool lift(bool strays);
+    bool strays(double length) const;
     void brake(ConstrainedStep& step, double dropped);
     double drop_after(double length) const;
     double friction_limit(const ConstrainedStep& step, double dropped) const;

@@ -133,5 +133,31 @@ TEST(ProxyBudget, AHeapOfTinyTrianglesLetsItGo) {
     EXPECT_EQ(watch.frozen, 0);
 }
 
+// A proxy appears where up to a thousandth of its radius is missing, and is lifted off in the same tick: or,
+// where the work does not suffice for that, in a later one.
+TEST(ProxyBudget, ItAppearsOnlyWhereItIsNotTooDeep) {
+    constexpr double radius = 0.05;
+    const TriangleMesh mesh = shared::terrain(60, 1.0, 0.0);
+    const shared::JudgeTree judge(mesh);
+    int begun = 0;
+    for (std::int64_t work = 20; work < 2'000; work += 20) {
+        TouchRig rig(radius);
+        rig.add(mesh);
+        ProxySettings settings = rig.proxy.settings();
+        settings.max_work = work;
+        rig.proxy.set_settings(settings);
+        for (int i = 0; i < 8; ++i) {
+            const ProxyTick tick = rig.tick({0.01, radius * (0.9993 + 1e-4 * i), 0.01});
+            if (tick.status & proxy_absent) {
+                continue;
+            }
+            ++begun;
+            ASSERT_GE(judge.nearest(tick.position, 1.0).distance, radius)
+                << "work " << work << ", tick " << i;
+        }
+    }
+    EXPECT_GT(begun, 100);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/safety/force_watch.hpp"
 #include "core/safety/stiffness_limit.hpp"
 #include "shared/safety_figures.hpp"
 
@@ -141,6 +142,14 @@ TEST(SafeWall, MakesNoEnergyAndComesToRestWhereAStifferOneDoesNot) {
     const shared::ContactFigures figures = shared::play_contact(free);
     EXPECT_FALSE(figures.stable);
     EXPECT_GT(figures.largest_created, 1e-3);
+}
+
+TEST(ForceWatch, AForceDiesWithItsLoop) {
+    const ForceCommand command{{1.0, 0.0, 0.0}, 5'000'000};
+    EXPECT_TRUE(is_alive(command, 5'000'000));
+    EXPECT_TRUE(is_alive(command, 5'000'000 + force_lifetime));
+    EXPECT_FALSE(is_alive(command, 5'000'001 + force_lifetime));
+    EXPECT_FALSE(is_alive({}, 0));
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+// The way of forces from the loop to a driver: the newest counts, for as long as the loop that wrote it
+// lives, and a watchdog knows when somebody has to have looked again.
+#pragma once
+
+#include <atomic>
+
+#include "core/safety/force_watch.hpp"
+#include "platform/clock.hpp"
+#include "realtime/triple_buffer.hpp"
+
+namespace tactus {
+
+class ForceSlot {
+public:
+    // Haptic thread.
+    void write(const Vec3& force, Nanoseconds now) { commands_.publish({force, now}); }
+
+    // I/O thread: what the device is to be given from now until end() at the longest. `own`: of the device
+    // itself, such as what carries its arm, for as long as the loop lives.
+    Vec3 living(Nanoseconds now, const Vec3& own = Vec3(0.0)) {
+        commands_.refresh();
+        const ForceCommand& command = commands_.front();
+        const bool alive = is_alive(command, now);
+        const Vec3 force = alive ? command.force + own : Vec3(0.0);
+        end_ = alive ? command.written_at + force_lifetime : 0;
+        watch(force == Vec3(0.0) ? 0 : end_);
+        return force;
+    }
+    // When what living() has given dies, if nothing comes; 0: the loop was silent.
+    Nanoseconds end() const { return end_; }
+
+    // I/O thread: the device gives no force any more.
+    void rest() { watch(0); }
+    // Watchdog: the same, unless somebody has looked since it was due then.
+    void rest(Nanoseconds due) { due_.compare_exchange_strong(due, 0, std::memory_order_acq_rel); }
+
+    // Watchdog: when the force that the device gives must have been renewed or taken away; 0: it gives none.
+    Nanoseconds due() const { return due_.load(std::memory_order_acquire); }
+    void wait_for_force() const { due_.wait(0, std::memory_order_acquire); }
+    // Wakes who waits for a force, since none will come.
+    void end_wait() { watch(-1); }
+
+private:
+    void watch(Nanoseconds due) {
+        if (due_.exchange(due, std::memory_order_acq_rel) == 0 && due != 0) {
+            due_.notify_all();
+        }
+    }
+
+    TripleBuffer<ForceCommand> commands_;
+    Nanoseconds end_ = 0;  // I/O thread
+    std::atomic<Nanoseconds> due_{0};
+};
+
+}  // namespace tactus

@@ -1,0 +1,47 @@
+// Through all that stands below a node, parents first. Main thread only.
+#pragma once
+
+#include <godot_cpp/classes/node.hpp>
+
+namespace tactus {
+
+enum class Walk { on, past, end };  // past: what stands below this one is left out
+
+// Walk visit(Node& node). Answers Walk::end where one of them ended it.
+template <class Visit>
+Walk walk_below(const godot::Node& node, const Visit& visit) {
+    const int count = node.get_child_count();
+    for (int i = 0; i < count; ++i) {
+        godot::Node& child = *node.get_child(i);
+        Walk next = visit(child);
+        if (next == Walk::on) {
+            next = walk_below(child, visit);
+        }
+        if (next == Walk::end) {
+            return Walk::end;
+        }
+    }
+    return Walk::on;
+}
+
+// void visit(Node& node).
+template <class Visit>
+void for_each_below(const godot::Node& node, const Visit& visit) {
+    walk_below(node, [&visit](godot::Node& one) {
+        visit(one);
+        return Walk::on;
+    });
+}
+
+// bool is_it(const Node& node). Null: none is.
+template <class Condition>
+godot::Node* find_below(const godot::Node& node, const Condition& is_it) {
+    godot::Node* found = nullptr;
+    walk_below(node, [&](godot::Node& one) {
+        found = is_it(one) ? &one : nullptr;
+        return found != nullptr ? Walk::end : Walk::on;
+    });
+    return found;
+}
+
+}  // namespace tactus

@@ -1,0 +1,72 @@
+#include "world/hand_twins.hpp"
+
+#include <utility>
+
+namespace tactus {
+
+namespace {
+
+bool same(const Workspace& a, const Workspace& b) {
+    return a.pose.position == b.pose.position && a.pose.rotation == b.pose.rotation && a.scale == b.scale &&
+           a.force_limit == b.force_limit && a.clutch == b.clutch && a.dead_man == b.dead_man &&
+           a.force_scale == b.force_scale && a.edge_speed == b.edge_speed;
+}
+
+bool same(const ProxyDescription& a, const ProxyDescription& b) {
+    return a.device == b.device && a.settings.radius == b.settings.radius &&
+           a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.enabled == b.enabled;
+}
+
+}  // namespace
+
+std::string DeviceTwin::synchronise(Session& session, const std::shared_ptr<Device>& port,
+                                    const Workspace& workspace, RetiredPorts& retired) {
+    if (port != port_) {
+        remove(session, retired);
+        port_ = port;
+    }
+    if (port_ == nullptr) {
+        return {};
+    }
+    if (handle_ == no_handle) {
+        AddResult added = session.add_device(*port_, workspace);
+        handle_ = added.handle;
+        sent_ = workspace;
+        return std::move(added.error);
+    }
+    if (!same(workspace, std::exchange(sent_, workspace))) {
+        session.set_workspace(handle_, workspace);
+    }
+    return {};
+}
+
+void DeviceTwin::remove(Session& session, RetiredPorts& retired) {
+    if (handle_ != no_handle) {
+        session.remove_device(handle_);
+        handle_ = no_handle;
+        retired.push_back(std::move(port_));
+    }
+    port_.reset();
+}
+
+std::string ProxyTwin::synchronise(Session& session, const ProxyDescription& description) {
+    if (handle_ == no_handle) {
+        AddResult added = session.add_proxy(description);
+        handle_ = added.handle;
+        sent_ = description;
+        return std::move(added.error);
+    }
+    if (!same(description, std::exchange(sent_, description))) {
+        session.set_proxy(handle_, description);
+    }
+    return {};
+}
+
+void ProxyTwin::remove(Session& session) {
+    if (handle_ != no_handle) {
+        session.remove_proxy(handle_);
+        handle_ = no_handle;
+    }
+}
+
+}  // namespace tactus
