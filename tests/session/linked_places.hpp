@@ -14,8 +14,11 @@
 #include "session/operator_side.hpp"
 #include "session/teleoperator_side.hpp"
 #include "session_rig.hpp"
+#include "shared/endpoints.hpp"
 
 namespace tactus::session_test {
+
+using shared::endpoint;
 
 class LinkedPlaces {
 public:
@@ -137,12 +140,6 @@ private:
         made.delay = from_seconds(0.5 * delay);
         made.loss = loss;
         return made;
-    }
-    static EndpointSettings endpoint(Side side, std::uint64_t epoch) {
-        EndpointSettings settings;
-        settings.side = side;
-        settings.epoch = epoch;
-        return settings;
     }
 
     SessionSettings settings_;

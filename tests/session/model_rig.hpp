@@ -15,8 +15,11 @@
 #include "session/operator_side.hpp"
 #include "session/teleoperator_side.hpp"
 #include "session_rig.hpp"
+#include "shared/endpoints.hpp"
 
 namespace tactus::session_test {
+
+using shared::endpoint;
 
 constexpr Nanoseconds ms = 1'000'000;
 
@@ -24,13 +27,6 @@ inline SessionSettings small_session() {
     SessionSettings settings;
     settings.most_bodies = 64;
     settings.most_parts = 128;
-    return settings;
-}
-
-inline EndpointSettings endpoint(Side side, std::uint64_t epoch) {
-    EndpointSettings settings;
-    settings.side = side;
-    settings.epoch = epoch;
     return settings;
 }
 

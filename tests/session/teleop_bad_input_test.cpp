@@ -15,6 +15,7 @@
 #include "session/operator_side.hpp"
 #include "session/teleoperator_side.hpp"
 #include "session_rig.hpp"
+#include "shared/endpoints.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {
@@ -23,6 +24,7 @@ namespace {
 using session_test::body;
 using session_test::HeldDevice;
 using session_test::period;
+using shared::endpoint;
 using testing::AuditScope;
 using testing::LockAudit;
 
@@ -76,13 +78,6 @@ SessionSettings small_session() {
     SessionSettings settings;
     settings.most_bodies = 16;
     settings.most_parts = 64;
-    return settings;
-}
-
-EndpointSettings endpoint(Side side, std::uint64_t epoch) {
-    EndpointSettings settings;
-    settings.side = side;
-    settings.epoch = epoch;
     return settings;
 }
 

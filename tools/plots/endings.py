@@ -27,6 +27,10 @@ def colour_of(case: str) -> str:
     return style.QUIET if case.endswith(ALONE) else style.MEASURED
 
 
+def number(value: float, form: str) -> str:
+    return f"{value:.0f}" if value >= 100.0 else format(value, form)
+
+
 def draw(summary: dict[str, object], cases: tuple[str, ...], title: str, path: Path) -> None:
     drawn, axes = style.figure(1, 3, 13.0, 0.34 * len(cases) + 1.4, sharey=True)
     places = np.arange(len(cases))
@@ -38,7 +42,7 @@ def draw(summary: dict[str, object], cases: tuple[str, ...], title: str, path: P
     for (key, name, factor, form), one in zip(panels, axes[0]):
         values = [factor * float(summary[f"{case}.{key}"]) for case in cases]
         bars = one.barh(places, values, 0.7, color=[colour_of(case) for case in cases])
-        one.bar_label(bars, [format(value, form) for value in values], fontsize=8, padding=2)
+        one.bar_label(bars, [number(value, form) for value in values], fontsize=8, padding=6)
         one.set_title(name, fontsize=9.5)
         one.margins(x=0.15)
     axes[0][0].axvline(95.0, color=style.INK, linewidth=0.8, linestyle=":")

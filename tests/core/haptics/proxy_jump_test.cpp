@@ -6,19 +6,17 @@
 
 #include "core/haptics/proxy.hpp"
 #include "shared/meshes.hpp"
+#include "shared/poses.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus {
 namespace {
 
+using shared::at;
 using shared::TouchRig;
 
 constexpr double radius = 0.05;
-
-Pose at(const Vec3& position) {
-    return {position, Quat(1.0, 0.0, 0.0, 0.0)};
-}
 
 TEST(ProxyJump, ATickWithoutChangesIsNone) {
     for (const bool faceted : {false, true}) {

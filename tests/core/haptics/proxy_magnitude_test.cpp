@@ -5,19 +5,17 @@
 #include <glm/geometric.hpp>
 
 #include "shared/meshes.hpp"
+#include "shared/poses.hpp"
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus {
 namespace {
 
+using shared::at;
 using shared::TouchRig;
 
 constexpr double radius = 0.05;
-
-Pose at(const Vec3& position) {
-    return {position, Quat(1.0, 0.0, 0.0, 0.0)};
-}
 
 class ProxyOnAPlanet : public ::testing::TestWithParam<double> {};
 

@@ -6,6 +6,7 @@
 
 #include "core/haptics/proxy.hpp"
 #include "shared/meshes.hpp"
+#include "shared/poses.hpp"
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
 #include "shared/touch_rig.hpp"
@@ -13,15 +14,12 @@
 namespace tactus {
 namespace {
 
+using shared::at;
 using shared::RandomValues;
 using shared::TouchRig;
 
 constexpr double radius = 0.05;
 const TouchMaterial sticky{500.0, 0.0, 2.0, 2.0};
-
-Pose at(const Vec3& position) {
-    return {position, Quat(1.0, 0.0, 0.0, 0.0)};
-}
 
 Quat turn(double angle, const Vec3& axis) {
     const Vec3 v = std::sin(0.5 * angle) * axis;

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "shared/poses.hpp"
 #include "shared/random_values.hpp"
 
 namespace tactus {
 namespace {
+
+using shared::at;
 
 std::shared_ptr<const TouchShape> spheres(int count) {
     std::vector<PlacedShape> placed;
@@ -13,10 +16,6 @@ std::shared_ptr<const TouchShape> spheres(int count) {
         placed.push_back({SphereShape{0.5}, {Vec3(2.0 * i, 0.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}});
     }
     return make_touch_shape(placed).shape;
-}
-
-Pose at(const Vec3& position) {
-    return {position, Quat(1.0, 0.0, 0.0, 0.0)};
 }
 
 TEST(TouchScene, ABodyBringsItsPartsIntoTheWorld) {

@@ -7,13 +7,12 @@
 #include <random>
 
 #include "core/teleop/body_motion.hpp"
+#include "shared/poses.hpp"
 
 namespace tactus {
 namespace {
 
-Pose at(const Vec3& position, const Quat& rotation = {1.0, 0.0, 0.0, 0.0}) {
-    return {position, rotation};
-}
+using shared::at;
 
 PoseStep step_of(const Vec3& way, double open_way = 0.0) {
     PoseStep step;

@@ -1,0 +1,184 @@
+// What a session makes of devices: the hand, the workspace it is in, the force it is given.
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "session_rig.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace session_test;
+
+TEST(Session, AHandPressedIntoTheGroundIsPushedBack) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.02, 0.0}, 50);
+    EXPECT_NEAR(rig.device.force.y, 500.0 * 0.03, 1e-3);
+    EXPECT_NEAR(rig.proxy_state().position.y, 0.01, 1e-6);
+    EXPECT_TRUE(rig.proxy_state().status & proxy_touching);
+}
+
+TEST(Session, WithoutADeviceAProxyRests) {
+    Session session({});
+    ProxyDescription description;
+    ASSERT_NE(session.add_proxy(description).handle, no_handle);
+    session.tick(period);
+    session.refresh();
+    EXPECT_EQ(session.snapshot().proxies[0].force, Vec3(0.0));
+}
+
+TEST(Session, ForcesAreLimitedToWhatTheDeviceMayTake) {
+    SessionRig rig;
+    rig.add(ground());
+    Workspace workspace;
+    workspace.force_limit = 3.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.05, 0.0}, 50);
+    EXPECT_NEAR(glm::length(rig.device.force), 3.0, 1e-12);
+    EXPECT_TRUE(rig.tick() & session_force_limited);
+}
+
+TEST(Session, WithoutItsDeadManButtonADeviceIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    Workspace workspace;
+    workspace.dead_man = 0b10;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.005, 0.0}, 50);
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.device.buttons = 0b10;
+    rig.tick();
+    EXPECT_NEAR(rig.device.force.y, 500.0 * 0.015, 1e-6);
+    rig.device.buttons = 0b01;
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.session.refresh();
+    EXPECT_EQ(rig.session.snapshot().devices[0].safety, HandState::released);
+}
+
+// 0.2 N s/m bear 200 N/m at a tick of a millisecond with half of one more; a workspace twice as large in the
+// scene halves that.
+TEST(Session, AWallThatADeviceCannotBearIsAsStiffAsItCan) {
+    for (const double scale : {1.0, 2.0}) {
+        SessionRig rig;
+        rig.add(ground());
+        Workspace workspace;
+        workspace.force_limit = 1e6;
+        workspace.scale = scale;
+        rig.session.set_workspace(rig.hand, workspace);
+        rig.device.can.feels = true;
+        rig.device.can.damping = 0.2;
+        rig.device.can.delay = 0.0005;
+        rig.device.position = {0.0, 0.1 / scale, 0.0};
+        rig.tick();
+        rig.draw({0.0, -0.02 / scale, 0.0}, 50);
+        EXPECT_NEAR(rig.device.force.y, 200.0 / scale * 0.03, 1e-6);
+        rig.session.refresh();
+        const DeviceState& state = rig.session.snapshot().devices[0];
+        EXPECT_EQ(state.stiffness_wanted, 500.0);
+        EXPECT_NEAR(state.stiffness_used, 200.0 / scale, 1e-9);
+    }
+}
+
+TEST(Session, AHandThatHasJumpedIsNotPushed) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.can.max_speed = 5.0;
+    rig.device.position = {0.0, 0.01, 0.0};
+    rig.tick();
+    rig.draw({0.0, -0.01, 0.0}, 50);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.device.position.y = -0.02;
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.tick();
+    EXPECT_GT(rig.device.force.y, 1.0);
+}
+
+TEST(Session, AWorkspaceTurnsPositionsInAndForcesBack) {
+    SessionRig rig;
+    rig.add(ground());
+    Workspace workspace;
+    workspace.force_limit = 1e6;
+    workspace.pose = {{0.0, 1.0, 0.0},
+                      Quat(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5))};  // a quarter turn about z: x to y
+    workspace.scale = 2.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {-0.3, 0.0, 0.0};
+    rig.tick();
+    EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.0, 0.4, 0.0)), 1e-12);
+    rig.draw({-0.51, 0.0, 0.0}, 100);  // 0.02 below the ground in the scene
+    EXPECT_NEAR(rig.device.force.x, 500.0 * 0.03, 1e-3);
+    EXPECT_NEAR(rig.device.force.y, 0.0, 1e-9);
+}
+
+TEST(Session, AHeldClutchKeepsTheHandWhereItIs) {
+    SessionRig rig;
+    rig.device.position = {0.1, 0.2, 0.3};
+    rig.ticks(2);
+    Workspace held;
+    held.clutch = true;
+    rig.session.set_workspace(rig.hand, held);
+    rig.tick();
+    rig.draw({0.5, 0.5, 0.5}, 20);
+    EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.1, 0.2, 0.3)), 1e-12);
+    rig.session.set_workspace(rig.hand, {});
+    rig.tick();
+    rig.draw({0.6, 0.5, 0.5}, 20);
+    EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.2, 0.2, 0.3)), 1e-12);
+}
+
+TEST(Session, AtRestTheDeviceIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.rest();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    EXPECT_EQ(rig.proxy_state().force, Vec3(0.0));
+    EXPECT_EQ(rig.session.snapshot().devices[0].force, Vec3(0.0));
+}
+
+TEST(Session, AHandThatStayedGoesOnAfterARest) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    const double before = rig.device.force.y;
+    rig.session.rest();
+    rig.tick();
+    EXPECT_DOUBLE_EQ(rig.device.force.y, before);
+}
+
+TEST(Session, AHandThatWentElsewhereDuringARestIsNotKicked) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.ticks(10);
+    rig.session.rest();
+    rig.device.position = {0.0, -0.2, 0.0};
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+TEST(Session, ADeviceThatLeavesIsGivenNoForce) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.draw({0.0, -0.01, 0.0}, 100);
+    EXPECT_GT(rig.device.force.y, 1.0);
+    rig.session.remove_device(rig.hand);
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+}  // namespace
+}  // namespace tactus
