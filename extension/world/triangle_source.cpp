@@ -16,7 +16,8 @@ namespace {
 // has let go of: more would only be kept for nothing.
 constexpr std::size_t max_former_trees = 3;
 
-std::atomic<std::uint64_t> tree_count{0};
+std::atomic<std::uint64_t> build_count{0};
+std::atomic<std::uint64_t> refit_count{0};
 
 }  // namespace
 
@@ -90,7 +91,11 @@ std::shared_ptr<TriangleTree> TriangleSource::refitted(const Mat3& scaling, cons
 }
 
 std::uint64_t TriangleSource::trees_built() {
-    return tree_count.load(std::memory_order_relaxed);
+    return build_count.load(std::memory_order_relaxed);
+}
+
+std::uint64_t TriangleSource::trees_refitted() {
+    return refit_count.load(std::memory_order_relaxed);
 }
 
 BuiltMesh TriangleSource::built(const Mat3& scaling, const ParallelRunner& run) {
@@ -105,10 +110,10 @@ BuiltMesh TriangleSource::built(const Mat3& scaling, const ParallelRunner& run) 
     const std::shared_ptr<const TriangleMesh> whole = triangles().mesh;
     const auto mesh = scaling == Mat3(1.0) ? whole : Workers::freed_aside(scaled(*whole, scaling));
     std::shared_ptr<TriangleTree> tree = refitted(scaling, *mesh, run);
+    (tree != nullptr ? refit_count : build_count).fetch_add(1, std::memory_order_relaxed);
     if (tree == nullptr) {
         tree = Workers::freed_aside(TriangleTree::build(*mesh, run));
     }
-    tree_count.fetch_add(1, std::memory_order_relaxed);
     kept_.push_back({scaling, mesh, tree});
     return {mesh, std::move(tree)};
 }

@@ -44,8 +44,9 @@ public:
     std::size_t triangle_count() const { return triangle_count_; }
 
     const Checked& triangles();
-    // Trees that any source has built or refitted so far.
+    // Trees that any source has built so far, and those that it has refitted in their place.
     static std::uint64_t trees_built();
+    static std::uint64_t trees_refitted();
 
     // Of sound triangles only.
     BuiltMesh built(const Mat3& scaling, const ParallelRunner& run);

@@ -124,6 +124,18 @@ TEST(Mmt, AWrongStackIsLessWrongForBeingCorrected) {
     EXPECT_LT(corrected.at("force_error_mean_N"), 0.5 * never.at("force_error_mean_N"));
 }
 
+TEST(Mmt, TheBoundErrsOnlyUntilTheFirstMistakeCanBeKnown) {
+    TeleopCase never = wrong_box(100.0);
+    never.settings.correction = Correction::none;
+    TeleopCase bound = never;
+    bound.known_after = 0.1;
+    const TeleopFigures left = run_teleop(scene(true), bound);
+    const TeleopFigures all = run_teleop(scene(true), never);
+    EXPECT_GT(left.at("force_error_mean_N"), 0.0);
+    EXPECT_LT(left.at("force_error_mean_N"), 0.5 * all.at("force_error_mean_N"));
+    EXPECT_LE(left.at("felt_excess_100ms_N_max"), all.at("felt_excess_100ms_N_max"));
+}
+
 TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
     TeleopCase lossy = wrong_box(100.0);
     lossy.forth.loss = lossy.back.loss = 0.5;

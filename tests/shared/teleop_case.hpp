@@ -94,6 +94,9 @@ struct TeleopCase {
     Vec3 gravity_believed{0.0, -9.81, 0.0};  // until it is told (unit: meters per second squared)
     std::vector<TeleopEvent> events;
     double measured_from = 0.0, measured_to = 1e9;  // ticks that count as felt excess (unit: seconds)
+    std::optional<double>
+        known_after;     // the figures are those of a way that is right so long after the first
+                         // mistake has shown, and is not felt to become so (unit: seconds)
     std::string object;  // the body whose place is compared; empty: none. box_position_error
                          // is that of the dynamic body that is off most
     std::string rows;    // CSV of every tick; empty: none

@@ -196,6 +196,22 @@ void find_excess(std::vector<TeleopRow>& rows) {
     }
 }
 
+// The least that is left to any way that hears of a mistake one delay after it has shown: no way can be right
+// before. Its force is right at once then, and nothing of that is felt; no way reaches both.
+void assume_known(std::vector<TeleopRow>& rows, double delay) {
+    const auto shows = std::ranges::find_if(rows, [](const TeleopRow& row) {
+        return row.box_error > 1e-7 || force_error(row.force, row.direct) > 1e-6;
+    });
+    const auto known = static_cast<std::ptrdiff_t>(delay / tick_seconds);
+    for (auto row = shows; row != rows.end(); ++row) {
+        if (row - shows >= known) {
+            row->force = row->direct;
+            row->box_error = row->turn_error = 0.0;
+            row->excess_1ms = row->excess_100ms = {};
+        }
+    }
+}
+
 // What is felt of the model's being put right: from the first correction on, and of nothing before it.
 void evaluate_once_told(const std::vector<TeleopRow>& rows, TeleopFigures& figures) {
     const auto first = std::ranges::find_if(rows, [](const TeleopRow& row) { return row.told; });
@@ -255,6 +271,10 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
             ? static_cast<std::size_t>((experiment.forth.delay + experiment.back.delay) / period + 1)
             : 0;
     double last_wrong = 0.0, first_touch = -1.0;
+    find_excess(rows);
+    if (experiment.known_after) {
+        assume_known(rows, *experiment.known_after);
+    }
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const TeleopRow& row = rows[i];
         const double wrong = force_error(row.force, row.direct);
@@ -289,7 +309,6 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     figures["energy_at_far_side_J"] = ports.far.total();
     figures["energy_created_J"] = ports.hand.created();
     figures["link_energy_created_J"] = ports.link_created;
-    find_excess(rows);
     evaluate_excess(rows, experiment, figures, bins);
     evaluate_once_told(rows, figures);
     figures["let_go_ticks"] =

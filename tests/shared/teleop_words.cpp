@@ -263,6 +263,10 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.replay_steps = natural;
     } else if (key == "share") {
         s.stealth.share = number;
+    } else if (key == "let_go") {
+        s.stealth.let_go_seconds = number;
+    } else if (key == "hidden_bound") {
+        s.stealth.bound = number;
     } else if (key == "estimate") {
         s.estimate.gain = number;
     } else if (key == "fade_window") {
@@ -303,6 +307,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         return read_event(value, c.events.emplace_back());
     } else if (key == "measured_from") {
         c.measured_from = number;
+    } else if (key == "known_after_ms") {
+        c.known_after = 1e-3 * number;
     } else if (key == "measured_to") {
         c.measured_to = number;
     } else if (key == "object") {

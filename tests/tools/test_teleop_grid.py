@@ -16,6 +16,13 @@ def test_what_is_never_corrected_does_not_depend_on_the_delay():
     assert all("delay_ms" in teleop_grid._keys(DESCRIPTION, name, "default") for name in _names("heavy"))
 
 
+def test_the_bound_is_told_of_places_before_and_of_the_rest_one_delay_late():
+    keys = [teleop_grid._keys(DESCRIPTION, name, teleop_grid.BOUND) for name in _names("all")]
+    assert all(one["correction"] == "none" and one["wrong.Box.mass"] == 3 for one in keys)
+    assert not any(key.endswith((".move", ".swing", ".turn")) for one in keys for key in one)
+    assert [one["known_after_ms"] for one in keys[:2]] == ["50", "200"]
+
+
 def test_traditional_touch_has_no_model_that_could_be_wrong():
     keys = [teleop_grid._keys(DESCRIPTION, name, "traditional") for name in _names("all")]
     assert not any(key.startswith("wrong.") for one in keys for key in one)

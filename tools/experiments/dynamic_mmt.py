@@ -136,7 +136,7 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
     for loss in settings.grid_losses.split(","):
         names = teleop_grid.cases(grid, scenes, wrongs, settings.grid_delays.split(","), loss)
         # With losses, the default is asked against what it has to beat there.
-        asked = schemes if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]
+        asked = [*schemes, teleop_grid.BOUND] if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]
         found = teleop_grid.run(description, names, asked, output, more)
         prefix = "grid." if loss == "0" else f"grid.loss_{loss}pct."
         summary |= teleop_grid.summary(found, prefix)

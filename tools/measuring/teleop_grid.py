@@ -11,6 +11,13 @@ from measuring import teleop_runs
 from measuring.rivals import SCHEMES
 from measuring.teleop_scene import Scene
 
+# What is left to any way: never corrected, of a model that was described right where one can look, and right itself one
+# delay after its first mistake has shown (assume_known in tests/shared/teleop_figures.cpp).
+BOUND = "bound"
+BOUND_FIGURES = (
+    "force_error_over_never_corrected_median", "force_error_over_never_corrected_p95", "felt_excess_100ms_jnd_p99",
+    "felt_excess_100ms_N_p99", "felt_excess_100ms_N_max",
+)  # fmt: skip
 WITH_LOSS = ("default", "never_corrected", "traditional")
 HANDS: dict[str, teleop_runs.Case] = {"scripted": {}, "arm": {"arm": 1}}
 # Mean force errors that differ by less are equal (newtons): a twentieth of the least force that is noticed.
@@ -59,8 +66,11 @@ def run(description: dict, names: list[str], schemes: Iterable[str], output: Pat
 def _keys(description: dict, name: str, scheme: str) -> teleop_runs.Case:
     scene, hand, wrong, delay, loss = name.split(".")
     keys: teleop_runs.Case = {"object": description["object"], "seconds": description["grid"]["seconds"]}
-    keys |= HANDS[hand] | SCHEMES[scheme]
+    keys |= HANDS[hand] | SCHEMES["never_corrected" if scheme == BOUND else scheme]
     how = dict(description["grid"]["wrong"][wrong])
+    if scheme == BOUND:
+        how = {key: value for key, value in how.items() if key in ("mass", "friction")}
+        return keys | _wrong(description, scene, how) | {"known_after_ms": delay.removesuffix("ms")}
     link = {key: how.pop(key) for key in ("pose_noise", "phase_us", "late_ms", "jitter_ms") if key in how}
     if scheme != "never_corrected" or wrong == BY_PLACE:
         # What is never corrected hears nothing; where its bodies should be is judged without a delay.
@@ -99,7 +109,8 @@ def summary(found: Found, prefix: str) -> dict[str, object]:
     result: dict[str, object] = {}
     for scheme, results in found.items():
         start = prefix if scheme == "default" else f"{prefix}{scheme}."
-        result |= {f"{start}{key}": value for key, value in figures(results, found["never_corrected"]).items()}
+        all_figures = figures(results, found["never_corrected"])
+        result |= {f"{start}{key}": all_figures[key] for key in (BOUND_FIGURES if scheme == BOUND else all_figures)}
     return result
 
 

@@ -43,7 +43,7 @@ struct StealthSettings {
     double longest_offset = 0.1;     // more is not carried (unit: meters), >= 0
     double bound = 1.0;              // no more is hidden than this share of the modelled force, >= 0
     double masked = 0.1;  // of a change of force by the hand's own way, this share may fade, too, >= 0
-    double let_go_seconds = 0.15;  // within which what is too large fades (unit: seconds), > 0
+    double let_go_seconds = 0.04;  // within which what is too large fades (unit: seconds), > 0
     double tank = 0.02;  // most energy that touch has taken and hiding may spend (unit: joules), >= 0
 };
 
