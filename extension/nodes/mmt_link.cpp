@@ -83,9 +83,7 @@ void MMTLink::restart_world() {
 }
 
 void MMTLink::scenario_changed() {
-    const Running now = !is_networked()               ? Running::alone
-                        : scenario_ == SCENARIO_ROBOT ? Running::robot
-                                                      : Running::bodies;
+    const Running now = !is_networked() ? Running::alone : has_robots() ? Running::robot : Running::bodies;
     if (std::exchange(running_, now) == now) {
         changed();
         return;

@@ -63,6 +63,8 @@ public:
     // to each of its operators. Empty: it stands alone.
     static std::vector<MMTLink*> of(const HapticWorld& world);
     bool is_networked() const { return scenario_ != SCENARIO_SINGLE; }
+    // The devices of its far side are robots.
+    bool has_robots() const { return scenario_ == SCENARIO_ROBOT; }
     bool is_operator() const { return side_ == SIDE_OPERATOR; }
     LinkPlan plan();
     // By the name of the object.

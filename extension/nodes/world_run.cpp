@@ -50,8 +50,8 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     start_links();
-    // At the far side the hand is the operator's: what is plugged in here has no part in it.
-    const bool stands_in = !links_.empty() && model_ == nullptr;
+    // At the far side the hand is the operator's: what is plugged in here has no part in it, but for robots.
+    const bool stands_in = !links_.empty() && model_ == nullptr && !links_.front().node->has_robots();
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
