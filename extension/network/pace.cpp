@@ -1,6 +1,7 @@
 #include "network/pace.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tactus {
 namespace {
@@ -14,26 +15,52 @@ constexpr Nanoseconds max_double_after = 32 * nanoseconds_per_second;
 // Who congests the way so soon after more was sent has asked for too much.
 constexpr Nanoseconds shows_after = 1'500'000'000;
 
+// The share lost is smoothed: so long it takes to tell of a change.
+constexpr Nanoseconds loss_shows_after = 2 * nanoseconds_per_second;
+constexpr double still_lost = 0.75;  // of what was lost before less was sent: that has not helped
+constexpr double lost_more = 1.3;    // than is lost anyway
+constexpr double hardly_lost = 0.5;  // of what is much
+
 }  // namespace
 
 void Pace::adapt(const LinkStatistics& link, Nanoseconds now) {
     const ClockFigures& clock = link.clock;
     const double queued = clock.mean_delay - static_cast<double>(clock.least_delay);
     queues_ = clock.known && queued > std::max(queue, times_jitter * clock.jitter);
-    const bool congested = queues_ || link.lost_there > much_lost_;
+    const bool lossy = loses(link.lost_there, now);
+    const bool congested = queues_ || lossy;
     congested_at_ = congested ? now : congested_at_;
     if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
         tried_more_ = false;
         patience_ = congested ? std::min(2 * patience_, max_double_after) : double_after;
     }
     if (congested && stride_ < max_stride && now - changed_at_ >= halve_every) {
+        lost_before_ = queues_ ? 0.0 : link.lost_there;
         stride_ *= 2;
         changed_at_ = now;
     } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= patience_) {
+        lost_before_ = 0.0;
         stride_ /= 2;
         changed_at_ = now;
         tried_more_ = true;
     }
+}
+
+// Much, and more than is lost whatever is sent. Asked again only once the last answer can have shown.
+bool Pace::loses(double lost, Nanoseconds now) {
+    if (lost <= hardly_lost * much_lost_) {
+        lost_before_ = lost_anyway_ = 0.0;
+    }
+    if (now - changed_at_ < loss_shows_after) {
+        return false;
+    }
+    if (lost_before_ > 0.0 && lost > still_lost * lost_before_) {
+        lost_anyway_ = std::max(lost, std::exchange(lost_before_, 0.0));
+        stride_ = std::max(1u, stride_ / 2);
+        changed_at_ = now;
+        return false;
+    }
+    return lost > std::max(much_lost_, lost_more * lost_anyway_);
 }
 
 }  // namespace tactus

@@ -1,7 +1,8 @@
 // How often a side sends when the network cannot take more: every tick, or every second, fourth or eighth.
 //
-// Halved where too much is lost for a while, or where what is on its way queues up; doubled again when
-// neither has been so for two seconds, or longer where that was too much the last time.
+// Halved where what is on its way queues up, or where much is lost and that makes it less: of losses that
+// stay as they are who sends is not the cause, and more packets are what helps. Doubled again when neither
+// has been so for two seconds, or longer where that was too much the last time.
 #pragma once
 
 #include "network/endpoint.hpp"
@@ -24,9 +25,13 @@ public:
 
     std::uint32_t stride() const { return stride_; }
     bool queues() const { return queues_; }
+    // Less is sent, and it is not known yet whether less is lost by it.
+    bool asks() const { return lost_before_ > 0.0; }
 
 private:
     static constexpr Nanoseconds double_after = 2 * nanoseconds_per_second;
+
+    bool loses(double lost, Nanoseconds now);
 
     double much_lost_;
     std::uint32_t stride_ = 1;
@@ -35,6 +40,8 @@ private:
     Nanoseconds changed_at_ = 0;
     Nanoseconds patience_ = double_after;  // without trouble before more is tried
     bool tried_more_ = false;              // and not known yet whether it was too much
+    double lost_before_ = 0.0;             // share lost when less was sent for it; 0: not so
+    double lost_anyway_ = 0.0;             // share that is not made less by that
 };
 
 }  // namespace tactus
