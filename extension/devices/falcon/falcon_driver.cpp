@@ -1,8 +1,8 @@
 #include "devices/falcon/falcon_driver.hpp"
 
-#include <sys/time.h>
-
 #include <algorithm>
+
+#include "platform/time_value.hpp"
 
 namespace tactus {
 
@@ -389,10 +389,7 @@ Vec3 FalconDriver::living(ForceSlot& forces, Nanoseconds now) {
 }
 
 void FalconDriver::wait(Nanoseconds until, int* until_done) {
-    const Nanoseconds span = std::max<Nanoseconds>(0, until - monotonic_now());
-    timeval time{};
-    time.tv_sec = static_cast<decltype(time.tv_sec)>(span / nanoseconds_per_second);
-    time.tv_usec = static_cast<decltype(time.tv_usec)>(span % nanoseconds_per_second / 1000);
+    timeval time = time_value(until - monotonic_now());
     usb_->handle_events_timeout_completed(context_, &time, until_done);
 }
 
