@@ -36,13 +36,8 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
 }
 
 void TeleoperatorSide::set_buffers() {
-    JitterBufferSettings buffer;
-    buffer.depth = settings().buffer_depth;
-    buffer.sparse = settings().deadband.enabled;
-    buffer.seconds = seconds_;
     peer_period_ = channel_.link().statistics().peer_hello.period;
-    buffer.sample_seconds = peer_period_ > 0 ? to_seconds(peer_period_) : seconds_;
-    buffer.guess_seconds = 2.0 * to_seconds(settings().deadband.longest_silence);
+    const JitterBufferSettings buffer = channel_.jitter_buffer(seconds_);
     for (Pointer& pointer : pointers_) {
         pointer.buffer.set_settings(buffer);
     }

@@ -12,13 +12,10 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "devices/driver_device.hpp"
-#include "platform/sleep.hpp"
+#include "shared/driven_device.hpp"
 
 namespace tactus {
 namespace {
-
-constexpr Nanoseconds ms = 1'000'000;
 
 class Service {
 public:
@@ -87,30 +84,6 @@ bool is_supported() {
     if (!is_supported()) {                                      \
         GTEST_SKIP() << "libwslay1 and libjansson4 are needed"; \
     }
-
-bool tick_until(DriverDevice& device, const Vec3& force,
-                const std::function<bool(const DeviceSample&)>& done) {
-    SleepTimer timer;
-    for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end;) {
-        const Nanoseconds now = monotonic_now();
-        const DeviceSample sample = device.read(now);
-        if (done(sample)) {
-            return true;
-        }
-        device.write(now, force);
-        timer.sleep_until(now + ms);
-    }
-    ADD_FAILURE() << "it says: " << device.health().text;
-    return false;
-}
-
-bool wait_until(const std::function<bool()>& done) {
-    SleepTimer timer;
-    for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end && !done();) {
-        timer.sleep_until(monotonic_now() + ms);
-    }
-    return done();
-}
 
 bool says(const DriverDevice& device, const std::string& words) {
     return wait_until([&] { return device.health().text.find(words) != std::string::npos; });

@@ -5,16 +5,13 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
-#include "devices/driver_device.hpp"
 #include "devices/vendors/force_dimension_driver.hpp"
 #include "devices/vendors/openhaptics_driver.hpp"
-#include "platform/sleep.hpp"
+#include "shared/driven_device.hpp"
 #include "stand_ins/stand_ins.hpp"
 
 namespace tactus {
 namespace {
-
-constexpr Nanoseconds ms = 1'000'000;
 
 template <typename StandIn>
 StandIn& stand_in(std::initializer_list<const char*> names, const char* function) {
@@ -28,30 +25,6 @@ stand_ins::ForceDimension& dhd() {
 }
 stand_ins::OpenHaptics& hd() {
     return stand_in<stand_ins::OpenHaptics>({"libHD.so"}, "stand_in_openhaptics");
-}
-
-bool tick_until(DriverDevice& device, const Vec3& force,
-                const std::function<bool(const DeviceSample&)>& done) {
-    SleepTimer timer;
-    for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end;) {
-        const Nanoseconds now = monotonic_now();
-        const DeviceSample sample = device.read(now);
-        if (done(sample)) {
-            return true;
-        }
-        device.write(now, force);
-        timer.sleep_until(now + ms);
-    }
-    ADD_FAILURE() << "it says: " << device.health().text;
-    return false;
-}
-
-bool wait_until(const std::function<bool()>& done) {
-    SleepTimer timer;
-    for (const Nanoseconds end = monotonic_now() + 20'000 * ms; monotonic_now() < end && !done();) {
-        timer.sleep_until(monotonic_now() + ms);
-    }
-    return done();
 }
 
 bool is_connected(const DeviceSample& sample) {
