@@ -108,8 +108,8 @@ private:
         double last_bent = 0.0;  // length of the last bent step (unit: meters)
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
-        int stops = 0;  // steps that something has stopped
-        Vec3 began{0.0};   // where the last step began, and which way the surfaces pushed there
+        int stops = 0;                                // steps that something has stopped
+        Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there
         Vec3 pushed{0.0};
         bool slid = false;
         bool strays = false;  // the last step was stopped at once, and would be so again: see lift

@@ -60,10 +60,11 @@ void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descen
     }
 }
 
-// A hollow of many small facets would stop the sphere at each of them. What pushes it out turns against its way
-// there: where that has turned by an angle on the last way, it is the curvature of the hollow, and a Newton step
-// on the Lagrangian is the slide over 1 + pressure * curvature. It ends as far above the facets as the hollow
-// rises on the way; they are found below it then. Of use where it goes farther than a few facets.
+// A hollow of many small facets would stop the sphere at each of them. What pushes it out turns against its
+// way there: where that has turned by an angle on the last way, it is the curvature of the hollow, and a
+// Newton step on the Lagrangian is the slide over 1 + pressure * curvature. It ends as far above the facets
+// as the hollow rises on the way; they are found below it then. Of use where it goes farther than a few
+// facets.
 void Proxy::follow_hollow(ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     const Vec3 push = step.drop + step.slide - pull;
     const double pressure = glm::length(push);

@@ -83,9 +83,9 @@ private:
     // Whose triangles a PackMemory holds.
     struct Owner {
         std::uint32_t part = 0;
-        std::uint32_t stamp = 0;     // of the part, when it was asked; another: the memory is void
-        std::uint64_t used_at = 0;   // tick
-        double density = 0.0;        // packs for each meter that a ball reaches beyond the nearest; 0: unknown
+        std::uint32_t stamp = 0;    // of the part, when it was asked; another: the memory is void
+        std::uint64_t used_at = 0;  // tick
+        double density = 0.0;       // packs for each meter that a ball reaches beyond the nearest; 0: unknown
     };
 
     bool counts(std::uint32_t part, double length, int except) const;
