@@ -17,6 +17,7 @@ MAY_INCLUDE = {
     "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
     "world": ["core", "platform", "realtime", "physics", "devices", "network", "session"],
+    "sensing": ["core", "platform", "realtime"],
     "binding": [],
     "nodes": _ENGINE_FREE,
 }
@@ -30,7 +31,7 @@ def linked(layer):
 
 SEES_JOLT = ["physics"]
 SEES_GODOT = ["binding", "nodes"]
-HAS_TEST_PROGRAM = _ENGINE_FREE
+HAS_TEST_PROGRAM = [*_ENGINE_FREE, "sensing"]
 # They divide themselves into processes as only Unix does, or forge packets.
 BENCHES_OF_LINUX = ["stress", "teleop_stress"]
 
@@ -78,7 +79,7 @@ def stage_tests(target, layer):
 
 def stage_benches(target):
     """The include folder of benches, and of the devices that are played for benches and tests."""
-    links = {name: Path("extension", name) for name in _ENGINE_FREE} | {"played": Path("tests/played")}
+    links = {name: Path("extension", name) for name in HAS_TEST_PROGRAM} | {"played": Path("tests/played")}
     return _links(target, "bench", links | _SHARED_BY_TESTS)
 
 
