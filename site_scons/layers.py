@@ -17,10 +17,14 @@ MAY_INCLUDE = {
     "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
     "world": ["core", "platform", "realtime", "physics", "devices", "network", "session"],
-    "sensing": ["core", "platform", "realtime"],
+    # A shared library of its own: nobody includes it, core/ports/depth_sensing.hpp is its door.
+    "sensing": ["core", "platform"],
     "binding": [],
     "nodes": _ENGINE_FREE,
 }
+
+# Of a layer's folders those that make its static library; the others need what not every machine has.
+EVERYWHERE = {"sensing": ["image", "discovery"]}
 
 
 def linked(layer):
@@ -55,7 +59,7 @@ def chosen(folder, pattern, system, architecture):
 
 
 def sources(layer, system, architecture):
-    return chosen(Path("extension", layer), "*.cpp", system, architecture)
+    return [path for folder in _folders(layer) for path in chosen(folder, "*.cpp", system, architecture)]
 
 
 def present():
@@ -63,7 +67,11 @@ def present():
 
 
 def with_sources(layers):
-    return [layer for layer in layers if any(Path("extension", layer).rglob("*.cpp"))]
+    return [layer for layer in layers if any(path for folder in _folders(layer) for path in folder.rglob("*.cpp"))]
+
+
+def _folders(layer):
+    return [Path("extension", layer, part) for part in EVERYWHERE.get(layer, [""])]
 
 
 def stage(target, layer):

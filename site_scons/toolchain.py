@@ -70,12 +70,12 @@ SPEAKS_GODOT = ["-fno-gnu-unique", "-ffunction-sections", "-fdata-sections"]
 
 # Jolt is compiled without run-time type information, so what derives from its classes must be, too.
 # binding/ is large, generated and never in the loop: optimising it would take most of the first build.
-# What sensing/ stands on throws.
 FLAGS_OF_LAYER = {
     "physics": ["-fno-rtti"],
-    "sensing": ["-fexceptions"],
     "binding": [*SPEAKS_GODOT, "-O1", "-g0"],
     "nodes": SPEAKS_GODOT,
+    # What stands beneath it throws; it lets nothing out: core/ports/depth_sensing.hpp.
+    "sensing": ["-fexceptions"],
 }
 
 # Run on any processor, to say what is missing on an older one.

@@ -20,8 +20,6 @@ ALLOWED = [
     ("session", '"network/thing.hpp"'),
     ("world", '"session/thing.hpp"'),
     ("world", '"platform/thing.hpp"'),
-    ("sensing", '"core/thing.hpp"'),
-    ("sensing", '"platform/thing.hpp"'),
 ]
 FORBIDDEN = [
     ("core", '"realtime/thing.hpp"'),
@@ -40,12 +38,8 @@ FORBIDDEN = [
     ("world", '"nodes/thing.hpp"'),
     ("world", "<godot_cpp/classes/node.hpp>"),
     ("world", "<Jolt/Jolt.h>"),
-    ("world", '"sensing/thing.hpp"'),
-    ("sensing", '"session/thing.hpp"'),
-    ("sensing", '"devices/thing.hpp"'),
-    ("sensing", "<godot_cpp/classes/node.hpp>"),
 ]
-LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world", "sensing"]
+LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world"]
 
 
 def _object(number: int, layer: str) -> str:
