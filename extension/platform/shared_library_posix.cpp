@@ -13,4 +13,9 @@ void* function_of_library(const std::string& library, const char* name, std::str
     return function;
 }
 
+std::string path_of_this_library(const void* inside) {
+    Dl_info info{};
+    return dladdr(inside, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "";
+}
+
 }  // namespace tactus
