@@ -1,14 +1,11 @@
 #include "sensing/openni/openni.hpp"
 
-#include <dlfcn.h>
-#include <unistd.h>
-
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 
+#include "platform/shared_library.hpp"
 #include "sensing/openni/staging.hpp"
 #include "sensing/synthetic_camera/scene_memory.hpp"
 
@@ -19,12 +16,13 @@ namespace fs = std::filesystem;
 namespace {
 
 template <typename Function>
-bool find(void* library, const char* name, Function& function) {
-    function = reinterpret_cast<Function>(dlsym(library, name));
+bool find(const std::string& library, const char* name, Function& function) {
+    std::string error;
+    function = reinterpret_cast<Function>(function_of_library(library, name, error));
     return function != nullptr;
 }
 
-bool find_all(void* library, OpenNiFunctions& oni) {
+bool find_all(const std::string& library, OpenNiFunctions& oni) {
     return find(library, "oniInitialize", oni.initialize) &&
            find(library, "oniGetExtendedError", oni.get_extended_error) &&
            find(library, "oniGetDeviceList", oni.get_device_list) &&
@@ -53,38 +51,23 @@ bool find_all(void* library, OpenNiFunctions& oni) {
            find(library, "oniRecorderDestroy", oni.recorder_destroy);
 }
 
-// A name that nobody else has.
-fs::path new_folder() {
-    std::string name = (fs::temp_directory_path() / "tactus_openni_XXXXXX").string();
-    return mkdtemp(name.data()) != nullptr ? fs::path(name) : fs::path();
-}
-
 // Initialised, or why not. While it looks for its drivers, OpenNI2 makes their folder the program's own.
 std::string start(const std::string& own_driver, OpenNiFunctions& oni) {
     const fs::path installed = find_openni();
     if (installed.empty()) {
         return "OpenNI2 is not installed: install it (Debian: apt-get install libopenni2-0)";
     }
-    const fs::path folder = new_folder();
-    if (folder.empty()) {
-        return "OpenNI2 is given no folder for its drivers: let " + fs::temp_directory_path().string() +
-               " be written to";
-    }
-    const Stage stage(folder, installed, own_driver);
-    void* const library = dlopen(stage.library().c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) {
-        return std::string("OpenNI2 could not be loaded: ") + dlerror();
-    }
+    const Stage stage(installed, own_driver);
     std::string error;
-    if (!find_all(library, oni)) {
-        error = "the OpenNI2 on this system is too old: version 2.2 or later is needed";
-    } else if (oni.initialize(ONI_API_VERSION) != ONI_STATUS_OK) {
-        error = std::string("OpenNI2 does not start: ") + oni.get_extended_error();
+    if (function_of_library(stage.library(), "oniInitialize", error) == nullptr) {
+        return "OpenNI2 could not be loaded: " + error;
     }
-    if (!error.empty()) {
-        dlclose(library);  // it would keep its path, and find no drivers there the next time
+    if (!find_all(stage.library(), oni)) {
+        return "the OpenNI2 on this system is too old: version 2.2 or later is needed";
     }
-    return error;
+    return oni.initialize(ONI_API_VERSION) == ONI_STATUS_OK
+               ? ""
+               : std::string("OpenNI2 does not start: ") + oni.get_extended_error();
 }
 
 }  // namespace

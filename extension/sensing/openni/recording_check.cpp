@@ -1,14 +1,10 @@
 #include "sensing/openni/recording_check.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
+
+#include "platform/mapped_file.hpp"
 
 namespace tactus {
 
@@ -87,24 +83,9 @@ std::string check_recording(std::span<const std::byte> file) {
 }
 
 std::string check_recording(const std::string& path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    struct stat status{};
-    if (file < 0 || fstat(file, &status) != 0) {
-        const std::string why = std::strerror(errno);
-        if (file >= 0) {
-            close(file);
-        }
-        return why;
-    }
-    const auto bytes = static_cast<std::size_t>(status.st_size);
-    void* const mapped = bytes > 0 ? mmap(nullptr, bytes, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
-    close(file);
-    if (mapped == MAP_FAILED) {
-        return "it is empty";
-    }
-    const std::string found = check_recording({static_cast<const std::byte*>(mapped), bytes});
-    munmap(mapped, bytes);
-    return found;
+    MappedFile file;
+    const std::string error = file.open(path);
+    return error.empty() ? check_recording(file.bytes()) : error;
 }
 
 }  // namespace tactus

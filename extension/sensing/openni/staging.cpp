@@ -1,9 +1,11 @@
 #include "sensing/openni/staging.hpp"
 
-#include <dlfcn.h>
-#include <link.h>
-
 #include <cstdlib>
+#include <random>
+#include <string>
+#include <system_error>
+
+#include "platform/shared_library.hpp"
 
 namespace tactus {
 
@@ -41,22 +43,16 @@ fs::path named_by(const char* variable) {
     return {};
 }
 
-// As the system's loader finds it. It does not stay: a library that is loaded keeps its first path.
+// It must not stay loaded: a library keeps the path that it was loaded by.
 fs::path found_by_loader() {
-    for (const char* name : {library_name, "libOpenNI2.so"}) {
-        void* const loaded = dlopen(name, RTLD_LAZY | RTLD_LOCAL);
-        if (loaded == nullptr) {
-            continue;
-        }
-        link_map* map = nullptr;
-        fs::path path;
-        if (dlinfo(loaded, RTLD_DI_LINKMAP, &map) == 0) {
-            path = map->l_name;
-        }
-        dlclose(loaded);
-        return path;
-    }
-    return {};
+    const std::string file = file_of_library(library_name);
+    return file.empty() ? file_of_library("libOpenNI2.so") : file;
+}
+
+fs::path new_folder_name() {
+    std::random_device random;
+    return fs::temp_directory_path() /
+           ("tactus_openni_" + std::to_string(random()) + std::to_string(random()));
 }
 
 }  // namespace
@@ -71,7 +67,12 @@ fs::path find_openni() {
     return {};
 }
 
-Stage::Stage(const fs::path& folder, const fs::path& library, const fs::path& own_driver) : folder_(folder) {
+Stage::Stage(const fs::path& library, const fs::path& own_driver) : folder_(name()) {
+    if (!fs::create_directory(folder_)) {
+        throw fs::filesystem_error("somebody else has it", folder_,
+                                   std::make_error_code(std::errc::file_exists));
+    }
+    fs::permissions(folder_, fs::perms::owner_all);
     fs::create_symlink(library, folder_ / library_name);
     fs::create_directories(folder_ / drivers);
     const fs::path of_system = library.parent_path() / drivers;
@@ -87,6 +88,11 @@ Stage::Stage(const fs::path& folder, const fs::path& library, const fs::path& ow
     if (!own_driver.empty() && fs::exists(own_driver)) {
         fs::create_symlink(fs::canonical(own_driver), folder_ / drivers / name_of_driver(own_driver));
     }
+}
+
+const fs::path& Stage::name() {
+    static const fs::path folder = new_folder_name();
+    return folder;
 }
 
 Stage::~Stage() {

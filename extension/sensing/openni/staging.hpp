@@ -11,12 +11,12 @@ namespace tactus {
 std::filesystem::path find_openni();
 
 // Links to the library and to the drivers beside it, in a folder of this user alone that is there while
-// OpenNI2 starts.
+// OpenNI2 starts. Its name is the same in the whole program: a library that was loaded once looks there
+// again.
 class Stage {
 public:
-    // `folder` is empty, and goes with this. Throws std::filesystem::filesystem_error.
-    Stage(const std::filesystem::path& folder, const std::filesystem::path& library,
-          const std::filesystem::path& own_driver);
+    // Throws std::filesystem::filesystem_error. One at a time.
+    Stage(const std::filesystem::path& library, const std::filesystem::path& own_driver);
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
@@ -24,6 +24,8 @@ public:
     std::filesystem::path library() const;
 
 private:
+    static const std::filesystem::path& name();
+
     std::filesystem::path folder_;
 };
 

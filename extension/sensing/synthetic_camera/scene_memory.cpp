@@ -1,25 +1,19 @@
 #include "sensing/synthetic_camera/scene_memory.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <new>
 #include <stdexcept>
-#include <system_error>
 
 namespace tactus {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-    throw std::system_error(errno, std::generic_category(), what);
+void require(const std::string& error) {
+    if (!error.empty()) {
+        throw std::runtime_error(error);
+    }
 }
 
 PlainPose plain(const Pose& pose) {
@@ -114,66 +108,18 @@ std::string path_of(const std::string& uri) {
 
 }  // namespace
 
-SharedFile::SharedFile(std::size_t bytes) : is_own_(true) {
-    path_ = (std::filesystem::temp_directory_path() / "tactus_scene_XXXXXX").string();
-    const int file = mkostemp(path_.data(), O_CLOEXEC);
-    if (file < 0) {
-        fail("no file for a scene in " + std::filesystem::temp_directory_path().string());
-    }
-    if (ftruncate(file, static_cast<off_t>(bytes)) != 0) {
-        const int error = errno;
-        close(file);
-        unlink(path_.c_str());
-        errno = error;
-        fail("no room for " + path_);
-    }
-    map(file, true);
-}
-
-SharedFile::SharedFile(const std::string& path) : path_(path) {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) {
-        fail(path);
-    }
-    map(file, false);
-}
-
-void SharedFile::map(int file, bool is_own) {
-    struct stat status{};
-    void* mapped = MAP_FAILED;
-    if (fstat(file, &status) == 0 && status.st_size > 0) {
-        mapped = mmap(nullptr, static_cast<std::size_t>(status.st_size),
-                      is_own ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, file, 0);
-    }
-    const int error = errno;
-    close(file);
-    if (mapped == MAP_FAILED) {
-        errno = error;
-        fail(path_);
-    }
-    bytes_ = {static_cast<std::byte*>(mapped), static_cast<std::size_t>(status.st_size)};
-}
-
-SharedFile::~SharedFile() {
-    if (!bytes_.empty()) {
-        munmap(bytes_.data(), bytes_.size());
-    }
-    if (is_own_) {
-        unlink(path_.c_str());
-    }
-}
-
-SceneWriter::SceneWriter(const SyntheticCamera& camera, std::span<const MeshView> meshes)
-    : file_(bytes_of(meshes)), header_(*new(file_.bytes().data()) SceneHeader) {
-    header_.bytes = file_.bytes().size();
-    header_.width = camera.width;
-    header_.height = camera.height;
-    header_.field_of_view = camera.field_of_view;
-    header_.rate = camera.rate;
-    header_.depth_error = camera.depth_error;
-    header_.noise = camera.noise;
-    header_.seed = camera.seed;
-    header_.mesh_count = static_cast<std::uint32_t>(meshes.size());
+SceneWriter::SceneWriter(const SyntheticCamera& camera, std::span<const MeshView> meshes) {
+    require(file_.create("tactus_scene_", bytes_of(meshes)));
+    header_ = new (file_.bytes().data()) SceneHeader;
+    header_->bytes = file_.bytes().size();
+    header_->width = camera.width;
+    header_->height = camera.height;
+    header_->field_of_view = camera.field_of_view;
+    header_->rate = camera.rate;
+    header_->depth_error = camera.depth_error;
+    header_->noise = camera.noise;
+    header_->seed = camera.seed;
+    header_->mesh_count = static_cast<std::uint32_t>(meshes.size());
     std::byte* to = file_.bytes().data() + aligned(sizeof(SceneHeader));
     for (const MeshView& mesh : meshes) {
         write_mesh(mesh, to);
@@ -183,41 +129,42 @@ SceneWriter::SceneWriter(const SyntheticCamera& camera, std::span<const MeshView
 
 template <class Change>
 void SceneWriter::change(const Change& change) {
-    const std::uint32_t before = header_.sequence.load(std::memory_order_relaxed);
-    header_.sequence.store(before + 1, std::memory_order_relaxed);
+    const std::uint32_t before = header_->sequence.load(std::memory_order_relaxed);
+    header_->sequence.store(before + 1, std::memory_order_relaxed);
     std::atomic_thread_fence(std::memory_order_release);
     change();
-    header_.sequence.store(before + 2, std::memory_order_release);
+    header_->sequence.store(before + 2, std::memory_order_release);
 }
 
 void SceneWriter::show(const Pose& camera, std::span<const ShownBody> bodies, std::uint64_t time) {
     const std::span<const ShownBody> shown = bodies.first(std::min(bodies.size(), most_shown_bodies));
     change([&] {
-        ++header_.shown;
-        header_.time = time;
-        header_.camera = plain(camera);
-        header_.body_count = static_cast<std::uint32_t>(shown.size());
+        ++header_->shown;
+        header_->time = time;
+        header_->camera = plain(camera);
+        header_->body_count = static_cast<std::uint32_t>(shown.size());
         for (std::size_t i = 0; i < shown.size(); ++i) {
-            header_.bodies[i] = {shown[i].mesh, 0, plain(shown[i].pose)};
+            header_->bodies[i] = {shown[i].mesh, 0, plain(shown[i].pose)};
         }
     });
 }
 
 void SceneWriter::set_plug(Plug plug) {
-    change([&] { header_.plug = plug; });
+    change([&] { header_->plug = plug; });
 }
 
-SceneReader::SceneReader(const std::string& uri)
-    : file_(path_of(uri)), header_(*reinterpret_cast<const SceneHeader*>(file_.bytes().data())) {
+SceneReader::SceneReader(const std::string& uri) {
+    require(file_.open(path_of(uri)));
     const std::size_t bytes = file_.bytes().size();
-    if (bytes < sizeof(SceneHeader) || !is_sound(header_, bytes)) {
+    header_ = reinterpret_cast<const SceneHeader*>(file_.bytes().data());
+    if (bytes < sizeof(SceneHeader) || !is_sound(*header_, bytes)) {
         throw std::runtime_error("not the file of a scene, or of another version: " + file_.path());
     }
-    camera_ = {header_.width,       header_.height, header_.field_of_view, header_.rate,
-               header_.depth_error, header_.noise,  header_.seed};
+    camera_ = {header_->width,       header_->height, header_->field_of_view, header_->rate,
+               header_->depth_error, header_->noise,  header_->seed};
     Cursor cursor(file_.bytes());
     cursor.take(aligned(sizeof(SceneHeader)));
-    for (std::uint32_t i = 0; i < header_.mesh_count; ++i) {
+    for (std::uint32_t i = 0; i < header_->mesh_count; ++i) {
         meshes_.push_back(read_mesh(cursor));
     }
 }
@@ -226,24 +173,24 @@ bool SceneReader::read(SceneState& state) const {
     // The writer needs a microsecond.
     constexpr int most_tries = 1000;
     for (int i = 0; i < most_tries; ++i) {
-        const std::uint32_t before = header_.sequence.load(std::memory_order_acquire);
+        const std::uint32_t before = header_->sequence.load(std::memory_order_acquire);
         if (before % 2 != 0) {
             continue;
         }
-        state.shown = header_.shown;
-        state.plug = header_.plug;
-        state.time = header_.time;
-        state.camera = pose_of(header_.camera);
+        state.shown = header_->shown;
+        state.plug = header_->plug;
+        state.time = header_->time;
+        state.camera = pose_of(header_->camera);
         state.bodies.clear();
-        const std::size_t count = std::min<std::size_t>(header_.body_count, most_shown_bodies);
+        const std::size_t count = std::min<std::size_t>(header_->body_count, most_shown_bodies);
         for (std::size_t body = 0; body < count; ++body) {
-            const PlainBody& shown = header_.bodies[body];
+            const PlainBody& shown = header_->bodies[body];
             if (shown.mesh < meshes_.size()) {
                 state.bodies.push_back({shown.mesh, pose_of(shown.pose)});
             }
         }
         std::atomic_thread_fence(std::memory_order_acquire);
-        if (header_.sequence.load(std::memory_order_relaxed) == before) {
+        if (header_->sequence.load(std::memory_order_relaxed) == before) {
             return true;
         }
     }

@@ -15,6 +15,7 @@
 
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/ports/depth_sensing.hpp"
+#include "platform/mapped_file.hpp"
 
 namespace tactus {
 
@@ -63,28 +64,6 @@ struct MeshHeader {
     std::uint32_t triangle_count = 0;
 };
 
-// A file that is mapped into memory, and gone from the disk with who made it.
-class SharedFile {
-public:
-    // A new one, of a name that nobody else has. Throws std::system_error.
-    explicit SharedFile(std::size_t bytes);
-    // Somebody else's. Throws std::system_error.
-    explicit SharedFile(const std::string& path);
-    ~SharedFile();
-    SharedFile(const SharedFile&) = delete;
-    SharedFile& operator=(const SharedFile&) = delete;
-
-    std::span<std::byte> bytes() const { return bytes_; }
-    const std::string& path() const { return path_; }
-
-private:
-    void map(int file, bool is_own);
-
-    std::string path_;
-    std::span<std::byte> bytes_;
-    bool is_own_ = false;
-};
-
 // What one frame shows.
 struct SceneState {
     std::uint32_t shown = 0;
@@ -97,7 +76,7 @@ struct SceneState {
 // For whoever has the scene: one thread.
 class SceneWriter {
 public:
-    // Throws std::system_error.
+    // Throws std::runtime_error.
     SceneWriter(const SyntheticCamera& camera, std::span<const MeshView> meshes);
     ~SceneWriter() { set_plug(Plug::gone); }
 
@@ -109,14 +88,14 @@ private:
     template <class Change>
     void change(const Change& change);
 
-    SharedFile file_;
-    SceneHeader& header_;
+    MappedFile file_;
+    SceneHeader* header_ = nullptr;
 };
 
 // For the driver. What does not make sense is refused when it is opened; what is torn is read again.
 class SceneReader {
 public:
-    // Throws std::system_error or std::runtime_error.
+    // Throws std::runtime_error.
     explicit SceneReader(const std::string& uri);
 
     const SyntheticCamera& camera() const { return camera_; }
@@ -125,8 +104,8 @@ public:
     bool read(SceneState& state) const;
 
 private:
-    SharedFile file_;
-    const SceneHeader& header_;
+    MappedFile file_;
+    const SceneHeader* header_ = nullptr;
     SyntheticCamera camera_;
     std::vector<TriangleMesh> meshes_;
 };
