@@ -166,7 +166,7 @@ bool ModelBuilder::add_prepared() {
 }
 
 void ModelBuilder::add(Preparing& prepared) {
-    ModelObject made{prepared.object, prepared.name, no_handle, {}, prepared.ready.motion};
+    ModelObject made{prepared.object, prepared.name, no_handle, {}, false, prepared.ready.motion};
     const auto before = find_before(prepared.object, prepared.name);
     FormerBody former;
     if (before != objects_.end() && is_same(*before, made)) {

@@ -26,8 +26,8 @@ struct ModelObject {
     std::string name;                // the far node's path below its HapticWorld
     SessionHandle body = no_handle;  // no_handle: it could not be built
     std::string problem;             // why
-    Motion motion = Motion::Static;
-    bool outdated = false;  // of an earlier start of the far side, which has not described it yet
+    bool outdated = false;           // of an earlier start of the far side, which has not described it yet
+    Motion motion = Motion::Static;  // as it was described
 };
 
 class ModelBuilder {
