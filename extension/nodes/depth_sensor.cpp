@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
@@ -87,8 +86,7 @@ String DepthSensor::problem() const {
     }
     if (source_ == SOURCE_SYNTHETIC && is_inside_tree() && !synthetic_scene_.is_empty() &&
         get_node_or_null(synthetic_scene_) == nullptr) {
-        return "its synthetic scene '" + String(synthetic_scene_) +
-               "' is not there: set 'synthetic_scene' anew, or leave it empty for the whole scene";
+        return wrong_path("synthetic_scene", synthetic_scene_, "a node");
     }
     if (bodies_ != BODIES_NONE && is_inside_tree() && HapticWorld::above(this) == nullptr) {
         return "what it finds cannot be touched outside of a HapticWorld: put it below one, or set 'bodies' "
@@ -96,16 +94,6 @@ String DepthSensor::problem() const {
                "none";
     }
     return to_godot(library_error_);
-}
-
-void DepthSensor::_validate_property(PropertyInfo& property) const {
-    const String name = property.name;
-    const bool is_of_another = (name == "camera_id" && source_ != SOURCE_CAMERA) ||
-                               ((name == "recording" || name == "repeats") && source_ != SOURCE_RECORDING) ||
-                               (name.begins_with("synthetic_") && source_ != SOURCE_SYNTHETIC);
-    if (is_of_another) {
-        property.usage = PROPERTY_USAGE_STORAGE;
-    }
 }
 
 // --- looking
@@ -117,7 +105,7 @@ const Sight& DepthSensor::sight() const {
 
 void DepthSensor::begin() {
     set_process_internal(false);
-    if (!active_ || Engine::get_singleton()->is_editor_hint() || !is_inside_tree()) {
+    if (!active_ || is_edited() || !is_inside_tree()) {
         return;
     }
     set_process_internal(true);
@@ -174,7 +162,7 @@ void DepthSensor::pass_on_library() {
     std::vector<KnownMesh> known;
     const PackedStringArray names = library_names();
     for (int64_t i = 0; i < names.size(); ++i) {
-        const LibraryMesh loaded = load_library_mesh(names[i]);
+        const TriangleSource::Checked loaded = load_library_mesh(names[i])->triangles();
         if (loaded.mesh == nullptr) {
             library_error_ = loaded.error;
             continue;
@@ -385,7 +373,7 @@ PackedStringArray DepthSensor::_get_configuration_warnings() const {
 void DepthSensor::_notification(int what) {
     if (what == NOTIFICATION_ENTER_TREE) {
         // Only what is to be touched needs a world.
-        if (Engine::get_singleton()->is_editor_hint() || bodies_ != BODIES_NONE) {
+        if (is_edited() || bodies_ != BODIES_NONE) {
             watch_warnings(*this);
         }
         begin();
