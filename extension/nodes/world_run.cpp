@@ -12,6 +12,8 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
+#include "world/scene_telling.hpp"
 
 namespace tactus {
 
@@ -46,7 +48,7 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
       settings_(settings),
       session_(settings.session),
       loop_(session_, settings.real_time),
-      bodies_(settings.session.most_bodies, settings.real_time) {
+      bodies_(world, settings.session.most_bodies, settings.real_time, complaints_) {
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     start_links();
@@ -79,6 +81,7 @@ void WorldRun::end() {
         }
     }
     hands_->release();
+    recording_.reset();  // whoever closes its files is not to wait for this run to go
 }
 
 // --- time
@@ -116,10 +119,16 @@ void WorldRun::synchronise(double seconds) {
     }
     hands_->synchronise(session_, complaints_);
     look_at_scene();
-    synchronise_recorder();
-    synchronise_feedback();
+    synchronise_recorders();
+    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
+        if (!feedback->is_wanted()) {
+            forget(*feedback);
+        } else if (HapticWorld::of(feedback) == &world_) {
+            give_ticks(*feedback, feedback->ring(), no_handle);
+        }
+    }
     if (!session_.collect()) {
-        retired_.clear();
+        listeners_.forget_retired();
         hands_->forget_retired();
     }
 }
@@ -131,9 +140,10 @@ void WorldRun::look_at_scene() {
     if (++looks_ < first || (looks_ - first) % frames_between != 0 || model_ != nullptr) {
         return;
     }
-    const SceneFacts facts = bodies_.facts();
+    const BodyMirrors& mirrors = bodies_.mirrors();
+    const SceneFacts facts = mirrors.facts();
     hands_->look_at_scene(facts, complaints_);
-    if (bodies_.bodies().empty()) {
+    if (mirrors.bodies().empty()) {
         complaints_.say(world_, problem_of_emptiness(world_));
     } else if (looks_ == first) {
         complaints_.say(world_, problem_of_outside(world_));
@@ -158,15 +168,14 @@ void WorldRun::synchronise_bodies(double seconds) {
     const TouchMaterial touch = world_.default_touch();
     const std::shared_ptr<const HeightImage> texture = world_.default_texture();
     if (!same_values(touch, defaults_.touch) || texture != defaults_.texture) {
-        bodies_.note_all_changed();
+        bodies_.mirrors().note_all_changed();
     }
     defaults_.touch = touch;
     defaults_.texture = texture;
-    bodies_.touched(hands_->touched());
+    bodies_.mirrors().touched(hands_->touched());
     // In real time a tick may be under way that has already taken its commands.
     const std::uint64_t takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
-    bodies_.synchronise(
-        world_, {session_, complaints_, Workers::shared(), defaults_, seconds, takes_effect, nullptr});
+    bodies_.synchronise({session_, Workers::shared(), defaults_, seconds, takes_effect});
 }
 
 // --- the far side
@@ -205,137 +214,72 @@ void WorldRun::synchronise_links() {
         }
     }
     if (!links_.empty() && model_ == nullptr) {
-        tell_far_side(now);
-    }
-}
-
-void WorldRun::tell_far_side(Nanoseconds now) {
-    std::vector<WorldLink::Told> told;
-    std::vector<const BodyMirror*> mirrors;
-    for (const auto& mirror : bodies_.bodies()) {
-        if (mirror->handle() != no_handle && mirror->body() != nullptr) {
-            told.push_back({mirror->handle(), mirror->twin().revision()});
-            mirrors.push_back(mirror.get());
-        }
-    }
-    std::vector<WorldLink::ToldJoint> joints;
-    for (const auto& joint : bodies_.joints()) {
-        if (const JointTwin& twin = joint->twin(); twin.handle() != no_handle) {
-            joints.push_back(
-                {twin.handle(), twin.first(), twin.second(), &twin.joined(), joint->id(), twin.revision()});
-        }
-    }
-    const auto describe = [&](std::size_t i) {
-        return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
-                                      mirrors[i]->twin().addition()};
-    };
-    for (const OwnLink& link : links_) {
-        link.link->tell(told, describe, joints, session_.snapshot(), now);
+        std::vector<WorldLink*> all;
+        std::ranges::transform(links_, std::back_inserter(all),
+                               [](const OwnLink& own) { return own.link.get(); });
+        tell(bodies_.mirrors(), all, session_.snapshot(), now);
     }
 }
 
 // --- recording
 
-void WorldRun::synchronise_recorder() {
-    if (recorder_ != nullptr && !recorder_->is_recording()) {
-        forget(recorder_);
-    }
+void WorldRun::synchronise_recorders() {
     for (HapticRecorder* recorder : Roll<HapticRecorder>::all()) {
-        if (recorder == recorder_ || !recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
+        if (!recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
             continue;
         }
-        if (recorder_ != nullptr) {
-            complaints_.say(*recorder, "another HapticRecorder, " + name_of(*recorder_) +
+        if (recording_ == nullptr) {
+            recorder_ = recorder->get_instance_id();
+            recording_ = recorder->recording();
+            if (recording_->has_trace()) {
+                complaints_.say(world_, loop_.trace_ticks());
+            }
+        }
+        if (recording_ == recorder->recording()) {
+            give_ticks(*recorder, recording_->ring(), body_of(recorder->object_node()));
+        } else {
+            complaints_.say(*recorder, "another HapticRecorder, " + name_of(*node_of_id<Node>(recorder_)) +
                                            ", records this world already: stop that one first");
-            continue;
-        }
-        recorder_ = recorder;
-        recorded_proxy_ = no_handle;
-        if (recorder->recording().has_trace()) {
-            complaints_.say(world_, loop_.trace_ticks());
-        }
-    }
-    if (recorder_ == nullptr) {
-        return;
-    }
-    const ProxyPointer* node = recorder_->proxy_node();
-    const SessionHandle proxy = hands_->handle_of(node);
-    const Node* object_node = recorder_->object_node();
-    const SessionHandle object = body_of(object_node);
-    complaints_.say(*recorder_, recorder_->problem());
-    if (proxy != no_handle && (proxy != recorded_proxy_ || object != recorded_object_)) {
-        recorded_proxy_ = proxy;
-        recorded_object_ = object;
-        if (!session_.record(*recorder_->recording().ring(), proxy, object)) {
-            complaints_.say(*recorder_, too_many_recordings);
         }
     }
 }
 
-void WorldRun::synchronise_feedback() {
-    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
-        const bool is_known = std::ranges::find(listeners_, feedback, &Listener::node) != listeners_.end();
-        if (!is_known && HapticWorld::of(feedback) == &world_) {
-            listeners_.push_back({feedback, feedback->ring(), no_handle});
-        }
-    }
-    for (Listener& listener : listeners_) {
-        complaints_.say(*listener.node, listener.node->problem());
-        const SessionHandle proxy = hands_->handle_of(listener.node->proxy_node());
-        if (proxy == no_handle || proxy == listener.proxy) {
-            continue;
-        }
-        if (session_.record(*listener.ring, proxy, no_handle)) {
-            listener.proxy = proxy;
-        } else {
-            complaints_.say(*listener.node, too_many_recordings);
-        }
+template <class NodeType>
+void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body) {
+    complaints_.say(node, node.problem());
+    const SessionHandle proxy = hands_->handle_of(node.proxy_node());
+    if (proxy != no_handle && !listeners_.listen(session_, node.get_instance_id(), ring, proxy, body)) {
+        complaints_.say(node, too_many_recordings);
     }
 }
 
 void WorldRun::drain() {
-    if (recorder_ == nullptr || !recorder_->is_recording()) {
+    if (recording_ == nullptr) {
         return;
     }
-    recorder_->recording().drain(loop_.epoch());
+    recording_->drain(loop_.epoch());
     if (TickTrace* trace = loop_.trace()) {
-        recorder_->recording().drain(*trace);
+        recording_->drain(*trace);
     }
 }
 
 // --- what leaves
 
-void WorldRun::forget(HapticRecorder* recorder) {
-    if (recorder_ == nullptr || recorder != recorder_) {
-        return;
-    }
-    if (recorder_->is_recording()) {
-        session_.end_recording(*recorder_->recording().ring());
-        retired_.push_back(recorder_->recording().ring());
-    }
-    recorder_ = nullptr;
+void WorldRun::forget(HapticFeedback& feedback) {
+    listeners_.end(session_, feedback.get_instance_id());
 }
 
-void WorldRun::forget(HapticFeedback* feedback) {
-    for (const Listener& listener : listeners_) {
-        if (listener.node == feedback) {
-            session_.end_recording(*listener.ring);
-            retired_.push_back(listener.ring);
-        }
-    }
-    std::erase_if(listeners_, [feedback](const Listener& listener) { return listener.node == feedback; });
-}
-
-void WorldRun::forget(MMTLink* link) {
+void WorldRun::forget(MMTLink& link) {
     for (OwnLink& one : links_) {
-        one.node = one.node == link ? nullptr : one.node;
+        one.node = one.node == &link ? nullptr : one.node;
     }
 }
 
-void WorldRun::finish(HapticRecorder* recorder) {
-    if (recorder == recorder_) {
+void WorldRun::finish(HapticRecorder& recorder) {
+    if (recorder.recording() == recording_) {
         drain();
-        forget(recorder);
+        listeners_.end(session_, recorder_);
+        recording_.reset();
     }
 }
 
@@ -372,7 +316,7 @@ void WorldRun::show() {
     }
     // A script may have freed some of them by now.
     for (const auto& [id, report] : reports) {
-        if (auto* node = Object::cast_to<MMTLink>(ObjectDB::get_instance(id))) {
+        if (auto* node = node_of_id<MMTLink>(id)) {
             node->take_report(report, news);
         }
     }
@@ -390,18 +334,7 @@ std::vector<std::string> WorldRun::problems() const {
     for (const OwnLink& link : links_) {
         std::ranges::move(link.link->problems(), std::back_inserter(all));
     }
-    for (const auto& mirror : bodies_.bodies()) {
-        const CollisionObject3D* body = mirror->body();
-        for (const std::string& problem : mirror->problems()) {
-            all.push_back((body != nullptr ? from_godot(name_of(*body)) : std::string("a body")) + ": " +
-                          problem);
-        }
-    }
-    for (const auto& joint : bodies_.joints()) {
-        if (joint->node() != nullptr && !joint->problem().empty()) {
-            all.push_back(from_godot(name_of(*joint->node())) + ": " + joint->problem());
-        }
-    }
+    std::ranges::move(bodies_.mirrors().problems(), std::back_inserter(all));
     return all;
 }
 
