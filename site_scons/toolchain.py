@@ -102,6 +102,10 @@ def openni():
     return [folder for folder in found if (folder / "OniCAPI.h").is_file() and (folder / "Driver/OniDriverAPI.h").is_file()][:1]
 
 
+# A library that is loaded later finds the played calls first.
+LINK_PLAYED = ["-Wl,--export-dynamic-symbol=poll,--export-dynamic-symbol=ioctl"]
+
+
 def umockdev():
     """Flags to compile and link with umockdev, which plays devices of the system; none where it is not installed."""
     command = ["pkg-config", "--cflags", "--libs", "umockdev-1.0"]
