@@ -253,7 +253,7 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     for (const ModelNews& one : news) {
         switch (one.kind) {
             case ModelNews::Kind::discovered:
-                say("object_discovered", to_godot(one.name), NodeId{one.node});
+                say("object_discovered", to_godot(one.name), SignalArgument::object(one.node));
                 break;
             case ModelNews::Kind::removed:
                 say("object_removed", to_godot(one.name));
