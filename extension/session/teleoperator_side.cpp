@@ -29,24 +29,13 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
                                    const PointerShare& share)
     : channel_(settings, link, std::move(port), endpoint),
       share_(share),
+      hands_(channel_, share.most(), to_seconds(session.period)),
       seconds_(to_seconds(session.period)),
       moved_at_(session.most_bodies),
-      told_(session.most_bodies) {
-    set_buffers();
-}
-
-void TeleoperatorSide::set_buffers() {
-    peer_period_ = channel_.link().statistics().peer_hello.period;
-    const JitterBufferSettings buffer = channel_.jitter_buffer(seconds_);
-    for (Pointer& pointer : pointers_) {
-        pointer.buffer.set_settings(buffer);
-    }
-}
+      told_(session.most_bodies) {}
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (channel_.begin_tick(now)) {
-        set_buffers();
-    }
+    const bool changed = channel_.begin_tick(now);
     take_orders();
     ++tick_;
     receive();
@@ -54,15 +43,13 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         lost_at_ = missing > missing_ ? tick_ : lost_at_;
         missing_ = missing;
     }
-    if (channel_.link().statistics().peer_hello.period != peer_period_) {
-        set_buffers();
-    }
+    hands_.follow(channel_, changed);
     if (!channel_.link().hears_peer()) {
         release_hands();
     }
     for (std::size_t i = 0; i < share_.most(); ++i) {
         if (SessionLoop::ProxySlot& slot = slot_of(loop, i); slot.proxy) {
-            play(loop, pointers_[i], slot);
+            play(loop, i, slot);
         }
     }
 }
@@ -88,11 +75,7 @@ void TeleoperatorSide::receive() {
         start_over_if_peer_has();
         const Message& message = packet->message;
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
-            for (std::size_t i = 0; i < samples->count; ++i) {
-                if (samples->samples[i].pointer < share_.most()) {
-                    pointers_[samples->samples[i].pointer].buffer.insert(samples->samples[i]);
-                }
-            }
+            hands_.take(*samples);
         } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&message)) {
             discovery_.take(*known);
         }
@@ -109,10 +92,8 @@ void TeleoperatorSide::start_over_if_peer_has() {
 // Nobody is there: the pointers touch nothing, and what comes next is a new beginning.
 void TeleoperatorSide::release_hands() {
     newest_applied_ = no_sample;
+    hands_.restart();
     for (Pointer& pointer : pointers_) {
-        if (pointer.buffer.counts().exact > 0) {
-            pointer.buffer.restart();
-        }
         pointer.holds = false;
     }
 }
@@ -131,8 +112,9 @@ void TeleoperatorSide::describe(Nanoseconds now) {
     }
 }
 
-void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) {
-    const bool waits = pointer.buffer.play(pointer.played) == Playing::waiting;
+void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot) {
+    Pointer& pointer = pointers_[index];
+    const bool waits = hands_.play(index, pointer.played) == Playing::waiting;
     if (!waits) {
         const Pose& frame = settings().frame;
         pointer.here = pointer.played;
@@ -250,8 +232,7 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     }
     describe(now);
     statistics_.sample = newest_applied_;
-    statistics_.buffer = pointers_[0].buffer.counts();
-    statistics_.buffer_depth = pointers_[0].buffer.depth();
+    hands_.tell(statistics_);
     statistics_.discovery = discovery_.counts();
     channel_.end_tick(statistics_);
 }

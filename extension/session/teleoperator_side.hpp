@@ -3,6 +3,7 @@
 #pragma once
 
 #include "session/channel.hpp"
+#include "session/played_hands.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
@@ -31,7 +32,6 @@ public:
 
 private:
     struct Pointer {
-        JitterBuffer<OperatorSample> buffer;
         OperatorSample played;
         OperatorSample here;                   // the same in this side's scene
         bool holds = false;                    // a hand is there
@@ -62,13 +62,12 @@ private:
     void start_over_if_peer_has();
     void release_hands();
     void describe(Nanoseconds now);
-    void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
+    void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     Vec3 passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
-    void set_buffers();
     bool loses() const;
     bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
     void send_states(SessionLoop& loop, Nanoseconds now);
@@ -79,8 +78,8 @@ private:
     Channel channel_;
     DiscoverySender discovery_;
     PointerShare share_;
+    PlayedHands hands_;
     double seconds_;                       // of a tick
-    Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
     std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
     std::vector<Told> told_;               // by body
     std::array<Pointer, most_proxies> pointers_;
