@@ -218,6 +218,9 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     if (settings().traditional) {
         send_forces(loop, now);
     }
+    if (const Ghosts* const others = ghosts_.due(loop, share_, settings().frame, now)) {
+        channel_.send(*others);
+    }
     for (std::size_t i = 0; i < share_.most(); ++i) {
         Pointer& pointer = pointers_[i];
         const SessionLoop::ProxySlot& slot = slot_of(loop, i);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "session/channel.hpp"
+#include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
 #include "session/session_loop.hpp"
 
@@ -15,6 +16,7 @@ struct PointerShare {
 
     // That stands in for a pointer of the operator.
     std::size_t proxy_of(std::size_t pointer) const { return first + pointer * every; }
+    bool has(std::size_t proxy) const { return proxy >= first && (proxy - first) % every == 0; }
     // Pointers of the operator that can have one.
     std::size_t most() const { return first < most_proxies ? (most_proxies - first + every - 1) / every : 0; }
 };
@@ -77,6 +79,7 @@ private:
 
     Channel channel_;
     DiscoverySender discovery_;
+    GhostTeller ghosts_;
     PointerShare share_;
     PlayedHands hands_;
     double seconds_;                       // of a tick

@@ -170,6 +170,13 @@ struct Says {
                             object()};
         }
     }
+    void operator()(Ghosts& m) {
+        m.count = static_cast<std::uint8_t>(1 + dice.below(Ghosts::max_count));
+        for (std::size_t i = 0; i < m.count; ++i) {
+            m.ghosts[i] = {static_cast<std::uint16_t>(dice.number()), dice.one_in(2),
+                           dice.vector(plausible::max_position), dice.unit() * max_ghost_radius};
+        }
+    }
     std::uint64_t sample() {
         const std::uint64_t newest = rig.far->statistics().sample;
         const std::uint64_t some = dice.one_in(2)
@@ -209,6 +216,7 @@ private:
             case 5:
             case 7:
             case 9:
+            case 10:
                 return true;
             case 6:
             case 8:
@@ -347,7 +355,7 @@ std::size_t kind_count() {
 std::string kind_name(std::size_t kind) {
     constexpr const char* names[] = {
         "hello",           "bye",           "clock_request",    "clock_answer", "discovery_piece", "removal",
-        "acknowledgement", "object_states", "operator_samples", "forces"};
+        "acknowledgement", "object_states", "operator_samples", "forces",       "ghosts"};
     return names[kind];
 }
 
