@@ -5,7 +5,7 @@
 #include "session/channel.hpp"
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
-#include "session/session_loop.hpp"
+#include "session/state_teller.hpp"
 
 namespace tactus {
 
@@ -46,15 +46,6 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
-    // What was said about a body last.
-    struct Told {
-        BodyMotion motion;
-        std::uint64_t tick = 0;  // 0: never
-        Nanoseconds time = 0;
-        bool asleep = false;
-        bool again = false;  // is to be said once more: the first may have been lost
-    };
-
     const TeleopSettings& settings() const { return channel_.settings(); }
     SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
         return loop.proxy(share_.proxy_of(pointer));
@@ -70,9 +61,6 @@ private:
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
-    bool loses() const;
-    bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
-    void send_states(SessionLoop& loop, Nanoseconds now);
     void send_forces(SessionLoop& loop, Nanoseconds now);
     bool force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
     ForceSample force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
@@ -80,16 +68,12 @@ private:
     Channel channel_;
     DiscoverySender discovery_;
     GhostTeller ghosts_;
+    StateTeller states_;
     PointerShare share_;
     PlayedHands hands_;
-    double seconds_;                       // of a tick
-    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
-    std::vector<Told> told_;               // by body
+    double seconds_;  // of a tick
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
-    std::uint64_t tick_ = 0;
-    std::uint64_t missing_ = 0;  // packets of the operator, so far
-    std::uint64_t lost_at_ = 0;  // the tick in which one more was
     TeleopStatistics statistics_;
 };
 
