@@ -17,9 +17,14 @@ MAY_INCLUDE = {
     "network": ["core", "platform", "realtime", "physics"],
     "session": ["core", "realtime", "physics", "devices", "network"],
     "world": ["core", "platform", "realtime", "physics", "devices", "network", "session"],
+    # A shared library of its own: nobody includes it, core/ports/depth_sensing.hpp is its door.
+    "sensing": ["core", "platform"],
     "binding": [],
     "nodes": _ENGINE_FREE,
 }
+
+# Of a layer's folders those that make its static library; the others need what not every machine has.
+EVERYWHERE = {"sensing": ["image", "discovery"]}
 
 
 def linked(layer):
@@ -30,7 +35,7 @@ def linked(layer):
 
 SEES_JOLT = ["physics"]
 SEES_GODOT = ["binding", "nodes"]
-HAS_TEST_PROGRAM = _ENGINE_FREE
+HAS_TEST_PROGRAM = [*_ENGINE_FREE, "sensing"]
 # They divide themselves into processes as only Unix does, or forge packets.
 BENCHES_OF_LINUX = ["stress", "teleop_stress"]
 
@@ -54,7 +59,7 @@ def chosen(folder, pattern, system, architecture):
 
 
 def sources(layer, system, architecture):
-    return chosen(Path("extension", layer), "*.cpp", system, architecture)
+    return [path for folder in _folders(layer) for path in chosen(folder, "*.cpp", system, architecture)]
 
 
 def present():
@@ -62,7 +67,11 @@ def present():
 
 
 def with_sources(layers):
-    return [layer for layer in layers if any(Path("extension", layer).rglob("*.cpp"))]
+    return [layer for layer in layers if any(path for folder in _folders(layer) for path in folder.rglob("*.cpp"))]
+
+
+def _folders(layer):
+    return [Path("extension", layer, part) for part in EVERYWHERE.get(layer, [""])]
 
 
 def stage(target, layer):
@@ -78,7 +87,7 @@ def stage_tests(target, layer):
 
 def stage_benches(target):
     """The include folder of benches, and of the devices that are played for benches and tests."""
-    links = {name: Path("extension", name) for name in _ENGINE_FREE} | {"played": Path("tests/played")}
+    links = {name: Path("extension", name) for name in HAS_TEST_PROGRAM} | {"played": Path("tests/played")}
     return _links(target, "bench", links | _SHARED_BY_TESTS)
 
 

@@ -6,6 +6,7 @@
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -156,7 +157,7 @@ void HandMirrors::show_proxies(const SessionSnapshot& snapshot, const NodeOf& no
     touched_.clear();
     for (const News& news : all) {
         std::ranges::copy_if(news.bodies, std::back_inserter(touched_), [](auto body) { return body != 0; });
-        if (auto* proxy = Object::cast_to<ProxyPointer>(ObjectDB::get_instance(news.proxy))) {
+        if (auto* proxy = node_of_id<ProxyPointer>(news.proxy)) {
             proxy->take_state(news.state, news.bodies);
         }
     }

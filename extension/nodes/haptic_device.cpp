@@ -11,7 +11,6 @@
 #include "devices/drivers.hpp"
 #include "devices/path_device.hpp"
 #include "devices/robot_table.hpp"
-#include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/hand_input.hpp"
 #include "nodes/haptic_world.hpp"
@@ -88,7 +87,7 @@ String HapticDevice::problem() const {
                          "Node3D, or choose another driver")
                    : "its target '" + String(target_) + "' is not a Node3D of the scene: set 'target' anew";
     }
-    return is_inside_tree() ? to_godot(problem_of_place(get_global_transform())) : String();
+    return is_inside_tree() ? to_godot(problem_of_place(frame_of(get_global_transform()))) : String();
 }
 
 String HapticDevice::get_state_text() const {

@@ -1,5 +1,6 @@
 #include "nodes/haptic_mesh.hpp"
 
+#include <glm/matrix.hpp>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <unordered_map>
@@ -64,8 +65,8 @@ double HapticMesh::known_mass() const {
 }
 
 // A body twice as large in each direction is eight times as heavy.
-double HapticMesh::library_mass(const Basis& body_scale) const {
-    return known_mass() * std::abs(static_cast<double>((body_scale * get_basis()).determinant()));
+double HapticMesh::library_mass(const Mat3& body_scale) const {
+    return known_mass() * std::abs(glm::determinant(body_scale * frame_of(get_transform()).axes));
 }
 
 // Each mesh is read by the first node that asks; when it changes, by the first that asks again.
@@ -98,7 +99,7 @@ std::shared_ptr<TriangleSource> HapticMesh::source() const {
     return source_;
 }
 
-ShapeReading HapticMesh::read(const Basis& body_scale) const {
+ShapeReading HapticMesh::read(const SceneFrame& body_scale) const {
     ShapeReading reading;
     const std::shared_ptr<TriangleSource> triangles = source();
     if (triangles == nullptr) {
@@ -106,18 +107,11 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
                         from_godot(String(", ").join(mesh_library_names()));
         return reading;
     }
-    const Transform3D local = Transform3D(body_scale, Vector3()) * get_transform();
-    if (!local.is_finite()) {
-        reading.error = "its transform is not made of finite numbers: reset it in the inspector";
-    } else if (local.basis.determinant() == 0) {
-        reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
-    } else {
-        reading.meshes.push_back({triangles,
-                                  matrix_of(without_rounding(scaling_of(local.basis))),
-                                  pose_of(local),
-                                  smoothing_angle_,
-                                  one_sided_,
-                                  {}});
+    const SceneFrame frame = compose(body_scale, frame_of(get_transform()));
+    reading.error = problem_of_shape_frame(frame);
+    if (reading.error.empty()) {
+        reading.meshes.push_back(
+            {triangles, scaling_of(frame), pose_of(frame), smoothing_angle_, one_sided_, {}});
     }
     return reading;
 }
@@ -157,7 +151,7 @@ String HapticMesh::problem() const {
 PackedStringArray HapticMesh::_get_configuration_warnings() const {
     PackedStringArray warnings;
     warn(warnings, "This HapticMesh is not felt", problem());
-    const ShapeReading reading = read(Basis());
+    const ShapeReading reading = read({});
     const std::string error =
         reading.meshes.empty() ? reading.error : reading.meshes.front().source->triangles().error;
     warn(warnings, "This mesh cannot be touched", to_godot(error));

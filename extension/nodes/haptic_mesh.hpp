@@ -32,12 +32,12 @@ public:
     godot::String problem() const;
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
     // out. Whether its triangles are sound shows when they are built.
-    ShapeReading read(const godot::Basis& body_scale) const;
+    ShapeReading read(const SceneFrame& body_scale) const;
 
     // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
     // kilograms).
     bool is_giving_mass() const { return use_library_mass_ && mesh_.is_null() && known_mass() > 0.0; }
-    double library_mass(const godot::Basis& body_scale) const;
+    double library_mass(const Mat3& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
     static std::uint64_t changes();

@@ -7,7 +7,9 @@
 #include <godot_cpp/core/error_macros.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
 
+#include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/godot_joint.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_recorder.hpp"

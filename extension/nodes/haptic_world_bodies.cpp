@@ -15,10 +15,10 @@ using namespace godot;
 
 namespace {
 
-Dictionary dictionary_of(const BodyPoint& found, const BodyMirrors& mirrors) {
+Dictionary dictionary_of(const BodyPoint& found, const SceneBodies& bodies) {
     Dictionary result;
     if (found.at.hit) {
-        result["body"] = mirrors.bodies()[found.index]->body();
+        result["body"] = bodies.node(found.index);
         result["position"] = to_godot(found.at.point);
         result["normal"] = to_godot(found.at.normal);
         result["distance"] = found.at.distance;
@@ -95,7 +95,7 @@ bool HapticWorld::can_ask(const char* method, const Vector3& where, double size)
 }
 
 std::vector<QueriedBody> HapticWorld::touchable(int64_t mask) const {
-    return run_->bodies().touchable(static_cast<std::uint32_t>(mask));
+    return run_->bodies().mirrors().touchable(static_cast<std::uint32_t>(mask));
 }
 
 Dictionary HapticWorld::get_nearest_surface(const Vector3& point, double max_distance, int64_t mask) const {
@@ -117,7 +117,7 @@ TypedArray<CollisionObject3D> HapticWorld::intersect_sphere(const Vector3& cente
     TypedArray<CollisionObject3D> bodies;
     if (can_ask("intersect_sphere", center, radius)) {
         for (const std::size_t index : within(touchable(mask), from_godot(center), radius)) {
-            bodies.push_back(run_->bodies().bodies()[index]->body());
+            bodies.push_back(run_->bodies().node(index));
         }
     }
     return bodies;

@@ -6,7 +6,6 @@
 #include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
-#include "nodes/body_mirrors.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
@@ -15,6 +14,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 #include "world/hand_picture.hpp"
 
 namespace tactus {
@@ -83,7 +83,7 @@ TypedArray<Dictionary> ProxyPointer::get_contacts() const {
 // By the steps from node to node; where two are as near, the one that came first.
 HapticDevice* ProxyPointer::nearest_device() const {
     if (nearest_as_of_ == Roll<HapticDevice>::revision()) {
-        return Object::cast_to<HapticDevice>(ObjectDB::get_instance(nearest_));
+        return node_of_id<HapticDevice>(nearest_);
     }
     nearest_as_of_ = Roll<HapticDevice>::revision();
     HapticDevice* nearest = nullptr;

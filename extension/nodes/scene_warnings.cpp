@@ -82,7 +82,7 @@ void look_at_all() {
     next = now + look_again_after;
     const bool is_edited = Engine::get_singleton()->is_editor_hint();
     for (auto one = watched().begin(); one != watched().end();) {
-        auto* node = Object::cast_to<Node>(ObjectDB::get_instance(one->first));
+        auto* node = node_of_id<Node>(one->first);
         if (node == nullptr || !node->is_inside_tree()) {
             one = watched().erase(one);
             continue;

@@ -1,9 +1,17 @@
-// Through all that stands below a node, parents first. Main thread only.
+// Through all that stands below a node, parents first, and to nodes by their ids. Main thread only.
 #pragma once
 
+#include <cstdint>
 #include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/core/object.hpp>
 
 namespace tactus {
+
+// Null: it is gone, or of another kind.
+template <class NodeType>
+NodeType* node_of_id(std::uint64_t id) {
+    return godot::Object::cast_to<NodeType>(godot::ObjectDB::get_instance(id));
+}
 
 enum class Walk { on, past, end };  // past: what stands below this one is left out
 

@@ -12,6 +12,8 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
+#include "world/scene_telling.hpp"
 
 namespace tactus {
 
@@ -46,7 +48,7 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
       settings_(settings),
       session_(settings.session),
       loop_(session_, settings.real_time),
-      bodies_(settings.session.most_bodies, settings.real_time) {
+      bodies_(world, settings.session.most_bodies, settings.real_time, complaints_) {
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     start_links();
@@ -131,9 +133,10 @@ void WorldRun::look_at_scene() {
     if (++looks_ < first || (looks_ - first) % frames_between != 0 || model_ != nullptr) {
         return;
     }
-    const SceneFacts facts = bodies_.facts();
+    const BodyMirrors& mirrors = bodies_.mirrors();
+    const SceneFacts facts = mirrors.facts();
     hands_->look_at_scene(facts, complaints_);
-    if (bodies_.bodies().empty()) {
+    if (mirrors.bodies().empty()) {
         complaints_.say(world_, problem_of_emptiness(world_));
     } else if (looks_ == first) {
         complaints_.say(world_, problem_of_outside(world_));
@@ -158,15 +161,14 @@ void WorldRun::synchronise_bodies(double seconds) {
     const TouchMaterial touch = world_.default_touch();
     const std::shared_ptr<const HeightImage> texture = world_.default_texture();
     if (!same_values(touch, defaults_.touch) || texture != defaults_.texture) {
-        bodies_.note_all_changed();
+        bodies_.mirrors().note_all_changed();
     }
     defaults_.touch = touch;
     defaults_.texture = texture;
-    bodies_.touched(hands_->touched());
+    bodies_.mirrors().touched(hands_->touched());
     // In real time a tick may be under way that has already taken its commands.
     const std::uint64_t takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
-    bodies_.synchronise(
-        world_, {session_, complaints_, Workers::shared(), defaults_, seconds, takes_effect, nullptr});
+    bodies_.synchronise({session_, Workers::shared(), defaults_, seconds, takes_effect});
 }
 
 // --- the far side
@@ -205,32 +207,10 @@ void WorldRun::synchronise_links() {
         }
     }
     if (!links_.empty() && model_ == nullptr) {
-        tell_far_side(now);
-    }
-}
-
-void WorldRun::tell_far_side(Nanoseconds now) {
-    std::vector<WorldLink::Told> told;
-    std::vector<const BodyMirror*> mirrors;
-    for (const auto& mirror : bodies_.bodies()) {
-        if (mirror->handle() != no_handle && mirror->body() != nullptr) {
-            told.push_back({mirror->handle(), mirror->twin().revision()});
-            mirrors.push_back(mirror.get());
-        }
-    }
-    std::vector<WorldLink::ToldJoint> joints;
-    for (const auto& joint : bodies_.joints()) {
-        if (const JointTwin& twin = joint->twin(); twin.handle() != no_handle) {
-            joints.push_back(
-                {twin.handle(), twin.first(), twin.second(), &twin.joined(), joint->id(), twin.revision()});
-        }
-    }
-    const auto describe = [&](std::size_t i) {
-        return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
-                                      mirrors[i]->twin().addition()};
-    };
-    for (const OwnLink& link : links_) {
-        link.link->tell(told, describe, joints, session_.snapshot(), now);
+        std::vector<WorldLink*> all;
+        std::ranges::transform(links_, std::back_inserter(all),
+                               [](const OwnLink& own) { return own.link.get(); });
+        tell(bodies_.mirrors(), all, session_.snapshot(), now);
     }
 }
 
@@ -372,7 +352,7 @@ void WorldRun::show() {
     }
     // A script may have freed some of them by now.
     for (const auto& [id, report] : reports) {
-        if (auto* node = Object::cast_to<MMTLink>(ObjectDB::get_instance(id))) {
+        if (auto* node = node_of_id<MMTLink>(id)) {
             node->take_report(report, news);
         }
     }
@@ -390,18 +370,7 @@ std::vector<std::string> WorldRun::problems() const {
     for (const OwnLink& link : links_) {
         std::ranges::move(link.link->problems(), std::back_inserter(all));
     }
-    for (const auto& mirror : bodies_.bodies()) {
-        const CollisionObject3D* body = mirror->body();
-        for (const std::string& problem : mirror->problems()) {
-            all.push_back((body != nullptr ? from_godot(name_of(*body)) : std::string("a body")) + ": " +
-                          problem);
-        }
-    }
-    for (const auto& joint : bodies_.joints()) {
-        if (joint->node() != nullptr && !joint->problem().empty()) {
-            all.push_back(from_godot(name_of(*joint->node())) + ": " + joint->problem());
-        }
-    }
+    std::ranges::move(bodies_.mirrors().problems(), std::back_inserter(all));
     return all;
 }
 

@@ -7,11 +7,11 @@
 #include <memory>
 #include <vector>
 
-#include "nodes/body_mirrors.hpp"
 #include "nodes/hand_mirrors.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/model_view.hpp"
 #include "nodes/proxy_pointer.hpp"
+#include "nodes/scene_bodies.hpp"
 #include "session/session.hpp"
 #include "world/world_link.hpp"
 #include "world/world_loop.hpp"
@@ -79,13 +79,13 @@ public:
     // Of one that can move, as shown last; null where there is none.
     const BodyState* state_of(const godot::Node* node);
 
-    const BodyMirrors& bodies() const { return bodies_; }
+    const SceneBodies& bodies() const { return bodies_; }
     Session& session() { return session_; }
     WorldLoop& loop() { return loop_; }
     const WorldLoop& loop() const { return loop_; }
     std::size_t body_count() { return view().body_count(); }
-    std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
-    std::vector<std::string> problems() const;                         // each names its node
+    std::size_t trees_building() const { return bodies_.mirrors().building(); }  // bodies wait
+    std::vector<std::string> problems() const;                                   // each names its node
 
 private:
     SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
@@ -95,7 +95,6 @@ private:
     void synchronise_feedback();
     void start_links();
     void synchronise_links();
-    void tell_far_side(Nanoseconds now);
     void drain();
     void show_bodies(const SessionSnapshot& snapshot);
 
@@ -122,7 +121,8 @@ private:
     bool is_busy_ = false;
 
     std::vector<std::pair<SessionHandle, BodyPush>> forces_;  // until the next frame
-    BodyMirrors bodies_;
+    Complaints complaints_;
+    SceneBodies bodies_;
     std::unique_ptr<HandMirrors> hands_;
     HapticRecorder* recorder_ = nullptr;
     SessionHandle recorded_proxy_ = no_handle;
@@ -131,7 +131,6 @@ private:
     std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
     BodyDefaults defaults_;
     std::uint32_t looks_ = 0;  // synchronise() so far
-    Complaints complaints_;
 };
 
 }  // namespace tactus

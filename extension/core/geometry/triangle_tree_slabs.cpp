@@ -11,7 +11,7 @@ namespace tactus {
 
 namespace {
 
-constexpr std::size_t max_packs = 64;
+constexpr std::size_t max_packs = 4096;
 constexpr std::size_t nodes_a_task = 2048;
 
 // Twice the area of the triangles, along their normals.
@@ -62,7 +62,7 @@ void TriangleTree::fit_slabs(const ParallelRunner& run) {
     slabs_.resize(nodes_.size());
     const LanesVec3 origin = splat(origin_);
     run_in_parts(run, nodes_.size(), nodes_a_task, [&](std::size_t, std::size_t n, std::size_t end) {
-        std::array<std::uint32_t, max_packs> below;
+        std::vector<std::uint32_t> below(max_packs);
         for (; n < end; ++n) {
             SlabNode& slabs = slabs_[n];
             for (int i = 0; i < node_width; ++i) {

@@ -7,6 +7,7 @@
 // are.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -43,6 +44,10 @@ public:
     // True where the sphere cannot touch the part before it has gone `length`.
     bool is_clear(std::uint32_t part, double length) const {
         return records_[part].clear_until > reading(part) + length;
+    }
+    // How far it can go at least before it touches the part.
+    double clearance(std::uint32_t part) const {
+        return std::max(0.0, records_[part].clear_until - reading(part));
     }
     // No surface of the part is nearer to the sphere than `distance` now.
     void set_clear(std::uint32_t part, double distance) {

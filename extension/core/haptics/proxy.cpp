@@ -145,6 +145,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         const bool stopped_at_once = hit.found && position_ == before;
         descent.strays = stopped_at_once && strays(tick.residual);
         if (hit.found) {
+            ++descent.stops;
             surroundings_.keep_in_mind(stopped_by);
         } else {
             surroundings_.clear_mind();

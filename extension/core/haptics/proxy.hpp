@@ -108,6 +108,9 @@ private:
         double last_bent = 0.0;  // length of the last bent step (unit: meters)
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
+        int stops = 0;                                // steps that something has stopped
+        Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there
+        Vec3 pushed{0.0};
         bool slid = false;
         bool strays = false;  // the last step was stopped at once, and would be so again: see lift
     };
@@ -127,6 +130,7 @@ private:
     void descend(const Vec3& hand, ProxyTick& tick);
     ConstrainedStep plan(const Vec3& pull, Descent& descent);
     void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
+    void follow_hollow(ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     bool lift(bool strays);
     bool strays(double length) const;
     void brake(ConstrainedStep& step, double dropped);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <span>
+#include <utility>
 
 #include "core/haptics/proxy.hpp"
 
@@ -33,7 +34,8 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
         return step;
     }
     doubt(step, pull, descent);
-    if (is_flat || step.pressing_count == TouchList::capacity) {
+    follow_hollow(step, pull, descent);
+    if (step.bent || is_flat || step.pressing_count == TouchList::capacity) {
         return step;
     }
     const auto curvature = [&](int i) {
@@ -56,6 +58,34 @@ void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descen
     } else if (descent.last_bent > 0.0) {
         descent.trust = 0.5 * descent.last_bent;
     }
+}
+
+// A hollow of many small facets would stop the sphere at each of them. What pushes it out turns against its
+// way there: where that has turned by an angle on the last way, it is the curvature of the hollow, and a
+// Newton step on the Lagrangian is the slide over 1 + pressure * curvature. It ends as far above the facets
+// as the hollow rises on the way; they are found below it then. Of use where it goes farther than a few
+// facets.
+void Proxy::follow_hollow(ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
+    const Vec3 push = step.drop + step.slide - pull;
+    const double pressure = glm::length(push);
+    const Vec3 normal = push / std::max(pressure, 1e-300);
+    const Vec3 turned = normal - std::exchange(descent.pushed, normal);
+    const double way = glm::distance(position_, std::exchange(descent.began, position_));
+    const double slide = glm::length(step.slide);
+    if (descent.stops < 2 || way <= 0.0 || slide <= 0.0) {
+        return;
+    }
+    const Vec3 along = step.slide / slide;
+    const double curvature = -glm::dot(turned, along) / way;
+    if (curvature <= 0.0) {
+        return;
+    }
+    const double length = std::min(slide / (1.0 + pressure * curvature), descent.trust);
+    if (length <= 2.0 * way) {
+        return;
+    }
+    step.motion = step.drop + along * length + normal * (0.5 * curvature * length * length);
+    step.bent = true;
 }
 
 // Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back

@@ -17,6 +17,14 @@ constexpr double ticks_remembered = 2.5;
 constexpr double strides_remembered = 2.0;
 // Share of that by which its ball is put ahead of the sphere: most ways go on as they began.
 constexpr double ahead_share = 0.6;
+// About as many packs as are looked through in the time of one search of the tree.
+constexpr double comfortable = 256.0;
+// So few that more of them cost next to nothing.
+constexpr double few = 48.0;
+// Less than this share of the wanted margin would be used up too soon.
+constexpr double least_margin = 1.0 / 16.0;
+// What was crowded is believed to be so a little less each time it is left to the tree.
+constexpr double forgetting = 0.95;
 
 }  // namespace
 
@@ -69,8 +77,7 @@ double Surroundings::wanted_margin() const {
 }
 
 // The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of
-// the given length from there. Null where they are too many: the ball is then made smaller, and not tried
-// again until the sphere has moved on.
+// the given length from there. Null where they are too many to be worth it: the tree is asked itself then.
 PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way, bool may_gather) {
     const double now = broad_phase_.reading(index);
     const double needed = rest() + tolerances().reach + way;
@@ -80,7 +87,14 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, 
     if (memory.covered_around(local) >= needed) {
         return &memory;
     }
-    if (!may_gather || now < owner.crowded_until) {
+    if (!may_gather) {
+        return nullptr;
+    }
+    // Of a smooth surface a ball holds as many packs as it reaches beyond the nearest of them.
+    const double depth = needed - rest() - broad_phase_.clearance(index);
+    const double room = comfortable / owner.density - depth;
+    if (room < least_margin * wanted_margin()) {
+        owner.density *= forgetting;
         return nullptr;
     }
     const ScenePart& placed = scene_->parts()[index];
@@ -88,23 +102,14 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, 
     const double length = glm::length(last_way);
     const Vec3 heading =
         length > tolerances().reach ? direction_to_local(placed.pose, last_way / length) : Vec3(0.0);
-    const double margin = owner.share * wanted_margin();
+    const double cheap = owner.density > 0.0 ? few / owner.density - depth : 0.0;
+    const double margin = std::min(room, std::max(wanted_margin(), cheap));
     const Vec3 center = local + heading * (ahead_share * margin);
-    if (!memory.gather(*placed.part->tree(), center, needed + margin, local, needed, now, work_)) {
-        owner.share = std::max(0.25 * owner.share, 1.0 / 64.0);
-        owner.crowd = std::clamp(2.0 * owner.crowd, 0.01 * radius_, radius_);
-        owner.crowded_until = now + owner.crowd;
-        return nullptr;
-    }
-    owner.crowd = 0.0;
-    // About as many as are looked through in the time of one search of the tree.
-    constexpr std::size_t comfortable = 256;
-    if (memory.count() < comfortable / 2) {
-        owner.share = std::min(1.0, 2.0 * owner.share);
-    } else if (memory.count() > 2 * comfortable) {
-        owner.share = std::max(0.5 * owner.share, 1.0 / 64.0);
-    }
-    return &memory;
+    const bool gathered =
+        memory.gather(*placed.part->tree(), center, needed + margin, local, needed, now, work_);
+    const double packs = gathered ? static_cast<double>(memory.count()) : PackMemory::capacity;
+    owner.density = std::max(packs, 0.25 * few) / std::max(depth + margin, tolerances().reach);
+    return gathered ? &memory : nullptr;
 }
 
 bool Surroundings::is_clear(double length) const {

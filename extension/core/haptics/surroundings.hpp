@@ -83,11 +83,9 @@ private:
     // Whose triangles a PackMemory holds.
     struct Owner {
         std::uint32_t part = 0;
-        std::uint32_t stamp = 0;     // of the part, when it was asked; another: the memory is void
-        std::uint64_t used_at = 0;   // tick
-        double crowded_until = 0.0;  // reading before which no ball is worth gathering
-        double crowd = 0.0;          // how long that was put off last, twice as long each time (unit: meters)
-        double share = 1.0;          // of the ticks to remember: what fits
+        std::uint32_t stamp = 0;    // of the part, when it was asked; another: the memory is void
+        std::uint64_t used_at = 0;  // tick
+        double density = 0.0;       // packs for each meter that a ball reaches beyond the nearest; 0: unknown
     };
 
     bool counts(std::uint32_t part, double length, int except) const;

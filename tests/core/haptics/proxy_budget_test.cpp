@@ -1,7 +1,9 @@
 // Where more triangles are near than a tick can look at, the proxy still goes where it may.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "core/haptics/proxy.hpp"
 #include "shared/judge_tree.hpp"
@@ -131,6 +133,43 @@ TEST(ProxyBudget, AHeapOfTinyTrianglesLetsItGo) {
     EXPECT_LT(glm::distance(rig.draw(hand, away, 200).position, away), 1e-9);
     EXPECT_GT(watch.touching, 1'000);
     EXPECT_EQ(watch.frozen, 0);
+}
+
+// A bore of `count` facets around the y axis.
+TriangleMesh bore(int count, double radius, double half_length) {
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / count;
+        for (const double y : {-half_length, half_length}) {
+            mesh.vertices.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
+        }
+    }
+    const auto corners = static_cast<std::uint32_t>(2 * count);
+    for (std::uint32_t i = 0; i < corners; i += 2) {
+        const std::uint32_t next = (i + 2) % corners;
+        mesh.triangles.push_back({i, i + 1, next});
+        mesh.triangles.push_back({next, i + 1, next + 1});
+    }
+    return mesh;
+}
+
+// Every tick leads over some forty facets, each of which is in the way.
+TEST(ProxyBudget, AHollowOfManyFacetsTakesFewSteps) {
+    constexpr double radius = 0.05;
+    constexpr double wide = 0.1;
+    TouchRig rig(radius);
+    rig.add(bore(5'000, wide, 0.2));
+    rig.draw(Vec3(0.0), {0.08, 0.0, 0.0}, 20);
+    int steps = 0;
+    for (int i = 1; i <= 100; ++i) {
+        const double angle = 0.05 * i;
+        const ProxyTick tick = rig.tick({0.08 * std::cos(angle), 0.0, 0.08 * std::sin(angle)});
+        ASSERT_EQ(tick.status & (proxy_unfinished | proxy_touching), proxy_touching) << "tick " << i;
+        const Vec3 right = (wide - radius) * Vec3(std::cos(angle), 0.0, std::sin(angle));
+        ASSERT_LT(glm::distance(tick.position, right), 5e-5) << "tick " << i;
+        steps = std::max(steps, tick.steps);
+    }
+    EXPECT_LE(steps, 16);
 }
 
 // A proxy appears where up to a thousandth of its radius is missing, and is lifted off in the same tick: or,
