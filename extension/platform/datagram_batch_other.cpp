@@ -1,4 +1,4 @@
-#include "platform/receive_datagram.hpp"
+#include "platform/receive_datagram_other.hpp"
 
 namespace tactus {
 

@@ -2,7 +2,7 @@
 
 #include <cerrno>
 
-#include "platform/receive_datagram.hpp"
+#include "platform/receive_datagram_other.hpp"
 #include "platform/socket_error_posix.hpp"
 
 namespace tactus {

@@ -1,6 +1,6 @@
 #include <winsock2.h>
 
-#include "platform/receive_datagram.hpp"
+#include "platform/receive_datagram_other.hpp"
 #include "platform/socket_error_windows.hpp"
 
 namespace tactus {
