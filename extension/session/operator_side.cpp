@@ -32,6 +32,9 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
 
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     changed_ = loop.take_touch_change();
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        changed_ = changed_ || has_leapt(loop, loop.proxy(i).state);
+    }
     if (channel_.begin_tick(now)) {
         take_settings(loop);
     }

@@ -120,6 +120,7 @@ private:
                       bool changed);
     Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
     void note_given(SessionLoop& loop, std::size_t index);
+    bool has_leapt(SessionLoop& loop, const ProxyState& touch) const;
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 
