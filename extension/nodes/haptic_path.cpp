@@ -11,10 +11,6 @@ namespace {
 
 constexpr double max_length = 1e6;  // of a point from the origin (unit: meters)
 
-bool starts_with(const StringName& name, const char* prefix) {
-    return String(name).begins_with(prefix);
-}
-
 }  // namespace
 
 void HapticPath::form_changed() {
@@ -68,14 +64,6 @@ Vector3 HapticPath::sample_velocity(double time) const {
 
 Ref<ArrayMesh> HapticPath::create_line_mesh(double thickness) const {
     return drawn_mesh(drawn_path(hand_path(), thickness));
-}
-
-void HapticPath::_validate_property(PropertyInfo& property) const {
-    const bool of_circle = starts_with(property.name, "circle_");
-    const bool of_points = starts_with(property.name, "points_");
-    if ((of_circle && form_ != FORM_CIRCLE_WAVE) || (of_points && form_ != FORM_POINTS)) {
-        property.usage = PROPERTY_USAGE_STORAGE;
-    }
 }
 
 }  // namespace tactus

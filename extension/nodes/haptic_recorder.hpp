@@ -32,11 +32,10 @@ public:
 
     // --- for the world that is recorded
 
-    bool wants_trace() const { return !trace_path_.is_empty(); }
     const ProxyPointer* proxy_node() const;
     const godot::Node* object_node() const;
-    godot::String problem() const;                  // empty where there is none
-    Recording& recording() { return *recording_; }  // while it records
+    godot::String problem() const;  // empty where there is none
+    const std::shared_ptr<Recording>& recording() const { return recording_; }
 
 protected:
     static void _bind_methods();
@@ -52,7 +51,7 @@ private:
     double trace_seconds_ = 15.0;
     bool autostart_ = true;
 
-    std::unique_ptr<Recording> recording_;  // null while nothing is recorded
+    std::shared_ptr<Recording> recording_;  // null while nothing is recorded
     std::uint64_t rows_ = 0, lost_ = 0;     // of the last one
 };
 

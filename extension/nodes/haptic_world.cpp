@@ -1,7 +1,6 @@
 #include "nodes/haptic_world.hpp"
 
 #include <cmath>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/error_macros.hpp>
@@ -209,12 +208,12 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_ENTER_TREE:
             get_tree()->connect("node_added", Callable(this, "_node_added"));
             get_tree()->connect("node_removed", Callable(this, "_node_removed"));
-            if (Engine::get_singleton()->is_editor_hint()) {
+            if (is_edited()) {
                 watch_warnings(*this);
             }
             break;
         case NOTIFICATION_POST_ENTER_TREE:
-            if (!Engine::get_singleton()->is_editor_hint()) {
+            if (!is_edited()) {
                 start();
             }
             break;
@@ -249,15 +248,13 @@ void HapticWorld::node_removed(Node* node) {
         return;
     }
     if (auto* device = Object::cast_to<HapticDevice>(node)) {
-        run_->forget(device);
+        run_->forget(*device);
     } else if (auto* proxy = Object::cast_to<ProxyPointer>(node)) {
-        run_->forget(proxy);
-    } else if (auto* recorder = Object::cast_to<HapticRecorder>(node)) {
-        run_->forget(recorder);
+        run_->forget(*proxy);
     } else if (auto* feedback = Object::cast_to<HapticFeedback>(node)) {
-        run_->forget(feedback);
+        run_->forget(*feedback);
     } else if (auto* link = Object::cast_to<MMTLink>(node)) {
-        run_->forget(link);
+        run_->forget(*link);
         if (link->is_networked() && is_ancestor_of(link)) {
             link_changed();
         }
@@ -266,7 +263,7 @@ void HapticWorld::node_removed(Node* node) {
     }
 }
 
-void HapticWorld::finish_recording(HapticRecorder* recorder) {
+void HapticWorld::finish_recording(HapticRecorder& recorder) {
     for (HapticWorld* world : Roll<HapticWorld>::all()) {
         world->run_->finish(recorder);
     }

@@ -72,7 +72,7 @@ public:
     void link_changed() { world_changed(); }
     godot::Vector3 get_gravity() const { return gravity_; }
     // The last rows are written before the recorder closes its files.
-    static void finish_recording(HapticRecorder* recorder);
+    static void finish_recording(HapticRecorder& recorder);
     TouchMaterial default_touch() const;
     std::shared_ptr<const HeightImage> default_texture() const;
 

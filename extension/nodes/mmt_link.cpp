@@ -1,7 +1,6 @@
 #include "nodes/mmt_link.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable.hpp>
 
 #include "nodes/conversions.hpp"
@@ -11,6 +10,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 #include "session/shared_environment.hpp"
 
 namespace tactus {
@@ -76,7 +76,6 @@ void MMTLink::way_changed() {
 
 // The world is another one by this: it starts anew, with or without a far side.
 void MMTLink::restart_world() {
-    changed();
     if (HapticWorld* world = is_inside_tree() ? HapticWorld::above(this) : nullptr) {
         world->link_changed();
     }
@@ -88,13 +87,14 @@ void MMTLink::scenario_changed() {
         changed();
         return;
     }
+    changed();
     restart_world();
     take_report(at_rest(), {});
 }
 
 void MMTLink::side_changed() {
     wire_.reset();
-    ++way_revision_;
+    way_changed();
     restart_world();
 }
 
@@ -224,7 +224,7 @@ String MMTLink::surplus_problem(const HapticWorld& world) const {
 }
 
 MMTLink* MMTLink::partner_node() const {
-    return is_inside_tree() && !partner_.is_empty() ? cast_to<MMTLink>(get_node_or_null(partner_)) : nullptr;
+    return node_at<MMTLink>(*this, partner_);
 }
 
 std::shared_ptr<MemoryLinkPair> MMTLink::wire(MMTLink& partner) {
@@ -331,8 +331,7 @@ String MMTLink::way_problem() const {
     }
     const MMTLink* partner = partner_node();
     if (partner == nullptr) {
-        return "its partner '" + String(partner_) +
-               "' is not an MMTLink of the scene: set 'partner' anew, or leave it empty for UDP";
+        return wrong_path("partner", partner_, "an MMTLink") + ", or leave it empty for UDP";
     }
     if (partner == this || partner->side_ == side_) {
         return "its partner plays the same side: set one of the two to the operator, the other to the "
@@ -364,21 +363,10 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
 }
 
 void MMTLink::_notification(int what) {
-    if (what == NOTIFICATION_ENTER_TREE) {
-        watch_warnings(*this);
-    }
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
-    if (what == NOTIFICATION_ENTER_TREE) {
-        Roll<MMTLink>::enter(this);
-        if (is_networked()) {
-            if (HapticWorld* world = HapticWorld::above(this)) {
-                world->link_changed();
-            }
-        }
+    keep_roll(*this, what);
+    if (what == NOTIFICATION_ENTER_TREE && is_networked()) {
+        restart_world();
     } else if (what == NOTIFICATION_EXIT_TREE) {
-        Roll<MMTLink>::leave(this);
         wire_.reset();
         clear_report();
     }

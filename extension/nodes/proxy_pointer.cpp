@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <godot_cpp/classes/cylinder_mesh.hpp>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
@@ -100,23 +99,18 @@ HapticDevice* ProxyPointer::nearest_device() const {
 }
 
 HapticDevice* ProxyPointer::device_node() const {
-    if (!is_inside_tree()) {
-        return nullptr;
-    }
-    return device_.is_empty() ? nearest_device() : Object::cast_to<HapticDevice>(get_node_or_null(device_));
+    return is_inside_tree() && device_.is_empty() ? nearest_device() : node_at<HapticDevice>(*this, device_);
 }
 
 String ProxyPointer::problem() const {
     const HapticDevice* device = device_node();
     if (device == nullptr) {
         return device_.is_empty() ? String("there is no HapticDevice in its world: add one")
-                                  : "its device '" + String(device_) +
-                                        "' is not a HapticDevice of the scene: set 'device' anew, or leave "
-                                        "it empty for the nearest one";
+                                  : wrong_path("device", device_, "a HapticDevice") +
+                                        ", or leave it empty for the nearest one";
     }
-    const bool is_edited = Engine::get_singleton()->is_editor_hint();
-    const auto world_of = [is_edited](const Node* node) {
-        return is_edited ? HapticWorld::above(node) : HapticWorld::of(node);
+    const auto world_of = [](const Node* node) {
+        return is_edited() ? HapticWorld::above(node) : HapticWorld::of(node);
     };
     if (world_of(device) != world_of(this)) {
         return "its device '" + name_of(*device) +
@@ -130,7 +124,7 @@ String ProxyPointer::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
     }
-    if (Engine::get_singleton()->is_editor_hint()) {
+    if (is_edited()) {
         return String();
     }
     if (HapticWorld::of(this) == nullptr) {
@@ -276,15 +270,13 @@ void ProxyPointer::place_pictures() {
 }
 
 void ProxyPointer::_notification(int what) {
+    keep_roll(*this, what);
     switch (what) {
         case NOTIFICATION_ENTER_TREE:
             make_pictures();
-            set_notify_transform(Engine::get_singleton()->is_editor_hint());
-            Roll<ProxyPointer>::enter(this);
-            watch_warnings(*this);
+            set_notify_transform(is_edited());
             break;
         case NOTIFICATION_EXIT_TREE:
-            Roll<ProxyPointer>::leave(this);
             clear_state();
             break;
         case NOTIFICATION_TRANSFORM_CHANGED:

@@ -81,6 +81,7 @@ void WorldRun::end() {
         }
     }
     hands_->release();
+    recording_.reset();  // whoever closes its files is not to wait for this run to go
 }
 
 // --- time
@@ -118,10 +119,16 @@ void WorldRun::synchronise(double seconds) {
     }
     hands_->synchronise(session_, complaints_);
     look_at_scene();
-    synchronise_recorder();
-    synchronise_feedback();
+    synchronise_recorders();
+    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
+        if (!feedback->is_wanted()) {
+            forget(*feedback);
+        } else if (HapticWorld::of(feedback) == &world_) {
+            give_ticks(*feedback, feedback->ring(), no_handle);
+        }
+    }
     if (!session_.collect()) {
-        retired_.clear();
+        listeners_.forget_retired();
         hands_->forget_retired();
     }
 }
@@ -216,106 +223,63 @@ void WorldRun::synchronise_links() {
 
 // --- recording
 
-void WorldRun::synchronise_recorder() {
-    if (recorder_ != nullptr && !recorder_->is_recording()) {
-        forget(recorder_);
-    }
+void WorldRun::synchronise_recorders() {
     for (HapticRecorder* recorder : Roll<HapticRecorder>::all()) {
-        if (recorder == recorder_ || !recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
+        if (!recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
             continue;
         }
-        if (recorder_ != nullptr) {
-            complaints_.say(*recorder, "another HapticRecorder, " + name_of(*recorder_) +
+        if (recording_ == nullptr) {
+            recorder_ = recorder->get_instance_id();
+            recording_ = recorder->recording();
+            if (recording_->has_trace()) {
+                complaints_.say(world_, loop_.trace_ticks());
+            }
+        }
+        if (recording_ == recorder->recording()) {
+            give_ticks(*recorder, recording_->ring(), body_of(recorder->object_node()));
+        } else {
+            complaints_.say(*recorder, "another HapticRecorder, " + name_of(*node_of_id<Node>(recorder_)) +
                                            ", records this world already: stop that one first");
-            continue;
-        }
-        recorder_ = recorder;
-        recorded_proxy_ = no_handle;
-        if (recorder->recording().has_trace()) {
-            complaints_.say(world_, loop_.trace_ticks());
-        }
-    }
-    if (recorder_ == nullptr) {
-        return;
-    }
-    const ProxyPointer* node = recorder_->proxy_node();
-    const SessionHandle proxy = hands_->handle_of(node);
-    const Node* object_node = recorder_->object_node();
-    const SessionHandle object = body_of(object_node);
-    complaints_.say(*recorder_, recorder_->problem());
-    if (proxy != no_handle && (proxy != recorded_proxy_ || object != recorded_object_)) {
-        recorded_proxy_ = proxy;
-        recorded_object_ = object;
-        if (!session_.record(*recorder_->recording().ring(), proxy, object)) {
-            complaints_.say(*recorder_, too_many_recordings);
         }
     }
 }
 
-void WorldRun::synchronise_feedback() {
-    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
-        const bool is_known = std::ranges::find(listeners_, feedback, &Listener::node) != listeners_.end();
-        if (!is_known && HapticWorld::of(feedback) == &world_) {
-            listeners_.push_back({feedback, feedback->ring(), no_handle});
-        }
-    }
-    for (Listener& listener : listeners_) {
-        complaints_.say(*listener.node, listener.node->problem());
-        const SessionHandle proxy = hands_->handle_of(listener.node->proxy_node());
-        if (proxy == no_handle || proxy == listener.proxy) {
-            continue;
-        }
-        if (session_.record(*listener.ring, proxy, no_handle)) {
-            listener.proxy = proxy;
-        } else {
-            complaints_.say(*listener.node, too_many_recordings);
-        }
+template <class NodeType>
+void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body) {
+    complaints_.say(node, node.problem());
+    const SessionHandle proxy = hands_->handle_of(node.proxy_node());
+    if (proxy != no_handle && !listeners_.listen(session_, node.get_instance_id(), ring, proxy, body)) {
+        complaints_.say(node, too_many_recordings);
     }
 }
 
 void WorldRun::drain() {
-    if (recorder_ == nullptr || !recorder_->is_recording()) {
+    if (recording_ == nullptr) {
         return;
     }
-    recorder_->recording().drain(loop_.epoch());
+    recording_->drain(loop_.epoch());
     if (TickTrace* trace = loop_.trace()) {
-        recorder_->recording().drain(*trace);
+        recording_->drain(*trace);
     }
 }
 
 // --- what leaves
 
-void WorldRun::forget(HapticRecorder* recorder) {
-    if (recorder_ == nullptr || recorder != recorder_) {
-        return;
-    }
-    if (recorder_->is_recording()) {
-        session_.end_recording(*recorder_->recording().ring());
-        retired_.push_back(recorder_->recording().ring());
-    }
-    recorder_ = nullptr;
+void WorldRun::forget(HapticFeedback& feedback) {
+    listeners_.end(session_, feedback.get_instance_id());
 }
 
-void WorldRun::forget(HapticFeedback* feedback) {
-    for (const Listener& listener : listeners_) {
-        if (listener.node == feedback) {
-            session_.end_recording(*listener.ring);
-            retired_.push_back(listener.ring);
-        }
-    }
-    std::erase_if(listeners_, [feedback](const Listener& listener) { return listener.node == feedback; });
-}
-
-void WorldRun::forget(MMTLink* link) {
+void WorldRun::forget(MMTLink& link) {
     for (OwnLink& one : links_) {
-        one.node = one.node == link ? nullptr : one.node;
+        one.node = one.node == &link ? nullptr : one.node;
     }
 }
 
-void WorldRun::finish(HapticRecorder* recorder) {
-    if (recorder == recorder_) {
+void WorldRun::finish(HapticRecorder& recorder) {
+    if (recorder.recording() == recording_) {
         drain();
-        forget(recorder);
+        listeners_.end(session_, recorder_);
+        recording_.reset();
     }
 }
 

@@ -13,6 +13,8 @@
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/scene_bodies.hpp"
 #include "session/session.hpp"
+#include "world/recording.hpp"
+#include "world/tick_listeners.hpp"
 #include "world/world_link.hpp"
 #include "world/world_loop.hpp"
 
@@ -61,13 +63,12 @@ public:
 
     // A node has come or gone.
     void scene_changed(const godot::Node& node) { view().scene_changed(node); }
-    void forget(HapticDevice* device) { hands_->forget(device, session_); }
-    void forget(ProxyPointer* proxy) { hands_->forget(proxy, session_); }
-    void forget(HapticRecorder* recorder);
-    void forget(HapticFeedback* feedback);
-    void forget(MMTLink* link);
+    void forget(HapticDevice& device) { hands_->forget(device, session_); }
+    void forget(ProxyPointer& proxy) { hands_->forget(proxy, session_); }
+    void forget(HapticFeedback& feedback);
+    void forget(MMTLink& link);
     // The recorder is about to close its files: gives it what is there, then lets it go.
-    void finish(HapticRecorder* recorder);
+    void finish(HapticRecorder& recorder);
 
     // Gives a body an impulse in the next tick; `for_a_frame`: the force of that size, and its torque, for as
     // long as the next frame is.
@@ -91,8 +92,9 @@ private:
     SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
     void synchronise_bodies(double seconds);
     void look_at_scene();
-    void synchronise_recorder();
-    void synchronise_feedback();
+    void synchronise_recorders();
+    template <class NodeType>
+    void give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body);
     void start_links();
     void synchronise_links();
     void drain();
@@ -101,13 +103,6 @@ private:
     struct OwnLink {
         MMTLink* node = nullptr;  // null: it has left
         std::unique_ptr<WorldLink> link;
-    };
-
-    // A node that hears every tick of a proxy.
-    struct Listener {
-        HapticFeedback* node = nullptr;
-        std::shared_ptr<RecorderRing<SessionRecord>> ring;
-        SessionHandle proxy = no_handle;
     };
 
     HapticWorld& world_;
@@ -124,11 +119,9 @@ private:
     Complaints complaints_;
     SceneBodies bodies_;
     std::unique_ptr<HandMirrors> hands_;
-    HapticRecorder* recorder_ = nullptr;
-    SessionHandle recorded_proxy_ = no_handle;
-    SessionHandle recorded_object_ = no_handle;
-    std::vector<Listener> listeners_;
-    std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
+    std::uint64_t recorder_ = 0;            // id of the HapticRecorder that records this world; 0: none
+    std::shared_ptr<Recording> recording_;  // its
+    TickListeners listeners_;
     BodyDefaults defaults_;
     std::uint32_t looks_ = 0;  // synchronise() so far
 };
