@@ -3,7 +3,6 @@
 #include <glm/matrix.hpp>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
-#include <unordered_map>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -69,33 +68,17 @@ double HapticMesh::library_mass(const Mat3& body_scale) const {
     return known_mass() * std::abs(glm::determinant(body_scale * frame_of(get_transform()).axes));
 }
 
-// Each mesh is read by the first node that asks; when it changes, by the first that asks again.
 std::shared_ptr<TriangleSource> HapticMesh::source() const {
-    static std::unordered_map<std::uint64_t, std::weak_ptr<TriangleSource>> by_mesh;
-    static std::unordered_map<std::string, std::weak_ptr<TriangleSource>> by_name;
+    static KnownSources<std::uint64_t> by_mesh;
+    static KnownSources<std::string> by_name;
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
-    std::weak_ptr<TriangleSource>& known =
-        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[from_godot(library_mesh_)];
-    source_ = known.lock();
-    if (source_ != nullptr && source_ != former_) {
-        former_.reset();
-        return source_;
-    }
-    if (mesh_.is_valid()) {
-        source_ = source_of(mesh_);
-    } else {
-        LibraryMesh loaded = load_library_mesh(library_mesh_);
-        source_ = std::make_shared<TriangleSource>(
-            TriangleSource::Checked{std::move(loaded.mesh), std::move(loaded.error)});
-    }
-    if (former_ != nullptr) {
-        source_->succeed(*former_);
-        former_.reset();
-    }
-    known = source_;
-    std::erase_if(by_mesh, [](const auto& entry) { return entry.second.expired(); });
+    source_ = mesh_.is_valid()
+                  ? by_mesh.get(mesh_->get_instance_id(), former_, [this] { return source_of(mesh_); })
+                  : by_name.get(from_godot(library_mesh_), former_,
+                                [this] { return load_library_mesh(library_mesh_); });
+    former_.reset();
     return source_;
 }
 
@@ -131,7 +114,8 @@ PackedStringArray HapticMesh::get_library_names() {
 }
 
 Ref<Mesh> HapticMesh::create_library_mesh(const String& name) {
-    const LibraryMesh loaded = load_library_mesh(name);
+    const std::shared_ptr<TriangleSource> source = load_library_mesh(name);
+    const TriangleSource::Checked& loaded = source->triangles();
     if (loaded.mesh == nullptr) {
         UtilityFunctions::push_error("HapticMesh: ", to_godot(loaded.error), ".");
         return Ref<Mesh>();

@@ -7,12 +7,6 @@ namespace tactus {
 
 using namespace godot;
 
-namespace {
-
-constexpr double max_length = 1e6;  // of a point from the origin (unit: meters)
-
-}  // namespace
-
 void HapticPath::form_changed() {
     notify_property_list_changed();
     emit_changed();
@@ -38,11 +32,6 @@ String HapticPath::get_problem() const {
         return "there are " + String::num_int64(points_.size()) + " points and " +
                String::num_int64(times_.size()) +
                " times: give each point a time, or leave the times empty for one second a point";
-    }
-    for (int64_t i = 0; form_ == FORM_POINTS && i < points_.size(); ++i) {
-        if (static_cast<double>(points_[i].length()) > max_length) {
-            return "point " + String::num_int64(i) + " is no place within 1,000,000 m: set it anew";
-        }
     }
     return to_godot(problem_with(hand_path()));
 }

@@ -140,7 +140,6 @@ void HapticWorld::start() {
     // Both sides of a teleoperation have to come to the same result.
     settings.session.full_rate_bodies = !settings.links.empty() ? 0 : settings.session.full_rate_bodies;
     change_ = Change::none;
-    owed_seconds_ = 0.0;
     run_ = std::make_shared<WorldRun>(*this, settings);
     Roll<HapticWorld>::enter(this);
     run_->synchronise(shortest_way);
@@ -162,7 +161,7 @@ void HapticWorld::start_loop() {
     if (clock_ != CLOCK_REAL_TIME || !can_process()) {
         return;
     }
-    if (const std::string error = run_->start_loop(loop_settings(), measure_baseline_); !error.empty()) {
+    if (const std::string error = run_->loop().start(loop_settings(), measure_baseline_); !error.empty()) {
         UtilityFunctions::push_error(name_of(*this), ": the haptic loop could not start: ", to_godot(error),
                                      ".");
     }
@@ -193,7 +192,7 @@ void HapticWorld::catch_up() {
         return;
     }
     if (what == Change::loop) {
-        run_->stop_loop();
+        run_->running().stop_loop();
         start_loop();
         return;
     }
@@ -300,14 +299,9 @@ int64_t HapticWorld::advance(double seconds) {
                         "with call_deferred().");
     catch_up();
     const std::shared_ptr<WorldRun> run = run_;
-    // A hundredth of a tick covers what adding up many small times loses to rounding.
-    constexpr double rounding = 0.01;
-    owed_seconds_ += seconds;
-    const auto ticks = static_cast<int64_t>(owed_seconds_ * tick_rate_ + rounding);
-    owed_seconds_ -= static_cast<double>(ticks) / tick_rate_;
     run->synchronise(std::max(seconds, 1.0 / tick_rate_));
     let_go_of_former();
-    run->advance(ticks);
+    const int64_t ticks = run->running().advance(seconds);
     report_status(seconds);
     run->show();
     deliver_signals();  // last: what they call may free this node

@@ -47,7 +47,7 @@ void HapticWorld::push(const char* method, const Body* body, const BodyPush& pus
         UtilityFunctions::push_error(name_of(*this), ": ", method, "() did nothing: ", wrong, ".");
         return;
     }
-    run_->push(run_->body_of(body), push, for_a_frame);
+    run_->running().push(run_->body_of(body), push, for_a_frame);
 }
 
 void HapticWorld::apply_central_impulse(Body* body, const Vector3& impulse) {

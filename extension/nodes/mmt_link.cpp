@@ -19,16 +19,6 @@ using namespace godot;
 
 namespace {
 
-// Where a side listens when nothing else is said.
-constexpr int usual_port_of_operator = 47001;
-constexpr int usual_port_of_teleoperator = 47002;
-
-// Every value of a side without resources of its own.
-const NetworkConditions::Values& usual_conditions() {
-    static const NetworkConditions::Values values;
-    return values;
-}
-
 // { "turn": [1, 0, 0, 10], "mass": 1.2 }: the axis and its angle in degrees; factors.
 Vec3 read_vector(const Array& numbers) {
     Vec3 v(0.0);
@@ -58,20 +48,11 @@ ModelError read_error(const Dictionary& from) {
 
 }  // namespace
 
-MMTLink::MMTLink() : seed_(usual_conditions().seed) {
-    clear_report();
-}
-
 // --- properties
 
 void MMTLink::changed() {
     ++revision_;
     update_configuration_warnings();
-}
-
-void MMTLink::way_changed() {
-    ++way_revision_;
-    changed();
 }
 
 // The world is another one by this: it starts anew, with or without a far side.
@@ -82,25 +63,23 @@ void MMTLink::restart_world() {
 }
 
 void MMTLink::scenario_changed() {
-    const Running now = !is_networked() ? Running::alone : has_robots() ? Running::robot : Running::bodies;
-    if (std::exchange(running_, now) == now) {
-        changed();
-        return;
-    }
     changed();
-    restart_world();
-    take_report(at_rest(), {});
+    const Running now = !is_networked() ? Running::alone : has_robots() ? Running::robot : Running::bodies;
+    if (std::exchange(running_, now) != now) {
+        restart_world();
+        take_report(at_rest(), {});
+    }
 }
 
 void MMTLink::side_changed() {
     wire_.reset();
-    way_changed();
+    changed();
     restart_world();
 }
 
 void MMTLink::partner_changed() {
     wire_.reset();
-    way_changed();
+    changed();
 }
 
 void MMTLink::set_key_file(const String& path) {
@@ -112,12 +91,7 @@ void MMTLink::set_key_file(const String& path) {
         return;
     }
     key_file_ = file;
-    way_changed();
-}
-
-void MMTLink::values_changed() {
-    const std::uint64_t seed = conditions_.is_valid() ? conditions_->seed() : usual_conditions().seed;
-    std::exchange(seed_, seed) != seed ? way_changed() : changed();
+    changed();
 }
 
 template <class Values>
@@ -150,7 +124,6 @@ LinkPlan MMTLink::plan() {
     plan.scenario = static_cast<std::uint8_t>(scenario_);
     plan.problem = from_godot(problem());
     plan.revision = revision_;
-    plan.way_revision = way_revision_;
     plan.teleop = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
     plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL || scenario_ == SCENARIO_ROBOT;
     plan.teleop.robot = scenario_ == SCENARIO_ROBOT;
@@ -182,15 +155,16 @@ std::unordered_map<std::string, ModelError> MMTLink::model_errors() const {
 }
 
 NetworkSettings MMTLink::network_settings() const {
-    const int own = is_operator() ? usual_port_of_operator : usual_port_of_teleoperator;
-    const int other = is_operator() ? usual_port_of_teleoperator : usual_port_of_operator;
     NetworkSettings settings;
     settings.udp.local_address = from_godot(local_address_.strip_edges());
-    settings.udp.local_port = static_cast<std::uint16_t>(local_port_ > 0 ? local_port_ : own);
+    settings.udp.local_port = static_cast<std::uint16_t>(local_port_);
     settings.udp.remote_address = from_godot(remote_address_.strip_edges());
-    settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_ > 0 ? remote_port_ : other);
-    settings.conditions = conditions_.is_valid() ? conditions_->conditions() : LinkConditions{};
-    settings.seed = seed_;
+    settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_);
+    settings.udp = with_usual_ports(settings.udp, is_operator());
+    if (conditions_.is_valid()) {
+        settings.conditions = conditions_->conditions();
+        settings.seed = conditions_->seed();
+    }
     return settings;
 }
 

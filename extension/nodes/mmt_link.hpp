@@ -47,7 +47,7 @@ public:
         STATE_LOST = static_cast<int64_t>(LinkState::lost),
         STATE_LEFT = static_cast<int64_t>(LinkState::left)
     };
-    MMTLink();
+    MMTLink() { clear_report(); }
 
     TACTUS_PROPERTIES(MMTLink)
     void set_key_file(const godot::String& path);
@@ -88,7 +88,6 @@ protected:
 private:
     void changed();
     void show_ghosts();
-    void way_changed();
     void restart_world();
     LinkReport at_rest() const;
     godot::String way_problem() const;
@@ -96,7 +95,6 @@ private:
     NetworkSettings network_settings() const;
     // The wire to the partner: both have the same one.
     std::shared_ptr<MemoryLinkPair> wire(MMTLink& partner);
-    void values_changed();
     void scenario_changed();
     void side_changed();
     void partner_changed();
@@ -116,7 +114,6 @@ private:
     Correction correction_ = Correction::stealthy_direction;
     godot::Ref<NetworkConditions> conditions_;
     godot::Ref<TeleopTuning> tuning_;
-    std::uint64_t seed_;  // that the way was opened with
     bool is_old_ = false;
     // What changes anew with the scenario: everything, or nothing.
     enum class Running : uint8_t { alone, bodies, robot };
@@ -124,7 +121,6 @@ private:
     godot::Dictionary model_errors_;
 
     std::uint64_t revision_ = 1;
-    std::uint64_t way_revision_ = 1;
     std::shared_ptr<MemoryLinkPair> wire_;
     LinkReport report_;
     bool show_ghosts_ = true;

@@ -1,8 +1,6 @@
 #include "nodes/proxy_pointer.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/cylinder_mesh.hpp>
-#include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
 #include "nodes/conversions.hpp"
@@ -28,24 +26,6 @@ constexpr double max_radius = 1e3;
 constexpr float opaque = 1.0f;
 const Color proxy_color(0.1f, 0.4f, 0.9f, opaque);
 const Color hand_color(0.95f, 0.15f, 0.15f, opaque);
-
-Ref<SphereMesh> sphere_mesh() {
-    Ref<SphereMesh> mesh;
-    mesh.instantiate();
-    mesh->set_radius(1.0f);
-    mesh->set_height(2.0f);
-    return mesh;
-}
-
-Ref<CylinderMesh> line_mesh() {
-    Ref<CylinderMesh> mesh;
-    mesh.instantiate();
-    mesh->set_top_radius(0.5f);
-    mesh->set_bottom_radius(0.5f);
-    mesh->set_height(1.0f);
-    mesh->set_radial_segments(8);
-    return mesh;
-}
 
 void place(MeshInstance3D* picture, const PicturePart& part) {
     if (picture != nullptr) {
@@ -228,9 +208,9 @@ void ProxyPointer::clear_state() {
     emit_changes({});
 }
 
-MeshInstance3D* ProxyPointer::add_picture(const Ref<Mesh>& mesh, const Ref<Material>& look) {
+MeshInstance3D* ProxyPointer::add_picture(const Shape& shape, const Ref<Material>& look) {
     MeshInstance3D* picture = memnew(MeshInstance3D);
-    picture->set_mesh(mesh);
+    picture->set_mesh(drawn_mesh(drawn_shape(shape)));
     picture->set_material_override(look);
     picture->set_as_top_level(true);
     picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
@@ -243,11 +223,11 @@ void ProxyPointer::make_pictures() {
         return;
     }
     if (show_proxy_ && proxy_picture_ == nullptr) {
-        proxy_picture_ = add_picture(sphere_mesh(), lit_material(proxy_color));
+        proxy_picture_ = add_picture(SphereShape{1.0}, lit_material(proxy_color));
     }
     if (show_hand_ && hand_picture_ == nullptr) {
-        hand_picture_ = add_picture(sphere_mesh(), see_through_material(hand_color));
-        line_picture_ = add_picture(line_mesh(), see_through_material(hand_color));
+        hand_picture_ = add_picture(SphereShape{1.0}, see_through_material(hand_color));
+        line_picture_ = add_picture(CylinderShape{0.5, 0.5}, see_through_material(hand_color));
     }
     place_pictures();
 }

@@ -197,20 +197,24 @@ void watch_warnings(Node& node) {
 }
 
 String problem_of_kind(const Node& node) {
-    if (node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))) {
-        return "a " + node.get_class() +
-               " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D";
+    struct Kind {
+        const char* name;
+        const char* problem;
+    };
+    static constexpr Kind kinds[] = {
+        {"GridMap", "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes"},
+        {"SoftBody3D", "a SoftBody3D is not carried over: touch a StaticBody3D or RigidBody3D in its place"},
+        {"Area3D", "an Area3D is not solid and is not felt: use a StaticBody3D for what is to be touched"},
+    };
+    for (const Kind& kind : kinds) {
+        if (node.is_class(kind.name)) {
+            return kind.problem;
+        }
     }
-    if (node.is_class("GridMap")) {
-        return "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes";
-    }
-    if (node.is_class("SoftBody3D")) {
-        return "a SoftBody3D is not carried over: touch a StaticBody3D or RigidBody3D in its place";
-    }
-    if (node.is_class("Area3D")) {
-        return "an Area3D is not solid and is not felt: use a StaticBody3D for what is to be touched";
-    }
-    return String();
+    return node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))
+               ? "a " + node.get_class() +
+                     " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D"
+               : String();
 }
 
 }  // namespace tactus

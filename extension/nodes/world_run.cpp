@@ -41,19 +41,32 @@ private:
     bool before_;
 };
 
+std::vector<LinkPlan> plans_of(const std::vector<MMTLink*>& links) {
+    std::vector<LinkPlan> plans;
+    for (MMTLink* link : links) {
+        plans.push_back(link->plan());
+    }
+    return plans;
+}
+
 }  // namespace
 
 WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     : world_(world),
-      settings_(settings),
-      session_(settings.session),
-      loop_(session_, settings.real_time),
+      running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
+               plans_of(settings.links)),
       bodies_(world, settings.session.most_bodies, settings.real_time, complaints_) {
     defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
     defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
-    start_links();
+    for (const MMTLink* link : settings.links) {
+        link_nodes_.push_back(link->get_instance_id());
+    }
+    if (running_.is_operator()) {
+        start_model(*settings.links.front());
+    }
     // At the far side the hand is the operator's: what is plugged in here has no part in it, but for robots.
-    const bool stands_in = !links_.empty() && model_ == nullptr && !links_.front().node->has_robots();
+    const bool stands_in =
+        !settings.links.empty() && model_ == nullptr && !settings.links.front()->has_robots();
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
@@ -62,62 +75,37 @@ WorldRun::~WorldRun() {
 }
 
 void WorldRun::end() {
-    if (std::exchange(is_over_, true)) {
+    if (is_over()) {
         return;
     }
-    stop_loop();
-    for (const OwnLink& link : links_) {
-        link.link->leave();
-    }
-    if (!links_.empty()) {
-        loop_.tick_once();
-    }
-    session_.rest();
-    view().release(session_);
-    for (const OwnLink& link : links_) {
-        link.link->end();
-        if (link.node != nullptr) {
-            link.node->clear_report();
+    running_.end();
+    view().release(session());
+    for (const std::uint64_t id : link_nodes_) {
+        if (auto* link = node_of_id<MMTLink>(id)) {
+            link->clear_report();
         }
     }
     hands_->release();
-    recording_.reset();  // whoever closes its files is not to wait for this run to go
-}
-
-// --- time
-
-void WorldRun::stop_loop() {
-    loop_.stop();
-    drain();
 }
 
 void WorldRun::pause() {
-    stop_loop();
-    session_.rest();
-    session_.refresh();
-    hands_->show_devices(session_.snapshot());
+    running_.pause();
+    hands_->show_devices(session().snapshot());
     hands_->clear_forces();
-}
-
-void WorldRun::advance(std::int64_t ticks) {
-    loop_.advance(ticks, [this] {
-        session_.collect();
-        drain();
-    });
 }
 
 // --- from Godot to the session
 
 void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
-    session_.collect();  // trees that the loop has let go of can be refitted
+    running_.collect();  // trees that the loop has let go of can be refitted
     synchronise_links();
     if (model_ != nullptr) {
         model_->hold_still();
     } else {
         synchronise_bodies(seconds);
     }
-    hands_->synchronise(session_, complaints_);
+    hands_->synchronise(session(), complaints_);
     look_at_scene();
     synchronise_recorders();
     for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
@@ -127,8 +115,7 @@ void WorldRun::synchronise(double seconds) {
             give_ticks(*feedback, feedback->ring(), no_handle);
         }
     }
-    if (!session_.collect()) {
-        listeners_.forget_retired();
+    if (running_.collect()) {
         hands_->forget_retired();
     }
 }
@@ -136,7 +123,7 @@ void WorldRun::synchronise(double seconds) {
 // Once the scene has had time to come together: a second of frames, or when a script advances time again.
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;
-    const std::uint32_t first = settings_.real_time ? frames_between : 2;
+    const std::uint32_t first = loop().is_real_time() ? frames_between : 2;
     if (++looks_ < first || (looks_ - first) % frames_between != 0 || model_ != nullptr) {
         return;
     }
@@ -150,21 +137,8 @@ void WorldRun::look_at_scene() {
     }
 }
 
-void WorldRun::push(SessionHandle body, const BodyPush& push, bool for_a_frame) {
-    if (for_a_frame) {
-        forces_.emplace_back(body, push);
-    } else {
-        session_.push_body(body, push);
-    }
-}
-
 void WorldRun::synchronise_bodies(double seconds) {
-    for (auto& [body, push] : forces_) {
-        push.impulse *= seconds;
-        push.turn *= seconds;
-        session_.push_body(body, push);
-    }
-    forces_.clear();
+    running_.push_for(seconds);
     const TouchMaterial touch = world_.default_touch();
     const std::shared_ptr<const HeightImage> texture = world_.default_texture();
     if (!same_values(touch, defaults_.touch) || texture != defaults_.texture) {
@@ -174,50 +148,35 @@ void WorldRun::synchronise_bodies(double seconds) {
     defaults_.texture = texture;
     bodies_.mirrors().touched(hands_->touched());
     // In real time a tick may be under way that has already taken its commands.
-    const std::uint64_t takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
-    bodies_.synchronise({session_, Workers::shared(), defaults_, seconds, takes_effect});
+    const std::uint64_t takes_effect = loop().ticks() + (loop().is_real_time() ? 2 : 1);
+    bodies_.synchronise({session(), Workers::shared(), defaults_, seconds, takes_effect});
 }
 
 // --- the far side
 
-void WorldRun::start_links() {
-    std::vector<WorldLink*> attached;
-    for (MMTLink* const node : settings_.links) {
-        auto link = std::make_unique<WorldLink>(node->plan(), session_, from_godot(world_.get_gravity()),
-                                                pose_of(world_.get_global_transform()), loop_.ahead());
-        attached.push_back(link.get());
-        links_.push_back({node, std::move(link)});
-    }
-    WorldLink::attach(session_, attached);
-    if (links_.empty() || !links_.front().link->is_operator()) {
-        return;
-    }
+void WorldRun::start_model(const MMTLink& link) {
     model_ = std::make_unique<ModelView>(world_);
-    const OwnLink& link = links_.front();
-    link.link->set_distortion([this, errors = link.node->model_errors()](ObjectDescription& description) {
-        if (const auto error = errors.find(description.name); error != errors.end()) {
-            distort(error->second, description);
+    running_.links().front()->set_distortion([this, errors = link.model_errors()](ObjectDescription& object) {
+        if (const auto error = errors.find(object.name); error != errors.end()) {
+            distort(error->second, object);
         }
-        model_->note(description);
+        model_->note(object);
     });
 }
 
 void WorldRun::synchronise_links() {
-    const Nanoseconds now = loop_.now();
-    for (const OwnLink& link : links_) {
+    const auto& links = running_.links();
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        auto* const node = node_of_id<MMTLink>(link_nodes_[i]);
         const bool has_new_objects =
-            link.link->synchronise(link.node != nullptr ? std::optional(link.node->plan()) : std::nullopt,
-                                   from_godot(world_.get_gravity()), Workers::shared(),
-                                   {now, !loop_.is_running(), !settings_.real_time});
+            running_.synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
+                                 from_godot(world_.get_gravity()));
         if (has_new_objects) {
-            std::ranges::move(model_->update(link.link->objects()), std::back_inserter(model_news_));
+            std::ranges::move(model_->update(links[i]->objects()), std::back_inserter(model_news_));
         }
     }
-    if (!links_.empty() && model_ == nullptr) {
-        std::vector<WorldLink*> all;
-        std::ranges::transform(links_, std::back_inserter(all),
-                               [](const OwnLink& own) { return own.link.get(); });
-        tell(bodies_.mirrors(), all, session_.snapshot(), now);
+    if (model_ == nullptr) {
+        tell(bodies_.mirrors(), links, session().snapshot(), loop().now());
     }
 }
 
@@ -228,15 +187,12 @@ void WorldRun::synchronise_recorders() {
         if (!recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
             continue;
         }
-        if (recording_ == nullptr) {
+        if (running_.recording() == nullptr) {
             recorder_ = recorder->get_instance_id();
-            recording_ = recorder->recording();
-            if (recording_->has_trace()) {
-                complaints_.say(world_, loop_.trace_ticks());
-            }
+            complaints_.say(world_, running_.record(recorder->recording()));
         }
-        if (recording_ == recorder->recording()) {
-            give_ticks(*recorder, recording_->ring(), body_of(recorder->object_node()));
+        if (running_.recording() == recorder->recording()) {
+            give_ticks(*recorder, recorder->recording()->ring(), body_of(recorder->object_node()));
         } else {
             complaints_.say(*recorder, "another HapticRecorder, " + name_of(*node_of_id<Node>(recorder_)) +
                                            ", records this world already: stop that one first");
@@ -248,38 +204,26 @@ template <class NodeType>
 void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body) {
     complaints_.say(node, node.problem());
     const SessionHandle proxy = hands_->handle_of(node.proxy_node());
-    if (proxy != no_handle && !listeners_.listen(session_, node.get_instance_id(), ring, proxy, body)) {
+    if (proxy != no_handle &&
+        !running_.listeners().listen(session(), node.get_instance_id(), ring, proxy, body)) {
         complaints_.say(node, too_many_recordings);
-    }
-}
-
-void WorldRun::drain() {
-    if (recording_ == nullptr) {
-        return;
-    }
-    recording_->drain(loop_.epoch());
-    if (TickTrace* trace = loop_.trace()) {
-        recording_->drain(*trace);
     }
 }
 
 // --- what leaves
 
 void WorldRun::forget(HapticFeedback& feedback) {
-    listeners_.end(session_, feedback.get_instance_id());
+    running_.listeners().end(session(), feedback.get_instance_id());
 }
 
 void WorldRun::forget(MMTLink& link) {
-    for (OwnLink& one : links_) {
-        one.node = one.node == &link ? nullptr : one.node;
-    }
+    std::ranges::replace(link_nodes_, link.get_instance_id(), std::uint64_t{0});
 }
 
 void WorldRun::finish(HapticRecorder& recorder) {
-    if (recorder.recording() == recording_) {
-        drain();
-        listeners_.end(session_, recorder_);
-        recording_.reset();
+    if (recorder.recording() == running_.recording()) {
+        running_.finish_recording();
+        running_.listeners().end(session(), recorder_);
     }
 }
 
@@ -287,7 +231,7 @@ void WorldRun::finish(HapticRecorder& recorder) {
 
 const BodyState* WorldRun::state_of(const Node* node) {
     const SessionHandle body = body_of(node);
-    const SessionSnapshot& snapshot = session_.snapshot();
+    const SessionSnapshot& snapshot = session().snapshot();
     for (std::size_t i = 0; body != no_handle && i < snapshot.body_count; ++i) {
         if (snapshot.bodies[i].handle == body) {
             return &snapshot.bodies[i];
@@ -298,41 +242,39 @@ const BodyState* WorldRun::state_of(const Node* node) {
 
 void WorldRun::show() {
     const Busy busy(is_busy_);
-    drain();
-    std::vector<std::pair<std::uint64_t, LinkReport>> reports;
-    for (const OwnLink& link : links_) {
-        if (link.node != nullptr) {
-            reports.emplace_back(link.node->get_instance_id(), link.link->report());
-        }
+    running_.drain();
+    std::vector<LinkReport> reports;
+    for (const auto& link : running_.links()) {
+        reports.push_back(link->report());
     }
     const std::vector<ModelNews> news = std::exchange(model_news_, {});
-    if (session_.refresh()) {
-        const SessionSnapshot& snapshot = session_.snapshot();
+    if (session().refresh()) {
+        const SessionSnapshot& snapshot = session().snapshot();
         hands_->show_devices(snapshot);
         show_bodies(snapshot);
-        if (!is_over_) {
+        if (!is_over()) {
             hands_->show_proxies(snapshot, [this](SessionHandle body) { return view().node_of(body); });
         }
     }
     // A script may have freed some of them by now.
-    for (const auto& [id, report] : reports) {
-        if (auto* node = node_of_id<MMTLink>(id)) {
-            node->take_report(report, news);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        if (auto* node = node_of_id<MMTLink>(link_nodes_[i])) {
+            node->take_report(reports[i], news);
         }
     }
 }
 
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
-    for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
+    for (std::size_t i = 0; i < snapshot.body_count && !is_over(); ++i) {
         view().show(snapshot.bodies[i], snapshot.tick);
     }
 }
 
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
-    for (const OwnLink& link : links_) {
-        std::ranges::move(link.link->problems(), std::back_inserter(all));
+    for (const auto& link : running_.links()) {
+        std::ranges::move(link->problems(), std::back_inserter(all));
     }
     std::ranges::move(bodies_.mirrors().problems(), std::back_inserter(all));
     return all;

@@ -1,4 +1,4 @@
-// What a HapticWorld owns while it runs: the session, its loop, and what of the scene tree stands in it.
+// What a HapticWorld owns while it runs: a running world, and what of the scene tree stands in it.
 //
 // Threads: the main thread; the haptic thread is that of the loop (world/world_loop.hpp).
 #pragma once
@@ -12,11 +12,7 @@
 #include "nodes/model_view.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/scene_bodies.hpp"
-#include "session/session.hpp"
-#include "world/recording.hpp"
-#include "world/tick_listeners.hpp"
-#include "world/world_link.hpp"
-#include "world/world_loop.hpp"
+#include "world/running_world.hpp"
 
 namespace tactus {
 
@@ -42,15 +38,10 @@ public:
     // Gives everything back; nothing ticks after it. The run itself may be destroyed later: whoever is at
     // work in it finds out by is_over().
     void end();
-    bool is_over() const { return is_over_; }
+    bool is_over() const { return running_.is_over(); }
     // While scene and session are brought together. Godot may call scripts then, as bodies move.
     bool is_busy() const { return is_busy_; }
 
-    // Real time only. The text is empty, or why the loop could not start.
-    std::string start_loop(const TickLoopSettings& settings, bool baseline) {
-        return loop_.start(settings, baseline);
-    }
-    void stop_loop();
     // Ticks stop for a while: nothing pushes the hand meanwhile.
     void pause();
 
@@ -58,21 +49,16 @@ public:
     void synchronise(double seconds);
     // Shows in the scene tree what the loop has done.
     void show();
-    // Stepped time only: ticks at once, here.
-    void advance(std::int64_t ticks);
 
     // A node has come or gone.
     void scene_changed(const godot::Node& node) { view().scene_changed(node); }
-    void forget(HapticDevice& device) { hands_->forget(device, session_); }
-    void forget(ProxyPointer& proxy) { hands_->forget(proxy, session_); }
+    void forget(HapticDevice& device) { hands_->forget(device, session()); }
+    void forget(ProxyPointer& proxy) { hands_->forget(proxy, session()); }
     void forget(HapticFeedback& feedback);
     void forget(MMTLink& link);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder& recorder);
 
-    // Gives a body an impulse in the next tick; `for_a_frame`: the force of that size, and its torque, for as
-    // long as the next frame is.
-    void push(SessionHandle body, const BodyPush& push, bool for_a_frame);
     // no_handle where the node is no body of this world.
     SessionHandle body_of(const godot::Node* node) {
         return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
@@ -81,9 +67,10 @@ public:
     const BodyState* state_of(const godot::Node* node);
 
     const SceneBodies& bodies() const { return bodies_; }
-    Session& session() { return session_; }
-    WorldLoop& loop() { return loop_; }
-    const WorldLoop& loop() const { return loop_; }
+    RunningWorld& running() { return running_; }
+    Session& session() { return running_.session(); }
+    WorldLoop& loop() { return running_.loop(); }
+    const WorldLoop& loop() const { return running_.loop(); }
     std::size_t body_count() { return view().body_count(); }
     std::size_t trees_building() const { return bodies_.mirrors().building(); }  // bodies wait
     std::vector<std::string> problems() const;                                   // each names its node
@@ -95,33 +82,21 @@ private:
     void synchronise_recorders();
     template <class NodeType>
     void give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body);
-    void start_links();
+    void start_model(const MMTLink& link);
     void synchronise_links();
-    void drain();
     void show_bodies(const SessionSnapshot& snapshot);
 
-    struct OwnLink {
-        MMTLink* node = nullptr;  // null: it has left
-        std::unique_ptr<WorldLink> link;
-    };
-
     HapticWorld& world_;
-    RunSettings settings_;
-    std::vector<OwnLink> links_;  // to each far side. Above the session, whose sides use them
-    Session session_;
-    WorldLoop loop_;
+    std::vector<std::uint64_t> link_nodes_;  // ids of the MMTLinks of its links; 0: it has left
+    RunningWorld running_;
     std::unique_ptr<ModelView> model_;   // at the operator; else null
     std::vector<ModelNews> model_news_;  // for its link's node
-    bool is_over_ = false;
     bool is_busy_ = false;
 
-    std::vector<std::pair<SessionHandle, BodyPush>> forces_;  // until the next frame
     Complaints complaints_;
     SceneBodies bodies_;
     std::unique_ptr<HandMirrors> hands_;
-    std::uint64_t recorder_ = 0;            // id of the HapticRecorder that records this world; 0: none
-    std::shared_ptr<Recording> recording_;  // its
-    TickListeners listeners_;
+    std::uint64_t recorder_ = 0;  // id of the HapticRecorder that records this world
     BodyDefaults defaults_;
     std::uint32_t looks_ = 0;  // synchronise() so far
 };

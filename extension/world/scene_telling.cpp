@@ -2,8 +2,11 @@
 
 namespace tactus {
 
-void tell(const BodyMirrors& scene, const std::vector<WorldLink*>& links, const SessionSnapshot& snapshot,
-          Nanoseconds now) {
+void tell(const BodyMirrors& scene, const std::vector<std::unique_ptr<WorldLink>>& links,
+          const SessionSnapshot& snapshot, Nanoseconds now) {
+    if (links.empty()) {
+        return;
+    }
     std::vector<WorldLink::Told> told;
     std::vector<const BodyMirror*> mirrors;
     for (const auto& mirror : scene.bodies()) {
@@ -22,7 +25,7 @@ void tell(const BodyMirrors& scene, const std::vector<WorldLink*>& links, const 
     const auto describe = [&](std::size_t i) {
         return WorldLink::Description{mirrors[i]->body()->path(), mirrors[i]->twin().addition()};
     };
-    for (WorldLink* link : links) {
+    for (const auto& link : links) {
         link->tell(told, describe, joints, snapshot, now);
     }
 }

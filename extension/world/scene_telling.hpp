@@ -8,7 +8,7 @@
 
 namespace tactus {
 
-void tell(const BodyMirrors& scene, const std::vector<WorldLink*>& links, const SessionSnapshot& snapshot,
-          Nanoseconds now);
+void tell(const BodyMirrors& scene, const std::vector<std::unique_ptr<WorldLink>>& links,
+          const SessionSnapshot& snapshot, Nanoseconds now);
 
 }  // namespace tactus
