@@ -167,8 +167,7 @@ void DepthSensor::pass_on_library() {
             library_error_ = loaded.error;
             continue;
         }
-        const std::optional<LibraryEntry> entry = mesh_library_entry(names[i]);
-        library_.push_back({names[i], loaded.mesh, entry ? entry->mass : 0.0});
+        library_.push_back({names[i], loaded.mesh, mesh_library_entry(names[i]).mass});
         known.push_back({{loaded.mesh->vertices, loaded.mesh->triangles}, library_.back().mass});
     }
     sensor_->set_library(known);
