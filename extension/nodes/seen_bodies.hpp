@@ -59,11 +59,14 @@ private:
                         const Looks& looks) const;
     void place(Made& made, const SightedObject& object) const;
     void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
+    void hold_support(godot::Node3D& sensor, const SupportPlane& plane, bool is_wanted);
 
     SeenAs made_as_ = SeenAs::pictures;
     bool are_shown_ = true;
     std::map<std::uint64_t, Made> made_;  // by the object
     std::uint64_t cloud_ = 0;
+    std::uint64_t support_ = 0;
+    SupportPlane support_plane_;  // as it was put there last
 };
 
 }  // namespace tactus
