@@ -55,10 +55,8 @@ double deviation(const SightedObject& object, std::size_t first) {
 void DepthSensor::source_changed() {
     notify_property_list_changed();
     update_configuration_warnings();
-    if (sensor_ != nullptr || (active_ && is_inside_tree())) {
-        end();
-        begin();
-    }
+    end();
+    begin();
 }
 
 void DepthSensor::library_changed() {
@@ -109,12 +107,12 @@ const Sight& DepthSensor::sight() const {
     return sensor_ != nullptr ? sensor_->sight() : nothing;
 }
 
+// The rest of the scene, which a synthetic camera looks at, may not be there yet.
 void DepthSensor::begin() {
-    set_process_internal(false);
-    if (!active_ || is_edited() || !is_inside_tree()) {
-        return;
-    }
-    set_process_internal(true);
+    set_process_internal(active_ && !is_edited() && is_inside_tree());
+}
+
+void DepthSensor::make_sensor() {
     const DepthSensing* const sensing = depth_sensing(load_error_);
     if (sensing != nullptr) {
         sensor_.reset(sensing->make_sensor());
@@ -200,6 +198,7 @@ void DepthSensor::pass_on_settings() {
 
 void DepthSensor::end() {
     sensor_.reset();
+    load_error_.clear();
     view_.end();
     seen_.clear();
     known_.clear();
@@ -209,6 +208,9 @@ void DepthSensor::end() {
 }
 
 void DepthSensor::look() {
+    if (sensor_ == nullptr && load_error_.empty()) {
+        make_sensor();
+    }
     if (sensor_ == nullptr) {
         return;
     }
@@ -270,7 +272,11 @@ String DepthSensor::get_state_text() const {
     if (!active_) {
         return "it is switched off: set 'active'";
     }
-    return to_godot(load_error_.empty() ? std::string(sight().text) : load_error_);
+    if (!load_error_.empty()) {
+        return to_godot(load_error_);
+    }
+    return sensor_ != nullptr ? to_godot(std::string(sight().text))
+                              : String("it begins with the next frame of the scene");
 }
 
 Dictionary DepthSensor::describe(const SightedObject& object) const {

@@ -69,6 +69,7 @@ private:
     godot::String problem() const;
     godot::PackedStringArray library_names() const;
     void begin();
+    void make_sensor();
     void end();
     void open();
     void pass_on_library();

@@ -32,6 +32,7 @@ public:
         DRIVER_OPENHAPTICS = static_cast<int64_t>(HandKind::openhaptics),
         DRIVER_INVERSE3 = static_cast<int64_t>(HandKind::inverse3),
         DRIVER_EMULATED_ROBOT = static_cast<int64_t>(HandKind::emulated_robot),
+        DRIVER_ROBOT_TIP = static_cast<int64_t>(HandKind::robot_tip),
     };
     enum Steering : int64_t {
         STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
@@ -80,6 +81,7 @@ private:
     HandKind kind() const;
     HandPlan plan() const;
     godot::Node3D* target_node() const;
+    HapticDevice* robot_node() const;  // whose tip this one is; null: none
     // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
     void lead_hand();
 
@@ -102,6 +104,7 @@ private:
     int dead_man_buttons_ = 0;
 
     SceneHand hand_;
+    std::shared_ptr<TipExchange> tip_ = std::make_shared<TipExchange>();  // as an emulated robot
     DeviceState state_;
 };
 

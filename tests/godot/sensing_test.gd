@@ -193,6 +193,8 @@ func test_an_empty_scene_is_said_to_be_empty() -> void:
 		await until(func() -> bool: return "nothing is drawn" in sensor.get_state_text(), 60.0),
 		"it says: %s" % sensor.get_state_text()
 	)
+	get_node("Table").visible = true
+	check(await _sees(sensor), "with something drawn it says: %s" % sensor.get_state_text())
 
 
 func test_cameras_are_found_by_name() -> void:
