@@ -95,6 +95,10 @@ def flags_of_file(platform, source, sanitizers):
     return [*anywhere, *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]
 
 
+# A library that is loaded later finds the played calls first.
+LINK_PLAYED = ["-Wl,--export-dynamic-symbol=poll,--export-dynamic-symbol=ioctl"]
+
+
 def umockdev():
     """Flags to compile and link with umockdev, which plays devices of the system; none where it is not installed."""
     command = ["pkg-config", "--cflags", "--libs", "umockdev-1.0"]

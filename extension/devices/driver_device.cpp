@@ -19,7 +19,7 @@ constexpr Nanoseconds lost_after = 500'000'000;
 constexpr Nanoseconds exchange_time = 5'000'000;
 
 // What the I/O thread is given to renew a force or take it away by itself (unit: nanoseconds).
-constexpr Nanoseconds grace = 150'000;
+constexpr Nanoseconds grace = 50'000;
 
 // Next to the loop's own, which is 70 and may not wait for these.
 RealtimeRequest realtime_request() {

@@ -13,6 +13,8 @@ bool is_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+constexpr double farthest_point = 1e6;  // from the origin (unit: meters)
+
 std::string problem_with_circle(const CircleWave& path) {
     if (path.turn_time <= 0) {
         return "the time for one turn has to be above zero";
@@ -29,18 +31,18 @@ std::string problem_with_circle(const CircleWave& path) {
 std::string problem_with_keyframes(const KeyframePath& path) {
     const std::vector<Keyframe>& keys = path.keyframes;
     if (keys.empty()) {
-        return "the path has no keyframes";
+        return "the path has no points";
     }
     for (std::size_t i = 0; i < keys.size(); ++i) {
-        if (!is_finite(keys[i].position)) {
-            return "keyframe " + std::to_string(i) + " is not at a finite position";
+        if (!(glm::length(keys[i].position) <= farthest_point)) {
+            return "point " + std::to_string(i) + " is no place within 1,000,000 m: set it anew";
         }
         if (i > 0 && keys[i].time <= keys[i - 1].time) {
-            return "keyframe " + std::to_string(i) + " is not later than the one before it";
+            return "point " + std::to_string(i) + " is not later than the one before it";
         }
     }
     if (path.loop && keys.size() < 2) {
-        return "a path that repeats needs at least two keyframes";
+        return "a path that repeats needs at least two points";
     }
     if (path.loop && keys.back().position != keys.front().position) {
         return "a path that repeats has to end where it begins";

@@ -1,55 +1,46 @@
 #include "nodes/body_watch.hpp"
 
-#include <algorithm>
 #include <godot_cpp/core/class_db.hpp>
-#include <godot_cpp/core/object.hpp>
+#include <utility>
 
 namespace tactus {
 
 using namespace godot;
 
-std::uint64_t BodyWatch::put_into(Node& body, const std::shared_ptr<BodyNews>& news,
-                                  const Transform3D& known) {
+BodyWatch* BodyWatch::put_into(Node& body, Listener& listener) {
     auto* watch = memnew(BodyWatch);
     body.add_child(watch, false, INTERNAL_MODE_BACK);
     if (watch->get_parent() == nullptr) {
         memdelete(watch);
-        return 0;
+        return nullptr;
     }
-    watch->news_ = news;
-    watch->known_ = &known;
-    watch->body_ = body.get_instance_id();
+    watch->listener_ = &listener;
     watch->set_notify_transform(true);
-    return watch->get_instance_id();
+    listener.is_in_tree(watch->is_inside_tree());
+    return watch;
 }
 
-void BodyWatch::take_out(std::uint64_t id) {
-    if (auto* watch = Object::cast_to<BodyWatch>(ObjectDB::get_instance(id))) {
-        watch->news_.reset();
-        listen_to(id, {});
-        watch->queue_free();
-    }
+BodyWatch::~BodyWatch() {
+    go();
 }
 
-void BodyWatch::tell_of_places(std::uint64_t id, bool tell) {
-    if (auto* watch = Object::cast_to<BodyWatch>(ObjectDB::get_instance(id))) {
-        watch->set_notify_transform(tell);
-    }
+void BodyWatch::take_out() {
+    listener_ = nullptr;
+    listen_to({});
+    queue_free();
 }
 
-void BodyWatch::listen_to(std::uint64_t id, const std::vector<Ref<Resource>>& resources) {
-    auto* watch = Object::cast_to<BodyWatch>(ObjectDB::get_instance(id));
-    if (watch == nullptr || watch->resources_ == resources) {
+void BodyWatch::listen_to(std::vector<Ref<Resource>> resources) {
+    if (resources_ == resources) {
         return;
     }
-    const Callable on_change(watch, "_resource_changed");
-    for (const Ref<Resource>& before : watch->resources_) {
+    const Callable on_change(this, "_resource_changed");
+    for (const Ref<Resource>& before : std::exchange(resources_, std::move(resources))) {
         if (before->is_connected("changed", on_change)) {
             before->disconnect("changed", on_change);
         }
     }
-    watch->resources_ = resources;
-    for (const Ref<Resource>& now : watch->resources_) {
+    for (const Ref<Resource>& now : resources_) {
         if (!now->is_connected("changed", on_change)) {
             now->connect("changed", on_change);
         }
@@ -57,15 +48,34 @@ void BodyWatch::listen_to(std::uint64_t id, const std::vector<Ref<Resource>>& re
 }
 
 void BodyWatch::resource_changed() {
-    if (news_ != nullptr) {
-        news_->changed.push_back(body_);
+    if (listener_ != nullptr) {
+        listener_->has_changed();
     }
 }
 
-// It stands where its body stands, to the bit.
+void BodyWatch::go() {
+    if (listener_ != nullptr) {
+        std::exchange(listener_, nullptr)->watch_has_gone();
+    }
+}
+
 void BodyWatch::_notification(int what) {
-    if (what == NOTIFICATION_TRANSFORM_CHANGED && news_ != nullptr && !(get_global_transform() == *known_)) {
-        news_->moved.push_back(body_);
+    if (listener_ == nullptr) {
+        return;
+    }
+    switch (what) {
+        case NOTIFICATION_TRANSFORM_CHANGED:
+            listener_->has_moved();
+            break;
+        case NOTIFICATION_ENTER_TREE:
+        case NOTIFICATION_EXIT_TREE:
+            listener_->is_in_tree(what == NOTIFICATION_ENTER_TREE);
+            break;
+        case NOTIFICATION_UNPARENTED:
+            go();
+            break;
+        default:
+            break;
     }
 }
 

@@ -9,7 +9,7 @@
 #include <godot_cpp/variant/vector3.hpp>
 #include <string>
 
-#include "core/math/pose.hpp"
+#include "world/scene_frame.hpp"
 
 namespace tactus {
 
@@ -36,19 +36,15 @@ inline godot::Transform3D to_godot(const Pose& pose) {
     return {godot::Basis(to_godot(pose.rotation)), to_godot(pose.position)};
 }
 
-// Where the transform's frame stands and how it is turned; what it scales or mirrors is left out.
+inline SceneFrame frame_of(const godot::Transform3D& transform) {
+    const godot::Basis& basis = transform.basis;
+    return {Mat3(from_godot(basis.get_column(0)), from_godot(basis.get_column(1)),
+                 from_godot(basis.get_column(2))),
+            from_godot(transform.origin)};
+}
+
 inline Pose pose_of(const godot::Transform3D& transform) {
-    return {from_godot(transform.origin), from_godot(transform.basis.get_rotation_quaternion())};
-}
-
-// What pose_of() leaves out: scale, mirroring and shear, as seen from the pose's own frame.
-inline godot::Basis scaling_of(const godot::Basis& basis) {
-    return godot::Basis(basis.get_rotation_quaternion()).transposed() * basis;
-}
-
-inline Mat3 matrix_of(const godot::Basis& basis) {
-    return Mat3(from_godot(basis.get_column(0)), from_godot(basis.get_column(1)),
-                from_godot(basis.get_column(2)));
+    return pose_of(frame_of(transform));
 }
 
 inline godot::Basis basis_of(const Mat3& matrix) {
@@ -59,9 +55,10 @@ inline godot::Basis basis_of(const Mat3& matrix) {
     return basis;
 }
 
-// A frame that turns has its scaling rounded anew each time; none at all stays none.
-inline godot::Basis without_rounding(const godot::Basis& scaling) {
-    return scaling.is_equal_approx(godot::Basis()) ? godot::Basis() : scaling;
+// Where `pose` is, scaled.
+inline godot::Transform3D to_godot(const Pose& pose, const Mat3& scaling) {
+    const godot::Transform3D placed = to_godot(pose);
+    return {placed.basis * basis_of(scaling), placed.origin};
 }
 
 inline godot::String to_godot(const std::string& text) {

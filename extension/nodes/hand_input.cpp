@@ -4,13 +4,13 @@
 #include <cstddef>
 #include <godot_cpp/classes/camera3d.hpp>
 #include <godot_cpp/classes/control.hpp>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 #include <godot_cpp/classes/xr_controller3d.hpp>
 
 #include "nodes/conversions.hpp"
+#include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
 
 namespace tactus {
@@ -90,16 +90,16 @@ Vec3 from_view(const Node3D& node, const Vec3& direction) {
 }
 
 String problem_of_mouse(const Node& node) {
-    const bool is_edited = Engine::get_singleton()->is_editor_hint();
-    const Node* scene = is_edited ? node.get_tree()->get_edited_scene_root() : nullptr;
-    const bool has_camera = is_edited ? scene != nullptr && !scene->find_children("*", "Camera3D").is_empty()
-                                      : node.get_viewport()->get_camera_3d() != nullptr;
+    const Node* scene = is_edited() ? node.get_tree()->get_edited_scene_root() : nullptr;
+    const bool has_camera = is_edited()
+                                ? scene != nullptr && !scene->find_children("*", "Camera3D").is_empty()
+                                : node.get_viewport()->get_camera_3d() != nullptr;
     if (!has_camera) {
         return "the mouse needs a camera to move the hand before: add a Camera3D that sees the hand, and "
                "make it current";
     }
     const Node* over = nullptr;
-    if (is_edited) {
+    if (is_edited()) {
         over = control_over_view(*scene);
     } else if (const Control* hovered = node.get_viewport()->gui_get_hovered_control();
                hovered != nullptr && takes_mouse(*hovered)) {

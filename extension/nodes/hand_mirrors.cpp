@@ -6,6 +6,7 @@
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/roll.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -22,33 +23,51 @@ ProxyPointer::BodyIds body_ids(const ProxyState& state, const HandMirrors::NodeO
 }
 
 // no_handle where the node has none.
-template <class Mirrors, class NodeType>
-SessionHandle handle_in(const Mirrors& mirrors, const NodeType* node) {
-    const auto found = std::ranges::find_if(mirrors, [node](const auto& one) { return one.node == node; });
-    return node != nullptr && found != mirrors.end() ? found->twin.handle() : no_handle;
+template <class Mirror>
+SessionHandle handle_in(const std::vector<Mirror>& mirrors, const Node* node) {
+    const std::uint64_t id = node != nullptr ? node->get_instance_id() : 0;
+    const auto found = std::ranges::find(mirrors, id, &Mirror::id);
+    return found != mirrors.end() ? found->twin.handle() : no_handle;
 }
 
-// Those nodes of the world that have no mirror yet get one.
-template <class NodeType, class Mirrors>
-void enlist(const HapticWorld& world, Mirrors& mirrors) {
-    for (NodeType* node : Roll<NodeType>::all()) {
-        const bool is_known =
-            std::ranges::any_of(mirrors, [node](const auto& one) { return one.node == node; });
-        if (!is_known && HapticWorld::of(node) == &world) {
-            mirrors.push_back({node, {}});
+// use(node, twin) for those that are there.
+template <class NodeType>
+void for_each_node(auto& mirrors, const auto& use) {
+    for (auto& mirror : mirrors) {
+        if (auto* node = node_of_id<NodeType>(mirror.id)) {
+            use(*node, mirror.twin);
         }
     }
 }
 
 }  // namespace
 
-void HandMirrors::synchronise(DeviceMirror& mirror, Session& session, Complaints& complaints) {
-    HapticDevice& node = *mirror.node;
+// Those nodes of the world that have no mirror yet get one; mirrors of nodes that have gone go.
+template <class NodeType, class Mirror>
+void HandMirrors::match(std::vector<Mirror>& mirrors, Session& session) {
+    std::erase_if(mirrors, [&](Mirror& mirror) {
+        const bool is_gone = node_of_id<NodeType>(mirror.id) == nullptr;
+        if (is_gone) {
+            remove(mirror.twin, session);
+        }
+        return is_gone;
+    });
+    for (const NodeType* node : Roll<NodeType>::all()) {
+        const bool is_known =
+            std::ranges::find(mirrors, node->get_instance_id(), &Mirror::id) != mirrors.end();
+        if (!is_known && HapticWorld::of(node) == &world_) {
+            mirrors.push_back({node->get_instance_id(), {}});
+        }
+    }
+}
+
+void HandMirrors::synchronise(HapticDevice& node, DeviceTwin& twin, Session& session,
+                              Complaints& complaints) {
     const std::shared_ptr<Device> port = stand_in_ != nullptr ? stand_in_ : node.port();
-    const SessionHandle before = mirror.twin.handle();
+    const SessionHandle before = twin.handle();
     const Workspace workspace = port != nullptr ? node.workspace() : Workspace{};
-    complaints.say(node, mirror.twin.synchronise(session, port, workspace, retired_));
-    if (before != no_handle && mirror.twin.handle() != before) {
+    complaints.say(node, twin.synchronise(session, port, workspace, retired_));
+    if (before != no_handle && twin.handle() != before) {
         node.clear_state();
     }
     if (port == nullptr) {
@@ -58,8 +77,7 @@ void HandMirrors::synchronise(DeviceMirror& mirror, Session& session, Complaints
     }
 }
 
-void HandMirrors::synchronise(ProxyMirror& mirror, Session& session, Complaints& complaints) {
-    ProxyPointer& node = *mirror.node;
+void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints) {
     complaints.say(node, node.problem());
     if (node.is_kept_out()) {
         complaints.say(node,
@@ -67,43 +85,36 @@ void HandMirrors::synchronise(ProxyMirror& mirror, Session& session, Complaints&
                        "move the device, or the body, so that it begins in free space");
     }
     const SessionHandle device = handle_in(devices_, node.device_node());
-    complaints.say(node, mirror.twin.synchronise(session, node.description(device)));
+    complaints.say(node, twin.synchronise(session, node.description(device)));
 }
 
 void HandMirrors::synchronise(Session& session, Complaints& complaints) {
-    enlist<HapticDevice>(world_, devices_);
-    for (DeviceMirror& device : devices_) {
-        synchronise(device, session, complaints);
-    }
-    enlist<ProxyPointer>(world_, proxies_);
-    for (ProxyMirror& proxy : proxies_) {
-        synchronise(proxy, session, complaints);
-    }
+    const auto each = [&](auto& node, auto& twin) { synchronise(node, twin, session, complaints); };
+    match<HapticDevice>(devices_, session);
+    for_each_node<HapticDevice>(devices_, each);
+    match<ProxyPointer>(proxies_, session);
+    for_each_node<ProxyPointer>(proxies_, each);
 }
 
-void HandMirrors::forget(HapticDevice* device, Session& session) {
-    std::erase_if(devices_, [&](DeviceMirror& one) {
-        if (one.node == device) {
-            one.twin.remove(session, retired_);
-            device->clear_state();
-        }
-        return one.node == device;
-    });
+void HandMirrors::forget(std::uint64_t node, Session& session) {
+    forget<HapticDevice>(node, devices_, session);
+    forget<ProxyPointer>(node, proxies_, session);
 }
 
-void HandMirrors::forget(ProxyPointer* proxy, Session& session) {
-    std::erase_if(proxies_, [&](ProxyMirror& one) {
-        if (one.node == proxy) {
-            one.twin.remove(session);
-        }
-        return one.node == proxy;
-    });
+template <class NodeType, class Mirror>
+void HandMirrors::forget(std::uint64_t node, std::vector<Mirror>& mirrors, Session& session) {
+    const auto found = std::ranges::find(mirrors, node, &Mirror::id);
+    if (found != mirrors.end()) {
+        remove(found->twin, session);
+        mirrors.erase(found);
+        node_of_id<NodeType>(node)->clear_state();
+    }
 }
 
 void HandMirrors::look_at_scene(const SceneFacts& facts, Complaints& complaints) const {
-    for (const ProxyMirror& proxy : proxies_) {
-        complaints.say(*proxy.node, proxy.node->hindrance(facts));
-    }
+    for_each_node<ProxyPointer>(proxies_, [&](const ProxyPointer& node, const ProxyTwin&) {
+        complaints.say(node, node.hindrance(facts));
+    });
 }
 
 SessionHandle HandMirrors::handle_of(const ProxyPointer* proxy) const {
@@ -111,30 +122,27 @@ SessionHandle HandMirrors::handle_of(const ProxyPointer* proxy) const {
 }
 
 void HandMirrors::clear_forces() {
-    for (const ProxyMirror& proxy : proxies_) {
-        proxy.node->clear_force();
-    }
+    for_each_node<ProxyPointer>(proxies_, [](ProxyPointer& node, const ProxyTwin&) { node.clear_force(); });
 }
 
 void HandMirrors::release() {
-    for (const DeviceMirror& device : devices_) {
-        device.node->clear_state();
-    }
-    for (const ProxyMirror& proxy : proxies_) {
-        proxy.node->clear_state();
-    }
+    const auto clear = [](auto& node, const auto&) { node.clear_state(); };
+    for_each_node<HapticDevice>(devices_, clear);
+    for_each_node<ProxyPointer>(proxies_, clear);
     devices_.clear();
     proxies_.clear();
 }
 
 void HandMirrors::show_devices(const SessionSnapshot& snapshot) {
-    for (std::size_t i = 0; i < snapshot.device_count; ++i) {
-        for (const DeviceMirror& device : devices_) {
-            if (device.twin.handle() == snapshot.devices[i].handle) {
-                device.node->take_state(snapshot.devices[i]);
-            }
+    for_each_node<HapticDevice>(devices_, [&](HapticDevice& node, const DeviceTwin& twin) {
+        const auto end = snapshot.devices.begin() + snapshot.device_count;
+        const auto found = std::find_if(snapshot.devices.begin(), end, [&twin](const DeviceState& state) {
+            return state.handle == twin.handle();
+        });
+        if (found != end) {
+            node.take_state(*found);
         }
-    }
+    });
 }
 
 // From copies: a node that is moved may call a script.
@@ -149,14 +157,14 @@ void HandMirrors::show_proxies(const SessionSnapshot& snapshot, const NodeOf& no
         const ProxyState& state = snapshot.proxies[i];
         for (const ProxyMirror& proxy : proxies_) {
             if (proxy.twin.handle() == state.handle) {
-                all.push_back({proxy.node->get_instance_id(), state, body_ids(state, node_of)});
+                all.push_back({proxy.id, state, body_ids(state, node_of)});
             }
         }
     }
     touched_.clear();
     for (const News& news : all) {
         std::ranges::copy_if(news.bodies, std::back_inserter(touched_), [](auto body) { return body != 0; });
-        if (auto* proxy = Object::cast_to<ProxyPointer>(ObjectDB::get_instance(news.proxy))) {
+        if (auto* proxy = node_of_id<ProxyPointer>(news.proxy)) {
             proxy->take_state(news.state, news.bodies);
         }
     }

@@ -25,8 +25,8 @@ public:
     void synchronise(Session& session, Complaints& complaints);
     // Says what keeps fingertips from touching this.
     void look_at_scene(const SceneFacts& facts, Complaints& complaints) const;
-    void forget(HapticDevice* device, Session& session);
-    void forget(ProxyPointer* proxy, Session& session);
+    // Nothing where the node is none of them.
+    void forget(std::uint64_t node, Session& session);
 
     // The node that shows a body; 0: none.
     using NodeOf = std::function<std::uint64_t(SessionHandle)>;
@@ -44,16 +44,23 @@ public:
     void forget_retired() { retired_.clear(); }
 
 private:
-    template <class NodeType, class Twin>
-    struct Mirror {
-        NodeType* node = nullptr;
-        Twin twin;
+    struct DeviceMirror {
+        std::uint64_t id = 0;  // of the node
+        DeviceTwin twin;
     };
-    using DeviceMirror = Mirror<HapticDevice, DeviceTwin>;
-    using ProxyMirror = Mirror<ProxyPointer, ProxyTwin>;
+    struct ProxyMirror {
+        std::uint64_t id = 0;
+        ProxyTwin twin;
+    };
 
-    void synchronise(DeviceMirror& mirror, Session& session, Complaints& complaints);
-    void synchronise(ProxyMirror& mirror, Session& session, Complaints& complaints);
+    void synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints);
+    void synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints);
+    void remove(DeviceTwin& twin, Session& session) { twin.remove(session, retired_); }
+    void remove(ProxyTwin& twin, Session& session) { twin.remove(session); }
+    template <class NodeType, class Mirror>
+    void forget(std::uint64_t node, std::vector<Mirror>& mirrors, Session& session);
+    template <class NodeType, class Mirror>
+    void match(std::vector<Mirror>& mirrors, Session& session);
 
     const HapticWorld& world_;
     std::shared_ptr<Device> stand_in_;

@@ -7,14 +7,9 @@
 #include <godot_cpp/variant/node_path.hpp>
 #include <memory>
 
-#include "core/ports/device.hpp"
-#include "devices/driver_device.hpp"
-#include "devices/following_device.hpp"
-#include "devices/simulated_arm.hpp"
-#include "devices/steering.hpp"
 #include "nodes/haptic_path.hpp"
 #include "nodes/properties.hpp"
-#include "session/session_types.hpp"
+#include "world/scene_hand.hpp"
 
 namespace tactus {
 
@@ -25,18 +20,18 @@ class HapticDevice : public godot::Node3D {
 
 public:
     enum Driver : int64_t {
-        DRIVER_PATH,
-        DRIVER_MOUSE,
-        DRIVER_ARM,
-        DRIVER_AUTOMATIC,
-        DRIVER_KEYBOARD,
-        DRIVER_GAMEPAD,
-        DRIVER_NODE,
-        DRIVER_FALCON = 16,
-        DRIVER_FORCE_DIMENSION,
-        DRIVER_OPENHAPTICS,
-        DRIVER_INVERSE3,
-        DRIVER_EMULATED_ROBOT
+        DRIVER_PATH = static_cast<int64_t>(HandKind::path),
+        DRIVER_MOUSE = static_cast<int64_t>(HandKind::mouse),
+        DRIVER_ARM = static_cast<int64_t>(HandKind::arm),
+        DRIVER_AUTOMATIC = static_cast<int64_t>(HandKind::automatic),
+        DRIVER_KEYBOARD = static_cast<int64_t>(HandKind::keyboard),
+        DRIVER_GAMEPAD = static_cast<int64_t>(HandKind::gamepad),
+        DRIVER_NODE = static_cast<int64_t>(HandKind::node),
+        DRIVER_FALCON = static_cast<int64_t>(HandKind::falcon),
+        DRIVER_FORCE_DIMENSION = static_cast<int64_t>(HandKind::force_dimension),
+        DRIVER_OPENHAPTICS = static_cast<int64_t>(HandKind::openhaptics),
+        DRIVER_INVERSE3 = static_cast<int64_t>(HandKind::inverse3),
+        DRIVER_EMULATED_ROBOT = static_cast<int64_t>(HandKind::emulated_robot),
     };
     enum Steering : int64_t {
         STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
@@ -80,18 +75,15 @@ private:
     godot::String problem() const;
     void changed();
     void driver_changed();
-    void arm_changed();
+    void arm_changed() { hand_.change(arm_settings_); }
     // The one that is meant where that is left open.
-    Driver driver() const;
-    bool is_driven() const { return driver() >= DRIVER_FALCON && driver() <= DRIVER_INVERSE3; }
-    std::shared_ptr<DriverDevice> open_driver() const;
-    bool follows_path() const { return driver() == DRIVER_PATH || driver() == DRIVER_ARM; }
-    bool is_steered() const { return driver() == DRIVER_KEYBOARD || driver() == DRIVER_GAMEPAD; }
+    HandKind kind() const;
+    HandPlan plan() const;
     godot::Node3D* target_node() const;
     // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
-    void lead_hand(double seconds);
+    void lead_hand();
 
-    Driver driver_ = DRIVER_AUTOMATIC;
+    HandKind driver_ = HandKind::automatic;
     godot::Ref<HapticPath> path_;
     godot::String path_problem_;  // why it cannot be followed; empty where it can
     double wheel_step_ = 0.01;
@@ -109,12 +101,7 @@ private:
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
 
-    std::shared_ptr<Device> port_;
-    std::shared_ptr<FollowingDevice> follower_;  // the same as port_ where the hand is told where to be
-    std::shared_ptr<SimulatedArm> arm_;          // the same as port_ where the driver is the arm
-    std::shared_ptr<DriverDevice> driven_;       // the same as port_ where it has a driver of its own
-    Vec3 mouse_target_{0.0};                     // in the scene (unit: meters)
-    Vec3 steered_{0.0};                          // in the device's own frame (unit: meters)
+    SceneHand hand_;
     DeviceState state_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <godot_cpp/classes/audio_stream_generator.hpp>
 #include <godot_cpp/classes/audio_stream_generator_playback.hpp>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/xr_controller3d.hpp>
 
@@ -13,6 +12,7 @@
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -33,19 +33,14 @@ constexpr std::size_t ring_capacity = 1024;
 // (unit: seconds).
 constexpr double pulse_seconds = 0.1;
 
-constexpr Nanoseconds longest_tick = 10'000'000;
-
 }  // namespace
 
 HapticFeedback::HapticFeedback()
-    : ring_(std::make_shared<Ring>(ring_capacity)), voice_(static_cast<double>(sound_rate)) {}
+    : ring_(std::make_shared<TickRing>(ring_capacity)), feedback_(static_cast<double>(sound_rate)) {}
 
 const ProxyPointer* HapticFeedback::proxy_node() const {
-    if (!is_inside_tree()) {
-        return nullptr;
-    }
-    if (!proxy_.is_empty()) {
-        return Object::cast_to<ProxyPointer>(get_node_or_null(proxy_));
+    if (!is_inside_tree() || !proxy_.is_empty()) {
+        return node_at<ProxyPointer>(*this, proxy_);
     }
     for (const Node* above = get_parent(); above != nullptr; above = above->get_parent()) {
         if (const auto* proxy = Object::cast_to<ProxyPointer>(above)) {
@@ -64,10 +59,8 @@ String HapticFeedback::problem() const {
     if (proxy_node() != nullptr) {
         return String();
     }
-    return proxy_.is_empty()
-               ? String("there is no ProxyPointer in its world: add one")
-               : "its proxy '" + String(proxy_) +
-                     "' is not a ProxyPointer of the scene: set 'proxy' anew, or leave it empty";
+    return proxy_.is_empty() ? String("there is no ProxyPointer in its world: add one")
+                             : wrong_path("proxy", proxy_, "a ProxyPointer") + ", or leave it empty";
 }
 
 String HapticFeedback::get_state_text() const {
@@ -96,18 +89,6 @@ Vector2 HapticFeedback::get_motor_levels() const {
     return {static_cast<real_t>(levels_.heavy), static_cast<real_t>(levels_.light)};
 }
 
-void HapticFeedback::hear(const SessionRecord& tick) {
-    const double seconds = to_seconds(std::clamp(tick.time - heard_, Nanoseconds{1}, longest_tick));
-    heard_ = tick.time;
-    const bool touches = (tick.proxy_status & proxy_touching) != 0;
-    const TouchSample sample{tick.force, touches ? glm::distance(tick.hand, tick.proxy_position) : 0.0};
-    const double vibration = touch_.next(sample, seconds);
-    meter_.add(vibration, tick.force, seconds);
-    if (sound_) {
-        voice_.append(vibration, touch_.tap(), seconds, 1.0 / motors_.full_force, samples_);
-    }
-}
-
 void HapticFeedback::drive_motors(const MotorLevels& levels) {
     const bool was_still = levels_.heavy == 0.0 && levels_.light == 0.0;
     levels_ = levels;
@@ -128,8 +109,8 @@ void HapticFeedback::drive_motors(const MotorLevels& levels) {
 
 // What finds no room is late already.
 void HapticFeedback::push_sound() {
-    if (samples_.empty() || !sound_) {
-        samples_.clear();
+    const std::vector<float> samples = feedback_.take_samples();
+    if (samples.empty() || !sound_) {
         return;
     }
     if (player_ == nullptr) {
@@ -151,19 +132,23 @@ void HapticFeedback::push_sound() {
     if (auto* playback = Object::cast_to<AudioStreamGeneratorPlayback>(playing.ptr())) {
         const auto room = static_cast<std::size_t>(std::max<int64_t>(0, playback->get_frames_available()));
         PackedVector2Array frames;
-        frames.resize(static_cast<int64_t>(std::min(room, samples_.size())));
+        frames.resize(static_cast<int64_t>(std::min(room, samples.size())));
         for (int64_t i = 0; i < frames.size(); ++i) {
-            const real_t sample = samples_[static_cast<std::size_t>(i)];
+            const real_t sample = samples[static_cast<std::size_t>(i)];
             frames[i] = Vector2(sample, sample);
         }
         playback->push_buffer(frames);
     }
-    samples_.clear();
 }
 
 void HapticFeedback::play() {
-    ring_->drain([this](const SessionRecord& tick) { hear(tick); });
-    drive_motors(vibration_ ? meter_.take(motors_) : MotorLevels{});
+    ring_->drain([this](const SessionRecord& tick) {
+        const bool touches = (tick.proxy_status & proxy_touching) != 0;
+        const double depth = touches ? glm::distance(tick.hand, tick.proxy_position) : 0.0;
+        feedback_.hear(tick.time, {tick.force, depth}, motors_, sound_);
+    });
+    const MotorLevels levels = feedback_.take_levels(motors_);
+    drive_motors(vibration_ ? levels : MotorLevels{});
     push_sound();
 }
 
@@ -173,26 +158,20 @@ void HapticFeedback::fall_silent() {
         player_->queue_free();
         player_ = nullptr;
     }
-    touch_ = {};
-    meter_ = {};
-    samples_.clear();
+    feedback_.fall_silent();
 }
 
 void HapticFeedback::_notification(int what) {
-    if (what == NOTIFICATION_ENTER_TREE) {
-        watch_warnings(*this);
-    }
-    if (Engine::get_singleton()->is_editor_hint()) {
+    keep_roll(*this, what);
+    if (is_edited()) {
         return;
     }
     if (what == NOTIFICATION_ENTER_TREE) {
-        Roll<HapticFeedback>::enter(this);
         set_process_internal(true);
     } else if (what == NOTIFICATION_EXIT_TREE) {
-        Roll<HapticFeedback>::leave(this);
         fall_silent();
-        ring_ =
-            std::make_shared<Ring>(ring_capacity);  // the old one is the world's until its loop has let go
+        // The old one is the world's until its loop has let go.
+        ring_ = std::make_shared<TickRing>(ring_capacity);
     } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
         play();
     }

@@ -4,13 +4,10 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <memory>
-#include <vector>
 
-#include "core/feedback/touch_sound.hpp"
-#include "core/feedback/touch_vibration.hpp"
+#include "core/feedback/touch_feedback.hpp"
 #include "nodes/properties.hpp"
-#include "realtime/recorder_ring.hpp"
-#include "session/session_types.hpp"
+#include "world/tick_listeners.hpp"
 
 namespace tactus {
 
@@ -33,9 +30,10 @@ public:
 
     // --- for the world that runs it
 
-    using Ring = RecorderRing<SessionRecord>;
+    // Else it is given no ticks.
+    bool is_wanted() const { return vibration_ || sound_; }
     // The loop may still be writing into it when the node has left.
-    const std::shared_ptr<Ring>& ring() const { return ring_; }
+    const std::shared_ptr<TickRing>& ring() const { return ring_; }
     // The one that 'proxy' names; where that is empty, the one above, or the first of its world.
     const ProxyPointer* proxy_node() const;
     godot::String problem() const;  // empty where there is none
@@ -45,9 +43,7 @@ protected:
     void _notification(int what);
 
 private:
-    bool is_wanted() const { return vibration_ || sound_; }
     void play();
-    void hear(const SessionRecord& tick);
     void drive_motors(const MotorLevels& levels);
     void push_sound();
     void fall_silent();
@@ -60,13 +56,9 @@ private:
     MotorSettings motors_;
     double volume_db_ = 0.0;
 
-    std::shared_ptr<Ring> ring_;
-    Nanoseconds heard_ = 0;  // time of the last tick
-    TouchVibration touch_;
-    MotorMeter meter_;
+    std::shared_ptr<TickRing> ring_;
+    TouchFeedback feedback_;
     MotorLevels levels_;
-    TouchSound voice_;
-    std::vector<float> samples_;
     godot::AudioStreamPlayer3D* player_ = nullptr;  // made when there is something to hear
 };
 

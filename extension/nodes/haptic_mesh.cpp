@@ -1,14 +1,13 @@
 #include "nodes/haptic_mesh.hpp"
 
+#include <glm/matrix.hpp>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
-#include <unordered_map>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
-#include "nodes/mesh_library.hpp"
 #include "nodes/mesh_source.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -48,7 +47,7 @@ void HapticMesh::mesh_changed() {
 }
 
 void HapticMesh::library_changed() {
-    known_mass_.reset();
+    entry_.reset();
     forget_triangles();
 }
 
@@ -56,49 +55,33 @@ void HapticMesh::form_changed() {
     ++change_count;
 }
 
-double HapticMesh::known_mass() const {
-    if (!known_mass_) {
-        known_mass_ = get_library_mass();
+const LibraryEntry& HapticMesh::entry() const {
+    if (!entry_) {
+        entry_ = mesh_library_entry(library_mesh_);
     }
-    return *known_mass_;
+    return *entry_;
 }
 
 // A body twice as large in each direction is eight times as heavy.
-double HapticMesh::library_mass(const Basis& body_scale) const {
-    return known_mass() * std::abs(static_cast<double>((body_scale * get_basis()).determinant()));
+double HapticMesh::library_mass(const Mat3& body_scale) const {
+    return entry().mass * std::abs(glm::determinant(body_scale * frame_of(get_transform()).axes));
 }
 
-// Each mesh is read by the first node that asks; when it changes, by the first that asks again.
 std::shared_ptr<TriangleSource> HapticMesh::source() const {
-    static std::unordered_map<std::uint64_t, std::weak_ptr<TriangleSource>> by_mesh;
-    static std::unordered_map<std::string, std::weak_ptr<TriangleSource>> by_name;
+    static KnownSources<std::uint64_t> by_mesh;
+    static KnownSources<std::string> by_name;
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
-    std::weak_ptr<TriangleSource>& known =
-        mesh_.is_valid() ? by_mesh[mesh_->get_instance_id()] : by_name[from_godot(library_mesh_)];
-    source_ = known.lock();
-    if (source_ != nullptr && source_ != former_) {
-        former_.reset();
-        return source_;
-    }
-    if (mesh_.is_valid()) {
-        source_ = source_of(mesh_);
-    } else {
-        LibraryMesh loaded = load_library_mesh(library_mesh_);
-        source_ = std::make_shared<TriangleSource>(
-            TriangleSource::Checked{std::move(loaded.mesh), std::move(loaded.error)});
-    }
-    if (former_ != nullptr) {
-        source_->succeed(*former_);
-        former_.reset();
-    }
-    known = source_;
-    std::erase_if(by_mesh, [](const auto& entry) { return entry.second.expired(); });
+    source_ = mesh_.is_valid()
+                  ? by_mesh.get(mesh_->get_instance_id(), former_, [this] { return source_of(mesh_); })
+                  : by_name.get(from_godot(library_mesh_), former_,
+                                [this] { return load_library_mesh(library_mesh_); });
+    former_.reset();
     return source_;
 }
 
-ShapeReading HapticMesh::read(const Basis& body_scale) const {
+ShapeReading HapticMesh::read(const SceneFrame& body_scale) const {
     ShapeReading reading;
     const std::shared_ptr<TriangleSource> triangles = source();
     if (triangles == nullptr) {
@@ -106,30 +89,13 @@ ShapeReading HapticMesh::read(const Basis& body_scale) const {
                         from_godot(String(", ").join(mesh_library_names()));
         return reading;
     }
-    const Transform3D local = Transform3D(body_scale, Vector3()) * get_transform();
-    if (!local.is_finite()) {
-        reading.error = "its transform is not made of finite numbers: reset it in the inspector";
-    } else if (local.basis.determinant() == 0) {
-        reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
-    } else {
-        reading.meshes.push_back({triangles,
-                                  matrix_of(without_rounding(scaling_of(local.basis))),
-                                  pose_of(local),
-                                  smoothing_angle_,
-                                  one_sided_,
-                                  {}});
+    const SceneFrame frame = compose(body_scale, frame_of(get_transform()));
+    reading.error = problem_of_shape_frame(frame);
+    if (reading.error.empty()) {
+        reading.meshes.push_back(
+            {triangles, scaling_of(frame), pose_of(frame), smoothing_angle_, one_sided_, {}});
     }
     return reading;
-}
-
-double HapticMesh::get_library_mass() const {
-    const std::optional<LibraryEntry> entry = mesh_library_entry(library_mesh_);
-    return entry ? entry->mass : 0.0;
-}
-
-String HapticMesh::get_library_source() const {
-    const std::optional<LibraryEntry> entry = mesh_library_entry(library_mesh_);
-    return entry ? entry->source : String();
 }
 
 PackedStringArray HapticMesh::get_library_names() {
@@ -137,7 +103,8 @@ PackedStringArray HapticMesh::get_library_names() {
 }
 
 Ref<Mesh> HapticMesh::create_library_mesh(const String& name) {
-    const LibraryMesh loaded = load_library_mesh(name);
+    const std::shared_ptr<TriangleSource> source = load_library_mesh(name);
+    const TriangleSource::Checked& loaded = source->triangles();
     if (loaded.mesh == nullptr) {
         UtilityFunctions::push_error("HapticMesh: ", to_godot(loaded.error), ".");
         return Ref<Mesh>();
@@ -157,7 +124,7 @@ String HapticMesh::problem() const {
 PackedStringArray HapticMesh::_get_configuration_warnings() const {
     PackedStringArray warnings;
     warn(warnings, "This HapticMesh is not felt", problem());
-    const ShapeReading reading = read(Basis());
+    const ShapeReading reading = read({});
     const std::string error =
         reading.meshes.empty() ? reading.error : reading.meshes.front().source->triangles().error;
     warn(warnings, "This mesh cannot be touched", to_godot(error));

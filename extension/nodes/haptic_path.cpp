@@ -7,16 +7,6 @@ namespace tactus {
 
 using namespace godot;
 
-namespace {
-
-constexpr double max_length = 1e6;  // of a point from the origin (unit: meters)
-
-bool starts_with(const StringName& name, const char* prefix) {
-    return String(name).begins_with(prefix);
-}
-
-}  // namespace
-
 void HapticPath::form_changed() {
     notify_property_list_changed();
     emit_changed();
@@ -43,11 +33,6 @@ String HapticPath::get_problem() const {
                String::num_int64(times_.size()) +
                " times: give each point a time, or leave the times empty for one second a point";
     }
-    for (int64_t i = 0; form_ == FORM_POINTS && i < points_.size(); ++i) {
-        if (static_cast<double>(points_[i].length()) > max_length) {
-            return "point " + String::num_int64(i) + " is no place within 1,000,000 m: set it anew";
-        }
-    }
     return to_godot(problem_with(hand_path()));
 }
 
@@ -56,26 +41,13 @@ double HapticPath::get_duration() const {
     return problem_with(path).empty() ? to_seconds(path_duration(path)) : 0.0;
 }
 
-Vector3 HapticPath::sample(double time) const {
+HandSample HapticPath::sample_at(double time) const {
     const HandPath path = hand_path();
-    return problem_with(path).empty() ? to_godot(sample_path(path, from_seconds(time)).position) : Vector3();
-}
-
-Vector3 HapticPath::sample_velocity(double time) const {
-    const HandPath path = hand_path();
-    return problem_with(path).empty() ? to_godot(sample_path(path, from_seconds(time)).velocity) : Vector3();
+    return problem_with(path).empty() ? sample_path(path, from_seconds(time)) : HandSample{};
 }
 
 Ref<ArrayMesh> HapticPath::create_line_mesh(double thickness) const {
     return drawn_mesh(drawn_path(hand_path(), thickness));
-}
-
-void HapticPath::_validate_property(PropertyInfo& property) const {
-    const bool of_circle = starts_with(property.name, "circle_");
-    const bool of_points = starts_with(property.name, "points_");
-    if ((of_circle && form_ != FORM_CIRCLE_WAVE) || (of_points && form_ != FORM_POINTS)) {
-        property.usage = PROPERTY_USAGE_STORAGE;
-    }
 }
 
 }  // namespace tactus

@@ -1,6 +1,5 @@
 #include "nodes/haptic_recorder.hpp"
 
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 
@@ -11,6 +10,7 @@
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -21,25 +21,23 @@ HapticRecorder::~HapticRecorder() {
 }
 
 const ProxyPointer* HapticRecorder::proxy_node() const {
-    return is_inside_tree() && !proxy_.is_empty() ? Object::cast_to<ProxyPointer>(get_node_or_null(proxy_))
-                                                  : nullptr;
+    return node_at<ProxyPointer>(*this, proxy_);
 }
 
 const Node* HapticRecorder::object_node() const {
-    return is_inside_tree() && !object_.is_empty() ? get_node_or_null(object_) : nullptr;
+    return node_at<Node>(*this, object_);
 }
 
 String HapticRecorder::problem() const {
+    if (proxy_.is_empty()) {
+        return "it has no proxy: set 'proxy' to a ProxyPointer of the scene";
+    }
     if (proxy_node() == nullptr) {
-        return proxy_.is_empty() ? String("it has no proxy: set 'proxy' to a ProxyPointer of the scene")
-                                 : "its proxy '" + String(proxy_) +
-                                       "' is not a ProxyPointer of the scene: set 'proxy' anew";
+        return wrong_path("proxy", proxy_, "a ProxyPointer");
     }
-    if (!object_.is_empty() && !is_solid_body(object_node())) {
-        return "its object '" + String(object_) +
-               "' is not a body of the scene: set 'object' anew, or leave it empty";
-    }
-    return String();
+    return object_.is_empty() || is_solid_body(object_node())
+               ? String()
+               : wrong_path("object", object_, "a body") + ", or leave it empty";
 }
 
 PackedStringArray HapticRecorder::_get_configuration_warnings() const {
@@ -56,17 +54,9 @@ PackedStringArray HapticRecorder::_get_configuration_warnings() const {
     return warnings;
 }
 
-int64_t HapticRecorder::get_rows() const {
-    return static_cast<int64_t>(recording_ != nullptr ? recording_->rows() : rows_);
-}
-
-int64_t HapticRecorder::get_lost_rows() const {
-    return static_cast<int64_t>(recording_ != nullptr ? recording_->lost() : lost_);
-}
-
 bool HapticRecorder::start() {
     stop();
-    rows_ = lost_ = 0;
+    recording_.reset();
     const auto say = [this](const std::string& what) {
         UtilityFunctions::push_warning(name_of(*this), ": ", to_godot(what), ".");
     };
@@ -82,30 +72,18 @@ bool HapticRecorder::start() {
 }
 
 void HapticRecorder::stop() {
-    if (recording_ == nullptr) {
-        return;
+    if (is_recording()) {
+        HapticWorld::finish_recording(*this);
+        recording_->close();
     }
-    HapticWorld::finish_recording(this);
-    rows_ = recording_->rows();
-    lost_ = recording_->lost();
-    recording_.reset();
 }
 
 void HapticRecorder::_notification(int what) {
-    if (what == NOTIFICATION_ENTER_TREE) {
-        watch_warnings(*this);
-    }
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
-    if (what == NOTIFICATION_ENTER_TREE) {
-        Roll<HapticRecorder>::enter(this);
-        if (autostart_ && has_file()) {
-            start();
-        }
+    keep_roll(*this, what);
+    if (what == NOTIFICATION_ENTER_TREE && autostart_ && has_file() && !is_edited()) {
+        start();
     } else if (what == NOTIFICATION_EXIT_TREE) {
         stop();
-        Roll<HapticRecorder>::leave(this);
     }
 }
 

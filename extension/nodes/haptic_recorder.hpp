@@ -24,19 +24,20 @@ public:
 
     bool start();
     void stop();
-    bool is_recording() const { return recording_ != nullptr; }
-    int64_t get_rows() const;
-    int64_t get_lost_rows() const;
+    bool is_recording() const { return recording_ != nullptr && recording_->is_open(); }
+    int64_t get_rows() const { return recording_ != nullptr ? static_cast<int64_t>(recording_->rows()) : 0; }
+    int64_t get_lost_rows() const {
+        return recording_ != nullptr ? static_cast<int64_t>(recording_->lost()) : 0;
+    }
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // --- for the world that is recorded
 
-    bool wants_trace() const { return !trace_path_.is_empty(); }
     const ProxyPointer* proxy_node() const;
     const godot::Node* object_node() const;
-    godot::String problem() const;                  // empty where there is none
-    Recording& recording() { return *recording_; }  // while it records
+    godot::String problem() const;  // empty where there is none
+    const std::shared_ptr<Recording>& recording() const { return recording_; }
 
 protected:
     static void _bind_methods();
@@ -52,8 +53,7 @@ private:
     double trace_seconds_ = 15.0;
     bool autostart_ = true;
 
-    std::unique_ptr<Recording> recording_;  // null while nothing is recorded
-    std::uint64_t rows_ = 0, lost_ = 0;     // of the last one
+    std::shared_ptr<Recording> recording_;  // the last one, when it has ended; null: none yet
 };
 
 }  // namespace tactus

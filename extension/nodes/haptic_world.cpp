@@ -1,19 +1,17 @@
 #include "nodes/haptic_world.hpp"
 
 #include <cmath>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/error_macros.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
 
+#include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
-#include "nodes/haptic_device.hpp"
-#include "nodes/haptic_feedback.hpp"
+#include "nodes/godot_joint.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
-#include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
@@ -36,11 +34,14 @@ constexpr double max_advance = 3600.0;  // (unit: seconds)
 // for its way (unit: seconds).
 constexpr double shortest_way = 1e-3;
 
+double project_number(const char* name, double otherwise) {
+    return ProjectSettings::get_singleton()->get_setting(name, otherwise);
+}
+
 Vector3 project_gravity() {
-    const ProjectSettings* project = ProjectSettings::get_singleton();
-    const double size = project->get_setting("physics/3d/default_gravity", 9.8);
-    const Vector3 direction = project->get_setting("physics/3d/default_gravity_vector", Vector3(0, -1, 0));
-    return direction * static_cast<real_t>(size);
+    const Vector3 direction =
+        ProjectSettings::get_singleton()->get_setting("physics/3d/default_gravity_vector", Vector3(0, -1, 0));
+    return direction * static_cast<real_t>(project_number("physics/3d/default_gravity", 9.8));
 }
 
 Dictionary distribution(const DurationHistogram& periods) {
@@ -92,12 +93,15 @@ bool HapticWorld::_set(const StringName& name, const Variant& value) {
     return now != nullptr;
 }
 
-TouchMaterial HapticWorld::default_touch() const {
-    return default_material_.is_valid() ? default_material_->touch() : TouchMaterial{};
-}
-
-std::shared_ptr<const HeightImage> HapticWorld::default_texture() const {
-    return default_material_.is_valid() ? default_material_->heights() : nullptr;
+BodyDefaults HapticWorld::body_defaults() const {
+    BodyDefaults defaults;
+    defaults.linear_damping = project_number("physics/3d/default_linear_damp", defaults.linear_damping);
+    defaults.angular_damping = project_number("physics/3d/default_angular_damp", defaults.angular_damping);
+    if (default_material_.is_valid()) {
+        defaults.touch = default_material_->touch();
+        defaults.texture = default_material_->heights();
+    }
+    return defaults;
 }
 
 // --- life
@@ -139,7 +143,6 @@ void HapticWorld::start() {
     // Both sides of a teleoperation have to come to the same result.
     settings.session.full_rate_bodies = !settings.links.empty() ? 0 : settings.session.full_rate_bodies;
     change_ = Change::none;
-    owed_seconds_ = 0.0;
     run_ = std::make_shared<WorldRun>(*this, settings);
     Roll<HapticWorld>::enter(this);
     run_->synchronise(shortest_way);
@@ -161,7 +164,7 @@ void HapticWorld::start_loop() {
     if (clock_ != CLOCK_REAL_TIME || !can_process()) {
         return;
     }
-    if (const std::string error = run_->start_loop(loop_settings(), measure_baseline_); !error.empty()) {
+    if (const std::string error = run_->loop().start(loop_settings(), measure_baseline_); !error.empty()) {
         UtilityFunctions::push_error(name_of(*this), ": the haptic loop could not start: ", to_godot(error),
                                      ".");
     }
@@ -192,7 +195,7 @@ void HapticWorld::catch_up() {
         return;
     }
     if (what == Change::loop) {
-        run_->stop_loop();
+        run_->running().stop_loop();
         start_loop();
         return;
     }
@@ -207,12 +210,12 @@ void HapticWorld::_notification(int what) {
         case NOTIFICATION_ENTER_TREE:
             get_tree()->connect("node_added", Callable(this, "_node_added"));
             get_tree()->connect("node_removed", Callable(this, "_node_removed"));
-            if (Engine::get_singleton()->is_editor_hint()) {
+            if (is_edited()) {
                 watch_warnings(*this);
             }
             break;
         case NOTIFICATION_POST_ENTER_TREE:
-            if (!Engine::get_singleton()->is_editor_hint()) {
+            if (!is_edited()) {
                 start();
             }
             break;
@@ -246,25 +249,15 @@ void HapticWorld::node_removed(Node* node) {
     if (node == nullptr || run_ == nullptr) {
         return;
     }
-    if (auto* device = Object::cast_to<HapticDevice>(node)) {
-        run_->forget(device);
-    } else if (auto* proxy = Object::cast_to<ProxyPointer>(node)) {
-        run_->forget(proxy);
-    } else if (auto* recorder = Object::cast_to<HapticRecorder>(node)) {
-        run_->forget(recorder);
-    } else if (auto* feedback = Object::cast_to<HapticFeedback>(node)) {
-        run_->forget(feedback);
-    } else if (auto* link = Object::cast_to<MMTLink>(node)) {
-        run_->forget(link);
-        if (link->is_networked() && is_ancestor_of(link)) {
+    run_->node_removed(*node);
+    if (const auto* link = Object::cast_to<MMTLink>(node); link != nullptr && link->is_networked()) {
+        if (is_ancestor_of(node)) {
             link_changed();
         }
-    } else {
-        run_->scene_changed(*node);
     }
 }
 
-void HapticWorld::finish_recording(HapticRecorder* recorder) {
+void HapticWorld::finish_recording(HapticRecorder& recorder) {
     for (HapticWorld* world : Roll<HapticWorld>::all()) {
         world->run_->finish(recorder);
     }
@@ -301,14 +294,9 @@ int64_t HapticWorld::advance(double seconds) {
                         "with call_deferred().");
     catch_up();
     const std::shared_ptr<WorldRun> run = run_;
-    // A hundredth of a tick covers what adding up many small times loses to rounding.
-    constexpr double rounding = 0.01;
-    owed_seconds_ += seconds;
-    const auto ticks = static_cast<int64_t>(owed_seconds_ * tick_rate_ + rounding);
-    owed_seconds_ -= static_cast<double>(ticks) / tick_rate_;
     run->synchronise(std::max(seconds, 1.0 / tick_rate_));
     let_go_of_former();
-    run->advance(ticks);
+    const int64_t ticks = run->running().advance(seconds);
     report_status(seconds);
     run->show();
     deliver_signals();  // last: what they call may free this node

@@ -13,6 +13,7 @@
 #include "nodes/properties.hpp"
 #include "realtime/tick_loop.hpp"
 #include "world/body_queries.hpp"
+#include "world/scene_body.hpp"
 
 namespace tactus {
 
@@ -72,9 +73,8 @@ public:
     void link_changed() { world_changed(); }
     godot::Vector3 get_gravity() const { return gravity_; }
     // The last rows are written before the recorder closes its files.
-    static void finish_recording(HapticRecorder* recorder);
-    TouchMaterial default_touch() const;
-    std::shared_ptr<const HeightImage> default_texture() const;
+    static void finish_recording(HapticRecorder& recorder);
+    BodyDefaults body_defaults() const;
 
 protected:
     static void _bind_methods();
@@ -87,7 +87,7 @@ private:
     // many changes at once are one start, and none happens while something of the world is in use.
     enum class Change { none, loop, world };
 
-    // By the script's `method`; for_a_frame: see WorldRun::push().
+    // By the script's `method`; for_a_frame: see RunningWorld::push().
     void push(const char* method, const Body* body, const BodyPush& push, bool for_a_frame);
     std::vector<QueriedBody> touchable(int64_t mask) const;
     bool can_ask(const char* method, const godot::Vector3& where, double size) const;
@@ -118,7 +118,6 @@ private:
     std::shared_ptr<WorldRun> run_;
     std::shared_ptr<WorldRun> former_;  // before it started anew, until its trees are in the new one
     Change change_ = Change::none;
-    double owed_seconds_ = 0.0;  // of stepped time, less than a tick
     double since_report_ = 0.0;  // (unit: seconds)
 };
 

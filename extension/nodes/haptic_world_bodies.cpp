@@ -15,10 +15,10 @@ using namespace godot;
 
 namespace {
 
-Dictionary dictionary_of(const BodyPoint& found, const BodyMirrors& mirrors) {
+Dictionary dictionary_of(const BodyPoint& found, const SceneBodies& bodies) {
     Dictionary result;
     if (found.at.hit) {
-        result["body"] = mirrors.bodies()[found.index]->body();
+        result["body"] = bodies.node(found.index);
         result["position"] = to_godot(found.at.point);
         result["normal"] = to_godot(found.at.normal);
         result["distance"] = found.at.distance;
@@ -47,7 +47,7 @@ void HapticWorld::push(const char* method, const Body* body, const BodyPush& pus
         UtilityFunctions::push_error(name_of(*this), ": ", method, "() did nothing: ", wrong, ".");
         return;
     }
-    run_->push(run_->body_of(body), push, for_a_frame);
+    run_->running().push(run_->body_of(body), push, for_a_frame);
 }
 
 void HapticWorld::apply_central_impulse(Body* body, const Vector3& impulse) {
@@ -75,13 +75,11 @@ void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
 }
 
 Vector3 HapticWorld::get_linear_velocity(Body* body) const {
-    const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
-    return state != nullptr ? to_godot(state->linear_velocity) : Vector3();
+    return run_ != nullptr ? to_godot(run_->state_of(body).linear_velocity) : Vector3();
 }
 
 Vector3 HapticWorld::get_angular_velocity(Body* body) const {
-    const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
-    return state != nullptr ? to_godot(state->angular_velocity) : Vector3();
+    return run_ != nullptr ? to_godot(run_->state_of(body).angular_velocity) : Vector3();
 }
 
 bool HapticWorld::can_ask(const char* method, const Vector3& where, double size) const {
@@ -95,7 +93,7 @@ bool HapticWorld::can_ask(const char* method, const Vector3& where, double size)
 }
 
 std::vector<QueriedBody> HapticWorld::touchable(int64_t mask) const {
-    return run_->bodies().touchable(static_cast<std::uint32_t>(mask));
+    return run_->bodies().mirrors().touchable(static_cast<std::uint32_t>(mask));
 }
 
 Dictionary HapticWorld::get_nearest_surface(const Vector3& point, double max_distance, int64_t mask) const {
@@ -117,7 +115,7 @@ TypedArray<CollisionObject3D> HapticWorld::intersect_sphere(const Vector3& cente
     TypedArray<CollisionObject3D> bodies;
     if (can_ask("intersect_sphere", center, radius)) {
         for (const std::size_t index : within(touchable(mask), from_godot(center), radius)) {
-            bodies.push_back(run_->bodies().bodies()[index]->body());
+            bodies.push_back(run_->bodies().node(index));
         }
     }
     return bodies;

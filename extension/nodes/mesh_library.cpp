@@ -56,47 +56,41 @@ godot::PackedStringArray mesh_library_names() {
     return names;
 }
 
-LibraryMesh load_library_mesh(const String& name) {
+std::shared_ptr<TriangleSource> load_library_mesh(const String& name) {
+    const auto failed = [](const std::string& why) {
+        return std::make_shared<TriangleSource>(TriangleSource::Checked{nullptr, why});
+    };
     const String path = mesh_library_folder().path_join(name + String(".obj"));
     if (!is_plain_name(name) || !FileAccess::file_exists(path)) {
-        return {nullptr, from_godot("the mesh library has no mesh '" + name + "': choose one of " +
-                                    all_names() + ", or put " + name + ".obj into " + mesh_library_folder())};
+        return failed(from_godot("the mesh library has no mesh '" + name + "': choose one of " + all_names() +
+                                 ", or put " + name + ".obj into " + mesh_library_folder()));
     }
     // As bytes, not as a string of the engine's: that would take four times as much, and again for its UTF-8.
     const godot::Ref<FileAccess> file = FileAccess::open(path, FileAccess::READ);
     const auto size = file.is_valid() ? static_cast<std::int64_t>(file->get_length()) : 0;
-    if (size > static_cast<std::int64_t>(ObjLimits{}.bytes)) {
-        return {nullptr, from_godot(path) + ": the file has " + std::to_string(size) +
-                             " bytes, the limit is " + std::to_string(ObjLimits{}.bytes) +
-                             ": split it into several meshes"};
+    if (const auto limit = static_cast<std::int64_t>(ObjLimits{}.bytes); size > limit) {
+        return failed(from_godot(path) + ": the file has " + std::to_string(size) + " bytes, the limit is " +
+                      std::to_string(limit) + ": split it into several meshes");
     }
     const godot::PackedByteArray bytes = size > 0 ? file->get_buffer(size) : godot::PackedByteArray();
     ObjResult read =
         read_obj_text({reinterpret_cast<const char*>(bytes.ptr()), static_cast<std::size_t>(bytes.size())});
-    if (read.error.empty()) {
-        read.error = check_mesh(read.mesh);
-    }
-    if (!read.error.empty()) {
-        return {nullptr, from_godot(path) + ": " + read.error};
-    }
-    return {std::make_shared<TriangleMesh>(std::move(read.mesh)), {}};
+    const std::string wrong = read.error.empty() ? check_mesh(read.mesh) : read.error;
+    return wrong.empty() ? std::make_shared<TriangleSource>(TriangleSource::Checked{
+                               std::make_shared<TriangleMesh>(std::move(read.mesh)), {}})
+                         : failed(from_godot(path) + ": " + wrong);
 }
 
-std::optional<LibraryEntry> mesh_library_entry(const String& name) {
+LibraryEntry mesh_library_entry(const String& name) {
     const String path = mesh_library_folder().path_join("library.json");
-    if (!FileAccess::file_exists(path)) {
-        return std::nullopt;
-    }
-    const godot::Variant whole = godot::JSON::parse_string(FileAccess::get_file_as_string(path));
+    const godot::Variant whole = FileAccess::file_exists(path)
+                                     ? godot::JSON::parse_string(FileAccess::get_file_as_string(path))
+                                     : godot::Variant();
     if (whole.get_type() != godot::Variant::DICTIONARY) {
-        return std::nullopt;
+        return {};
     }
-    const godot::Dictionary entries = whole;
-    if (!entries.has(name)) {
-        return std::nullopt;
-    }
-    const godot::Dictionary entry = entries[name];
-    return LibraryEntry{entry.get("mass_kg", 0.0), entry.get("source", "")};
+    const godot::Dictionary entry = godot::Dictionary(whole).get(name, godot::Dictionary());
+    return {entry.get("mass_kg", 0.0), entry.get("source", "")};
 }
 
 }  // namespace tactus

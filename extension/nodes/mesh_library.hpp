@@ -6,17 +6,10 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <memory>
-#include <optional>
-#include <string>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "world/triangle_source.hpp"
 
 namespace tactus {
-
-struct LibraryMesh {
-    std::shared_ptr<const TriangleMesh> mesh;  // null where there is an error
-    std::string error;                         // what is wrong and what to do
-};
 
 // The folder as a path that Godot's FileAccess understands; without a slash at its end.
 godot::String mesh_library_folder();
@@ -24,13 +17,15 @@ godot::String mesh_library_folder();
 // Names without ".obj", sorted.
 godot::PackedStringArray mesh_library_names();
 
-LibraryMesh load_library_mesh(const godot::String& name);
+// Its triangles are read, or the error says what is wrong and what to do.
+std::shared_ptr<TriangleSource> load_library_mesh(const godot::String& name);
 
 struct LibraryEntry {
     double mass = 0.0;     // (unit: kilograms)
     godot::String source;  // where the mesh comes from
 };
 
-std::optional<LibraryEntry> mesh_library_entry(const godot::String& name);
+// Empty where library.json says nothing of it.
+LibraryEntry mesh_library_entry(const godot::String& name);
 
 }  // namespace tactus

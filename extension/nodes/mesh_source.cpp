@@ -1,6 +1,5 @@
 #include "nodes/mesh_source.hpp"
 
-#include <functional>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
@@ -36,13 +35,7 @@ PackedPlace place_of(const Vector3& v) {
     return {v.x, v.y, v.z};
 }
 
-// What is read later, on another thread: the packed arrays are Godot's own, shared.
-struct Surface {
-    std::size_t triangle_count = 0;
-    std::function<void(MeshCollector&)> add_to;
-};
-
-Surface surface_of(const PackedVector3Array& corners, const PackedInt32Array& indices) {
+LateSurface surface_of(const PackedVector3Array& corners, const PackedInt32Array& indices) {
     const auto named = static_cast<std::size_t>(indices.is_empty() ? corners.size() : indices.size());
     return {named / 3, [corners, indices](MeshCollector& collector) {
                 collector.add(places(corners), {indices.ptr(), static_cast<std::size_t>(indices.size())});
@@ -52,7 +45,7 @@ Surface surface_of(const PackedVector3Array& corners, const PackedInt32Array& in
 // Taken as bytes, a surface costs the main thread little: Mesh::surface_get_arrays() decodes them, 100 ms for
 // two million triangles.
 // Nothing where the surface is not laid out as known here.
-std::optional<Surface> raw_surface(const Ref<Mesh>& mesh, int surface) {
+std::optional<LateSurface> raw_surface(const Ref<Mesh>& mesh, int surface) {
     const Dictionary data = RenderingServer::get_singleton()->mesh_get_surface(mesh->get_rid(), surface);
     const std::int64_t format = data.get("format", 0);
     const std::int64_t version = format >> RenderingServer::ARRAY_FLAG_FORMAT_VERSION_SHIFT &
@@ -76,10 +69,10 @@ std::optional<Surface> raw_surface(const Ref<Mesh>& mesh, int surface) {
     if (!is_whole(bytes)) {
         return std::nullopt;
     }
-    return Surface{(bytes.index_count == 0 ? bytes.corner_count : bytes.index_count) / 3,
-                   [corners, indices, bytes](MeshCollector& collector) {
-                       collector.add(read_corners(bytes), read_indices(bytes));
-                   }};
+    return LateSurface{(bytes.index_count == 0 ? bytes.corner_count : bytes.index_count) / 3,
+                       [corners, indices, bytes](MeshCollector& collector) {
+                           collector.add(read_corners(bytes), read_indices(bytes));
+                       }};
 }
 
 bool is_of_triangles(const Ref<Mesh>& mesh) {
@@ -95,21 +88,6 @@ bool is_of_triangles(const Ref<Mesh>& mesh) {
     return arrays != nullptr;
 }
 
-std::shared_ptr<TriangleSource> source_of(std::vector<Surface> surfaces) {
-    std::size_t count = 0;
-    for (const Surface& surface : surfaces) {
-        count += surface.triangle_count;
-    }
-    auto read = [surfaces = std::move(surfaces)] {
-        MeshCollector collector;
-        for (const Surface& surface : surfaces) {
-            surface.add_to(collector);
-        }
-        return collector.take();
-    };
-    return std::make_shared<TriangleSource>(std::move(read), count);
-}
-
 }  // namespace
 
 // Godot's get_faces() knows strips, too, but builds a tree of its own: for a large mesh that takes seconds.
@@ -117,9 +95,9 @@ std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
     if (!is_of_triangles(mesh)) {
         return source_of(mesh->get_faces());
     }
-    std::vector<Surface> surfaces;
+    std::vector<LateSurface> surfaces;
     for (int32_t i = 0; i < mesh->get_surface_count(); ++i) {
-        if (std::optional<Surface> raw = raw_surface(mesh, i)) {
+        if (std::optional<LateSurface> raw = raw_surface(mesh, i)) {
             surfaces.push_back(std::move(*raw));
         } else {
             const Array arrays = mesh->surface_get_arrays(i);
@@ -130,7 +108,7 @@ std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
 }
 
 std::shared_ptr<TriangleSource> source_of(const PackedVector3Array& faces) {
-    return source_of(std::vector<Surface>{surface_of(faces, PackedInt32Array())});
+    return source_of(std::vector<LateSurface>{surface_of(faces, PackedInt32Array())});
 }
 
 }  // namespace tactus

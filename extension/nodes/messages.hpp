@@ -47,15 +47,10 @@ inline void warn(godot::PackedStringArray& warnings, const godot::String& effect
     }
 }
 
-// Whether the value is one of an enum's, counted from 0 to `last`; says why not.
-template <class Enum>
-bool is_one_of(const godot::Object& who, const char* property, Enum value, Enum last, const char* constants) {
-    const auto number = static_cast<int64_t>(value);
-    if (number >= 0 && number <= static_cast<int64_t>(last)) {
-        return true;
-    }
-    refuse(who, property, number, (std::string("one of the constants ") + constants + "_…").c_str());
-    return false;
+// What to say of a path that leads to nothing of the kind.
+inline godot::String wrong_path(const char* property, const godot::NodePath& path, const char* kind) {
+    return godot::String("its ") + property + " '" + godot::String(path) + "' is not " + kind +
+           " of the scene: set '" + property + "' anew";
 }
 
 // Says each text once; an empty one says nothing.

@@ -1,7 +1,6 @@
 #include "nodes/mmt_link.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/variant/callable.hpp>
 
 #include "nodes/conversions.hpp"
@@ -11,6 +10,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 #include "session/shared_environment.hpp"
 
 namespace tactus {
@@ -18,16 +18,6 @@ namespace tactus {
 using namespace godot;
 
 namespace {
-
-// Where a side listens when nothing else is said.
-constexpr int usual_port_of_operator = 47001;
-constexpr int usual_port_of_teleoperator = 47002;
-
-// Every value of a side without resources of its own.
-const NetworkConditions::Values& usual_conditions() {
-    static const NetworkConditions::Values values;
-    return values;
-}
 
 // { "turn": [1, 0, 0, 10], "mass": 1.2 }: the axis and its angle in degrees; factors.
 Vec3 read_vector(const Array& numbers) {
@@ -58,10 +48,6 @@ ModelError read_error(const Dictionary& from) {
 
 }  // namespace
 
-MMTLink::MMTLink() : seed_(usual_conditions().seed) {
-    clear_report();
-}
-
 // --- properties
 
 void MMTLink::changed() {
@@ -69,38 +55,31 @@ void MMTLink::changed() {
     update_configuration_warnings();
 }
 
-void MMTLink::way_changed() {
-    ++way_revision_;
-    changed();
-}
-
 // The world is another one by this: it starts anew, with or without a far side.
 void MMTLink::restart_world() {
-    changed();
     if (HapticWorld* world = is_inside_tree() ? HapticWorld::above(this) : nullptr) {
         world->link_changed();
     }
 }
 
 void MMTLink::scenario_changed() {
+    changed();
     const Running now = !is_networked() ? Running::alone : has_robots() ? Running::robot : Running::bodies;
-    if (std::exchange(running_, now) == now) {
-        changed();
-        return;
+    if (std::exchange(running_, now) != now) {
+        restart_world();
+        take_report(at_rest(), {});
     }
-    restart_world();
-    take_report(at_rest(), {});
 }
 
 void MMTLink::side_changed() {
     wire_.reset();
-    ++way_revision_;
+    changed();
     restart_world();
 }
 
 void MMTLink::partner_changed() {
     wire_.reset();
-    way_changed();
+    changed();
 }
 
 void MMTLink::set_key_file(const String& path) {
@@ -112,12 +91,7 @@ void MMTLink::set_key_file(const String& path) {
         return;
     }
     key_file_ = file;
-    way_changed();
-}
-
-void MMTLink::values_changed() {
-    const std::uint64_t seed = conditions_.is_valid() ? conditions_->seed() : usual_conditions().seed;
-    std::exchange(seed_, seed) != seed ? way_changed() : changed();
+    changed();
 }
 
 template <class Values>
@@ -150,7 +124,6 @@ LinkPlan MMTLink::plan() {
     plan.scenario = static_cast<std::uint8_t>(scenario_);
     plan.problem = from_godot(problem());
     plan.revision = revision_;
-    plan.way_revision = way_revision_;
     plan.teleop = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
     plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL || scenario_ == SCENARIO_ROBOT;
     plan.teleop.robot = scenario_ == SCENARIO_ROBOT;
@@ -182,15 +155,16 @@ std::unordered_map<std::string, ModelError> MMTLink::model_errors() const {
 }
 
 NetworkSettings MMTLink::network_settings() const {
-    const int own = is_operator() ? usual_port_of_operator : usual_port_of_teleoperator;
-    const int other = is_operator() ? usual_port_of_teleoperator : usual_port_of_operator;
     NetworkSettings settings;
     settings.udp.local_address = from_godot(local_address_.strip_edges());
-    settings.udp.local_port = static_cast<std::uint16_t>(local_port_ > 0 ? local_port_ : own);
+    settings.udp.local_port = static_cast<std::uint16_t>(local_port_);
     settings.udp.remote_address = from_godot(remote_address_.strip_edges());
-    settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_ > 0 ? remote_port_ : other);
-    settings.conditions = conditions_.is_valid() ? conditions_->conditions() : LinkConditions{};
-    settings.seed = seed_;
+    settings.udp.remote_port = static_cast<std::uint16_t>(remote_port_);
+    settings.udp = with_usual_ports(settings.udp, is_operator());
+    if (conditions_.is_valid()) {
+        settings.conditions = conditions_->conditions();
+        settings.seed = conditions_->seed();
+    }
     return settings;
 }
 
@@ -224,7 +198,7 @@ String MMTLink::surplus_problem(const HapticWorld& world) const {
 }
 
 MMTLink* MMTLink::partner_node() const {
-    return is_inside_tree() && !partner_.is_empty() ? cast_to<MMTLink>(get_node_or_null(partner_)) : nullptr;
+    return node_at<MMTLink>(*this, partner_);
 }
 
 std::shared_ptr<MemoryLinkPair> MMTLink::wire(MMTLink& partner) {
@@ -245,6 +219,27 @@ LinkReport MMTLink::at_rest() const {
 
 void MMTLink::clear_report() {
     report_ = at_rest();
+    show_ghosts();
+}
+
+TypedArray<Dictionary> MMTLink::get_ghosts() const {
+    TypedArray<Dictionary> ghosts;
+    const SeenGhosts& seen = report_.teleop.ghosts;
+    for (std::size_t i = 0; i < seen.count; ++i) {
+        Dictionary ghost;
+        ghost["pointer"] = seen.ghosts[i].pointer;
+        ghost["position"] = to_godot(seen.ghosts[i].position);
+        ghost["radius"] = seen.ghosts[i].radius;
+        ghost["touching"] = seen.ghosts[i].touches;
+        ghosts.push_back(ghost);
+    }
+    return ghosts;
+}
+
+void MMTLink::show_ghosts() {
+    if (is_inside_tree()) {
+        ghosts_.show(*this, show_ghosts_ ? report_.teleop.ghosts : SeenGhosts{});
+    }
 }
 
 // Where no world runs it, this node alone can say why.
@@ -276,10 +271,11 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     } else if (was_connected && (report.state == LinkState::lost || report.state == LinkState::left)) {
         say("peer_lost");
     }
+    show_ghosts();
     for (const ModelNews& one : news) {
         switch (one.kind) {
             case ModelNews::Kind::discovered:
-                say("object_discovered", to_godot(one.name), NodeId{one.node});
+                say("object_discovered", to_godot(one.name), SignalArgument::object(one.node));
                 break;
             case ModelNews::Kind::removed:
                 say("object_removed", to_godot(one.name));
@@ -309,8 +305,7 @@ String MMTLink::way_problem() const {
     }
     const MMTLink* partner = partner_node();
     if (partner == nullptr) {
-        return "its partner '" + String(partner_) +
-               "' is not an MMTLink of the scene: set 'partner' anew, or leave it empty for UDP";
+        return wrong_path("partner", partner_, "an MMTLink") + ", or leave it empty for UDP";
     }
     if (partner == this || partner->side_ == side_) {
         return "its partner plays the same side: set one of the two to the operator, the other to the "
@@ -342,21 +337,10 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
 }
 
 void MMTLink::_notification(int what) {
-    if (what == NOTIFICATION_ENTER_TREE) {
-        watch_warnings(*this);
-    }
-    if (Engine::get_singleton()->is_editor_hint()) {
-        return;
-    }
-    if (what == NOTIFICATION_ENTER_TREE) {
-        Roll<MMTLink>::enter(this);
-        if (is_networked()) {
-            if (HapticWorld* world = HapticWorld::above(this)) {
-                world->link_changed();
-            }
-        }
+    keep_roll(*this, what);
+    if (what == NOTIFICATION_ENTER_TREE && is_networked()) {
+        restart_world();
     } else if (what == NOTIFICATION_EXIT_TREE) {
-        Roll<MMTLink>::leave(this);
         wire_.reset();
         clear_report();
     }

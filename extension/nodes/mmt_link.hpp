@@ -5,11 +5,13 @@
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <godot_cpp/variant/packed_string_array.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "nodes/ghost_view.hpp"
 #include "nodes/network_conditions.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/teleop_tuning.hpp"
@@ -45,7 +47,7 @@ public:
         STATE_LOST = static_cast<int64_t>(LinkState::lost),
         STATE_LEFT = static_cast<int64_t>(LinkState::left)
     };
-    MMTLink();
+    MMTLink() { clear_report(); }
 
     TACTUS_PROPERTIES(MMTLink)
     void set_key_file(const godot::String& path);
@@ -54,6 +56,7 @@ public:
     State get_state() const;
     godot::String get_state_text() const;
     bool is_peer_connected() const { return report_.state == LinkState::connected; }
+    godot::TypedArray<godot::Dictionary> get_ghosts() const;
     godot::Dictionary get_statistics() const;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
@@ -84,7 +87,7 @@ protected:
 
 private:
     void changed();
-    void way_changed();
+    void show_ghosts();
     void restart_world();
     LinkReport at_rest() const;
     godot::String way_problem() const;
@@ -92,7 +95,6 @@ private:
     NetworkSettings network_settings() const;
     // The wire to the partner: both have the same one.
     std::shared_ptr<MemoryLinkPair> wire(MMTLink& partner);
-    void values_changed();
     void scenario_changed();
     void side_changed();
     void partner_changed();
@@ -112,7 +114,6 @@ private:
     Correction correction_ = Correction::stealthy_direction;
     godot::Ref<NetworkConditions> conditions_;
     godot::Ref<TeleopTuning> tuning_;
-    std::uint64_t seed_;  // that the way was opened with
     bool is_old_ = false;
     // What changes anew with the scenario: everything, or nothing.
     enum class Running : uint8_t { alone, bodies, robot };
@@ -120,9 +121,10 @@ private:
     godot::Dictionary model_errors_;
 
     std::uint64_t revision_ = 1;
-    std::uint64_t way_revision_ = 1;
     std::shared_ptr<MemoryLinkPair> wire_;
     LinkReport report_;
+    bool show_ghosts_ = true;
+    GhostView ghosts_;
 };
 
 }  // namespace tactus

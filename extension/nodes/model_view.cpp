@@ -20,14 +20,13 @@ namespace {
 const Color picture_color(0.55F, 0.62F, 0.7F);
 
 void place(const ModelRoll::Shown& shown, const Pose& pose) {
-    if (auto* node = Object::cast_to<Node3D>(ObjectDB::get_instance(shown.node))) {
-        const Transform3D to = to_godot(pose);
-        node->set_global_transform(Transform3D(to.basis * basis_of(shown.scaling), to.origin));
+    if (auto* node = node_of_id<Node3D>(shown.node)) {
+        node->set_global_transform(to_godot(pose, shown.scaling));
     }
 }
 
 void hide(const ModelRoll::Shown& shown) {
-    if (auto* node = shown.is_picture ? Object::cast_to<Node>(ObjectDB::get_instance(shown.node)) : nullptr) {
+    if (auto* node = shown.is_picture ? node_of_id<Node>(shown.node) : nullptr) {
         node->queue_free();
     }
 }
@@ -81,7 +80,7 @@ ModelRoll::Shown ModelView::show(const std::string& name, const ModelRoll::Form&
     ModelRoll::Shown shown;
     if (const CollisionObject3D* body = scene_body(name)) {
         shown.node = body->get_instance_id();
-        shown.scaling = matrix_of(without_rounding(scaling_of(body->get_global_transform().basis)));
+        shown.scaling = scaling_of(frame_of(body->get_global_transform()));
     } else {
         shown.node = make_picture(name, form)->get_instance_id();
         shown.is_picture = true;
@@ -103,7 +102,7 @@ void ModelView::show(const BodyState& state, std::uint64_t) {
     }
     const std::uint64_t node = shown->node;
     place(*shown, state.pose);  // may call a script that ends all this
-    if (auto* rigid = Object::cast_to<RigidBody3D>(ObjectDB::get_instance(node))) {
+    if (auto* rigid = node_of_id<RigidBody3D>(node)) {
         rigid->set_linear_velocity(to_godot(state.linear_velocity));
         rigid->set_angular_velocity(to_godot(state.angular_velocity));
     }
@@ -112,7 +111,7 @@ void ModelView::show(const BodyState& state, std::uint64_t) {
 void ModelView::release(Session&) {
     roll_.hide_all(hide);
     for (const std::uint64_t id : held_) {
-        if (const auto* body = Object::cast_to<RigidBody3D>(ObjectDB::get_instance(id))) {
+        if (const auto* body = node_of_id<RigidBody3D>(id)) {
             PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(), own_mode(*body));
         }
     }

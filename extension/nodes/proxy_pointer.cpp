@@ -1,12 +1,7 @@
 #include "nodes/proxy_pointer.hpp"
 
-#include <algorithm>
-#include <godot_cpp/classes/cylinder_mesh.hpp>
-#include <godot_cpp/classes/engine.hpp>
-#include <godot_cpp/classes/sphere_mesh.hpp>
 #include <godot_cpp/core/object.hpp>
 
-#include "nodes/body_mirrors.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
@@ -15,7 +10,9 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 #include "world/hand_picture.hpp"
+#include "world/scene_hand.hpp"
 
 namespace tactus {
 
@@ -29,24 +26,6 @@ constexpr double max_radius = 1e3;
 constexpr float opaque = 1.0f;
 const Color proxy_color(0.1f, 0.4f, 0.9f, opaque);
 const Color hand_color(0.95f, 0.15f, 0.15f, opaque);
-
-Ref<SphereMesh> sphere_mesh() {
-    Ref<SphereMesh> mesh;
-    mesh.instantiate();
-    mesh->set_radius(1.0f);
-    mesh->set_height(2.0f);
-    return mesh;
-}
-
-Ref<CylinderMesh> line_mesh() {
-    Ref<CylinderMesh> mesh;
-    mesh.instantiate();
-    mesh->set_top_radius(0.5f);
-    mesh->set_bottom_radius(0.5f);
-    mesh->set_height(1.0f);
-    mesh->set_radial_segments(8);
-    return mesh;
-}
 
 void place(MeshInstance3D* picture, const PicturePart& part) {
     if (picture != nullptr) {
@@ -83,7 +62,7 @@ TypedArray<Dictionary> ProxyPointer::get_contacts() const {
 // By the steps from node to node; where two are as near, the one that came first.
 HapticDevice* ProxyPointer::nearest_device() const {
     if (nearest_as_of_ == Roll<HapticDevice>::revision()) {
-        return Object::cast_to<HapticDevice>(ObjectDB::get_instance(nearest_));
+        return node_of_id<HapticDevice>(nearest_);
     }
     nearest_as_of_ = Roll<HapticDevice>::revision();
     HapticDevice* nearest = nullptr;
@@ -100,23 +79,18 @@ HapticDevice* ProxyPointer::nearest_device() const {
 }
 
 HapticDevice* ProxyPointer::device_node() const {
-    if (!is_inside_tree()) {
-        return nullptr;
-    }
-    return device_.is_empty() ? nearest_device() : Object::cast_to<HapticDevice>(get_node_or_null(device_));
+    return is_inside_tree() && device_.is_empty() ? nearest_device() : node_at<HapticDevice>(*this, device_);
 }
 
 String ProxyPointer::problem() const {
     const HapticDevice* device = device_node();
     if (device == nullptr) {
         return device_.is_empty() ? String("there is no HapticDevice in its world: add one")
-                                  : "its device '" + String(device_) +
-                                        "' is not a HapticDevice of the scene: set 'device' anew, or leave "
-                                        "it empty for the nearest one";
+                                  : wrong_path("device", device_, "a HapticDevice") +
+                                        ", or leave it empty for the nearest one";
     }
-    const bool is_edited = Engine::get_singleton()->is_editor_hint();
-    const auto world_of = [is_edited](const Node* node) {
-        return is_edited ? HapticWorld::above(node) : HapticWorld::of(node);
+    const auto world_of = [](const Node* node) {
+        return is_edited() ? HapticWorld::above(node) : HapticWorld::of(node);
     };
     if (world_of(device) != world_of(this)) {
         return "its device '" + name_of(*device) +
@@ -130,22 +104,13 @@ String ProxyPointer::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
     }
-    if (Engine::get_singleton()->is_editor_hint()) {
+    if (is_edited()) {
         return String();
     }
     if (HapticWorld::of(this) == nullptr) {
         return "no HapticWorld is running: put one into the scene, best above this node";
     }
-    if (state_.handle == no_handle) {
-        return "waiting for the first tick";
-    }
-    if (!is_present()) {
-        return "the hand began inside a body: move it out once";
-    }
-    if (is_being_let_out()) {
-        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
-    }
-    return is_touching() ? "touching" : "free";
+    return to_godot(state_of_fingertip(state_));
 }
 
 PackedStringArray ProxyPointer::_get_configuration_warnings() const {
@@ -186,24 +151,22 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.device = device;
     description.settings.radius = radius_;
     description.settings.mask = mask_;
-    description.force_law =
-        force_law_ == FORCE_LAW_SMOOTHED ? tactus::ForceLaw::smoothed : tactus::ForceLaw::spring;
+    description.force_law = force_law_;
     description.enabled = enabled_;
     return description;
 }
 
-void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
-    const std::vector<std::uint64_t> before = std::exchange(touched_, touched);
-    const auto emit_for_missing = [this](const std::vector<std::uint64_t>& in,
-                                         const std::vector<std::uint64_t>& from, const char* signal) {
+void ProxyPointer::emit_changes(std::set<std::uint64_t> touched) {
+    const std::set<std::uint64_t> before = std::exchange(touched_, std::move(touched));
+    const auto emit_for_missing = [this](const auto& in, const auto& from, const char* signal) {
         for (const std::uint64_t body : in) {
-            if (std::find(from.begin(), from.end(), body) == from.end()) {
-                post_signal(*this, signal, {NodeId{body}});
+            if (!from.contains(body)) {
+                post_signal(*this, signal, {SignalArgument::object(body)});
             }
         }
     };
-    emit_for_missing(before, touched, "contact_ended");
-    emit_for_missing(touched, before, "contact_started");
+    emit_for_missing(before, touched_, "contact_ended");
+    emit_for_missing(touched_, before, "contact_started");
 }
 
 void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
@@ -215,13 +178,9 @@ void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
         set_global_position(to_godot(state.position));
     }
     place_pictures();
-    std::vector<std::uint64_t> touched;
-    for (const std::uint64_t body : bodies) {
-        if (body != 0 && std::find(touched.begin(), touched.end(), body) == touched.end()) {
-            touched.push_back(body);
-        }
-    }
-    emit_changes(touched);
+    std::set<std::uint64_t> touched(bodies.begin(), bodies.end());
+    touched.erase(0);
+    emit_changes(std::move(touched));
 }
 
 void ProxyPointer::clear_state() {
@@ -234,9 +193,9 @@ void ProxyPointer::clear_state() {
     emit_changes({});
 }
 
-MeshInstance3D* ProxyPointer::add_picture(const Ref<Mesh>& mesh, const Ref<Material>& look) {
+MeshInstance3D* ProxyPointer::add_picture(const Shape& shape, const Ref<Material>& look) {
     MeshInstance3D* picture = memnew(MeshInstance3D);
-    picture->set_mesh(mesh);
+    picture->set_mesh(drawn_mesh(drawn_shape(shape)));
     picture->set_material_override(look);
     picture->set_as_top_level(true);
     picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
@@ -249,11 +208,11 @@ void ProxyPointer::make_pictures() {
         return;
     }
     if (show_proxy_ && proxy_picture_ == nullptr) {
-        proxy_picture_ = add_picture(sphere_mesh(), lit_material(proxy_color));
+        proxy_picture_ = add_picture(SphereShape{1.0}, lit_material(proxy_color));
     }
     if (show_hand_ && hand_picture_ == nullptr) {
-        hand_picture_ = add_picture(sphere_mesh(), see_through_material(hand_color));
-        line_picture_ = add_picture(line_mesh(), see_through_material(hand_color));
+        hand_picture_ = add_picture(SphereShape{1.0}, see_through_material(hand_color));
+        line_picture_ = add_picture(CylinderShape{0.5, 0.5}, see_through_material(hand_color));
     }
     place_pictures();
 }
@@ -276,15 +235,13 @@ void ProxyPointer::place_pictures() {
 }
 
 void ProxyPointer::_notification(int what) {
+    keep_roll(*this, what);
     switch (what) {
         case NOTIFICATION_ENTER_TREE:
             make_pictures();
-            set_notify_transform(Engine::get_singleton()->is_editor_hint());
-            Roll<ProxyPointer>::enter(this);
-            watch_warnings(*this);
+            set_notify_transform(is_edited());
             break;
         case NOTIFICATION_EXIT_TREE:
-            Roll<ProxyPointer>::leave(this);
             clear_state();
             break;
         case NOTIFICATION_TRANSFORM_CHANGED:

@@ -1,10 +1,11 @@
-// Which nodes of a kind are in the running scene tree: how a world finds what belongs to it. Main thread
-// only.
+// Which nodes of a kind are in the scene tree: how a world finds what belongs to it. Main thread only.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
+
+#include "nodes/scene_warnings.hpp"
 
 namespace tactus {
 
@@ -33,5 +34,16 @@ private:
         return living;
     }
 };
+
+// What each of our nodes does first with what it is notified of.
+template <typename NodeType>
+void keep_roll(NodeType& node, int what) {
+    if (what == NodeType::NOTIFICATION_ENTER_TREE) {
+        Roll<NodeType>::enter(&node);
+        watch_warnings(node);
+    } else if (what == NodeType::NOTIFICATION_EXIT_TREE) {
+        Roll<NodeType>::leave(&node);
+    }
+}
 
 }  // namespace tactus

@@ -80,14 +80,14 @@ void look_at_all() {
         return;
     }
     next = now + look_again_after;
-    const bool is_edited = Engine::get_singleton()->is_editor_hint();
+    const bool in_editor = is_edited();
     for (auto one = watched().begin(); one != watched().end();) {
-        auto* node = Object::cast_to<Node>(ObjectDB::get_instance(one->first));
+        auto* node = node_of_id<Node>(one->first);
         if (node == nullptr || !node->is_inside_tree()) {
             one = watched().erase(one);
             continue;
         }
-        is_edited ? look_in_editor(*node, one->second) : look_in_game(*node, one->second);
+        in_editor ? look_in_editor(*node, one->second) : look_in_game(*node, one->second);
         ++one;
     }
 }
@@ -119,7 +119,7 @@ const Node* body_outside(const Node& top, Outside which) {
 
 // Of the scene that the world is part of.
 const Node& top_of(const HapticWorld& world) {
-    if (Engine::get_singleton()->is_editor_hint()) {
+    if (is_edited()) {
         const Node* scene = world.get_tree()->get_edited_scene_root();
         return scene != nullptr ? *scene : world;
     }
@@ -137,12 +137,15 @@ bool has_world(const Node& scene) {
 
 }  // namespace
 
+bool is_edited() {
+    return Engine::get_singleton()->is_editor_hint();
+}
+
 String problem_without_world(const Node& node) {
-    const bool is_edited = Engine::get_singleton()->is_editor_hint();
-    const Node* scene = is_edited ? node.get_tree()->get_edited_scene_root() : nullptr;
+    const Node* scene = is_edited() ? node.get_tree()->get_edited_scene_root() : nullptr;
     const bool is_there =
-        is_edited ? HapticWorld::above(&node) != nullptr || (scene != nullptr && has_world(*scene))
-                  : HapticWorld::of(&node) != nullptr;
+        is_edited() ? HapticWorld::above(&node) != nullptr || (scene != nullptr && has_world(*scene))
+                    : HapticWorld::of(&node) != nullptr;
     return is_there ? String()
                     : String(
                           "there is no HapticWorld: put one into the scene, with this node and the bodies "
@@ -194,20 +197,24 @@ void watch_warnings(Node& node) {
 }
 
 String problem_of_kind(const Node& node) {
-    if (node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))) {
-        return "a " + node.get_class() +
-               " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D";
+    struct Kind {
+        const char* name;
+        const char* problem;
+    };
+    static constexpr Kind kinds[] = {
+        {"GridMap", "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes"},
+        {"SoftBody3D", "a SoftBody3D is not carried over: touch a StaticBody3D or RigidBody3D in its place"},
+        {"Area3D", "an Area3D is not solid and is not felt: use a StaticBody3D for what is to be touched"},
+    };
+    for (const Kind& kind : kinds) {
+        if (node.is_class(kind.name)) {
+            return kind.problem;
+        }
     }
-    if (node.is_class("GridMap")) {
-        return "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes";
-    }
-    if (node.is_class("SoftBody3D")) {
-        return "a SoftBody3D is not carried over: touch a StaticBody3D or RigidBody3D in its place";
-    }
-    if (node.is_class("Area3D")) {
-        return "an Area3D is not solid and is not felt: use a StaticBody3D for what is to be touched";
-    }
-    return String();
+    return node.is_class("CSGShape3D") && static_cast<bool>(node.get("use_collision"))
+               ? "a " + node.get_class() +
+                     " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D"
+               : String();
 }
 
 }  // namespace tactus

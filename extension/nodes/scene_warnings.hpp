@@ -10,6 +10,9 @@ namespace tactus {
 
 class HapticWorld;
 
+// The scene is open in the editor and does not play.
+bool is_edited();
+
 // Why no HapticWorld runs this node, and what to do; empty where one does, or will when the scene plays.
 godot::String problem_without_world(const godot::Node& node);
 

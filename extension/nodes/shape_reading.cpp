@@ -84,28 +84,23 @@ std::shared_ptr<TriangleSource> source_of(const godot::ConcavePolygonShape3D& co
 
 }  // namespace
 
-ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const godot::Transform3D& transform) {
+ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const SceneFrame& frame) {
     ShapeReading reading;
-    if (!transform.is_finite()) {
-        reading.error = "its transform is not made of finite numbers: reset it in the inspector";
+    reading.error = problem_of_shape_frame(frame);
+    if (!reading.error.empty()) {
         return reading;
     }
-    if (transform.basis.determinant() == 0) {
-        reading.error = "it is scaled to zero along an axis: give it a scale that is not zero";
-        return reading;
-    }
-    const Pose pose = pose_of(transform);
-    const godot::Basis scaling = scaling_of(transform.basis);
+    const Pose pose = pose_of(frame);
+    const Mat3 scaling = scaling_of(frame);
     Object* object = shape.ptr();
     if (const std::optional<Shape> plain = plain_shape(object)) {
-        return scaled_shape(*plain, matrix_of(scaling), pose);
+        return scaled_shape(*plain, scaling, pose);
     }
     if (const auto* convex = Object::cast_to<godot::ConvexPolygonShape3D>(object)) {
-        return scaled_hull(points_of(*convex), matrix_of(scaling), pose);
+        return scaled_hull(points_of(*convex), scaling, pose);
     }
     if (const auto* concave = Object::cast_to<godot::ConcavePolygonShape3D>(object)) {
-        reading.meshes.push_back(
-            {source_of(*concave), matrix_of(without_rounding(scaling)), pose, 0.0, false, {}});
+        reading.meshes.push_back({source_of(*concave), scaling, pose, 0.0, false, {}});
         return reading;
     }
     reading.error =

@@ -1,10 +1,28 @@
-// Through all that stands below a node, parents first. Main thread only.
+// Ways to nodes: by id, by path, through all that stands below one. Main thread only.
 #pragma once
 
+#include <cstdint>
 #include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/core/object.hpp>
+#include <godot_cpp/variant/node_path.hpp>
 
 namespace tactus {
 
+// Null: it is gone, or of another kind.
+template <class NodeType>
+NodeType* node_of_id(std::uint64_t id) {
+    return godot::Object::cast_to<NodeType>(godot::ObjectDB::get_instance(id));
+}
+
+// Where a path property leads; null: it is empty, leads nowhere, or to another kind.
+template <class NodeType>
+NodeType* node_at(const godot::Node& from, const godot::NodePath& path) {
+    return from.is_inside_tree() && !path.is_empty()
+               ? godot::Object::cast_to<NodeType>(from.get_node_or_null(path))
+               : nullptr;
+}
+
+// Through all that stands below a node, parents first.
 enum class Walk { on, past, end };  // past: what stands below this one is left out
 
 // Walk visit(Node& node). Answers Walk::end where one of them ended it.

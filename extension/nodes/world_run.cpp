@@ -1,7 +1,6 @@
 #include "nodes/world_run.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/core/object.hpp>
 
 #include "core/haptics/touch_values.hpp"
@@ -12,16 +11,14 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
+#include "world/scene_telling.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
 namespace {
-
-double project_number(const char* name, double otherwise) {
-    return ProjectSettings::get_singleton()->get_setting(name, otherwise);
-}
 
 constexpr const char* too_many_recordings =
     "eight recorders and feedbacks listen to this world already: take one of them away";
@@ -39,19 +36,30 @@ private:
     bool before_;
 };
 
+std::vector<LinkPlan> plans_of(const std::vector<MMTLink*>& links) {
+    std::vector<LinkPlan> plans;
+    for (MMTLink* link : links) {
+        plans.push_back(link->plan());
+    }
+    return plans;
+}
+
 }  // namespace
 
 WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     : world_(world),
-      settings_(settings),
-      session_(settings.session),
-      loop_(session_, settings.real_time),
-      bodies_(settings.session.most_bodies, settings.real_time) {
-    defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
-    defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
-    start_links();
+      running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
+               plans_of(settings.links)),
+      bodies_(world, settings.session.most_bodies, settings.real_time, complaints_) {
+    for (const MMTLink* link : settings.links) {
+        link_nodes_.push_back(link->get_instance_id());
+    }
+    if (running_.is_operator()) {
+        start_model(*settings.links.front());
+    }
     // At the far side the hand is the operator's: what is plugged in here has no part in it, but for robots.
-    const bool stands_in = !links_.empty() && model_ == nullptr && !links_.front().node->has_robots();
+    const bool stands_in =
+        !settings.links.empty() && model_ == nullptr && !settings.links.front()->has_robots();
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
@@ -60,66 +68,47 @@ WorldRun::~WorldRun() {
 }
 
 void WorldRun::end() {
-    if (std::exchange(is_over_, true)) {
+    if (is_over()) {
         return;
     }
-    stop_loop();
-    for (const OwnLink& link : links_) {
-        link.link->leave();
-    }
-    if (!links_.empty()) {
-        loop_.tick_once();
-    }
-    session_.rest();
-    view().release(session_);
-    for (const OwnLink& link : links_) {
-        link.link->end();
-        if (link.node != nullptr) {
-            link.node->clear_report();
+    running_.end();
+    view().release(session());
+    for (const std::uint64_t id : link_nodes_) {
+        if (auto* link = node_of_id<MMTLink>(id)) {
+            link->clear_report();
         }
     }
     hands_->release();
 }
 
-// --- time
-
-void WorldRun::stop_loop() {
-    loop_.stop();
-    drain();
-}
-
 void WorldRun::pause() {
-    stop_loop();
-    session_.rest();
-    session_.refresh();
-    hands_->show_devices(session_.snapshot());
+    running_.pause();
+    hands_->show_devices(session().snapshot());
     hands_->clear_forces();
-}
-
-void WorldRun::advance(std::int64_t ticks) {
-    loop_.advance(ticks, [this] {
-        session_.collect();
-        drain();
-    });
 }
 
 // --- from Godot to the session
 
 void WorldRun::synchronise(double seconds) {
     const Busy busy(is_busy_);
-    session_.collect();  // trees that the loop has let go of can be refitted
+    running_.collect();  // trees that the loop has let go of can be refitted
     synchronise_links();
     if (model_ != nullptr) {
         model_->hold_still();
     } else {
         synchronise_bodies(seconds);
     }
-    hands_->synchronise(session_, complaints_);
+    hands_->synchronise(session(), complaints_);
     look_at_scene();
-    synchronise_recorder();
-    synchronise_feedback();
-    if (!session_.collect()) {
-        retired_.clear();
+    synchronise_recorders();
+    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
+        if (!feedback->is_wanted()) {
+            running_.listeners().end(session(), feedback->get_instance_id());
+        } else if (HapticWorld::of(feedback) == &world_) {
+            give_ticks(*feedback, feedback->ring(), no_handle);
+        }
+    }
+    if (running_.collect()) {
         hands_->forget_retired();
     }
 }
@@ -127,281 +116,147 @@ void WorldRun::synchronise(double seconds) {
 // Once the scene has had time to come together: a second of frames, or when a script advances time again.
 void WorldRun::look_at_scene() {
     constexpr std::uint32_t frames_between = 64;
-    const std::uint32_t first = settings_.real_time ? frames_between : 2;
+    const std::uint32_t first = loop().is_real_time() ? frames_between : 2;
     if (++looks_ < first || (looks_ - first) % frames_between != 0 || model_ != nullptr) {
         return;
     }
-    const SceneFacts facts = bodies_.facts();
+    const BodyMirrors& mirrors = bodies_.mirrors();
+    const SceneFacts facts = mirrors.facts();
     hands_->look_at_scene(facts, complaints_);
-    if (bodies_.bodies().empty()) {
+    if (mirrors.bodies().empty()) {
         complaints_.say(world_, problem_of_emptiness(world_));
     } else if (looks_ == first) {
         complaints_.say(world_, problem_of_outside(world_));
     }
 }
 
-void WorldRun::push(SessionHandle body, const BodyPush& push, bool for_a_frame) {
-    if (for_a_frame) {
-        forces_.emplace_back(body, push);
-    } else {
-        session_.push_body(body, push);
-    }
-}
-
 void WorldRun::synchronise_bodies(double seconds) {
-    for (auto& [body, push] : forces_) {
-        push.impulse *= seconds;
-        push.turn *= seconds;
-        session_.push_body(body, push);
+    running_.push_for(seconds);
+    const BodyDefaults defaults = world_.body_defaults();
+    if (!same_values(defaults.touch, defaults_.touch) || defaults.texture != defaults_.texture) {
+        bodies_.mirrors().note_all_changed();
     }
-    forces_.clear();
-    const TouchMaterial touch = world_.default_touch();
-    const std::shared_ptr<const HeightImage> texture = world_.default_texture();
-    if (!same_values(touch, defaults_.touch) || texture != defaults_.texture) {
-        bodies_.note_all_changed();
-    }
-    defaults_.touch = touch;
-    defaults_.texture = texture;
-    bodies_.touched(hands_->touched());
+    defaults_ = defaults;
+    bodies_.mirrors().touched(hands_->touched());
     // In real time a tick may be under way that has already taken its commands.
-    const std::uint64_t takes_effect = loop_.ticks() + (settings_.real_time ? 2 : 1);
-    bodies_.synchronise(
-        world_, {session_, complaints_, Workers::shared(), defaults_, seconds, takes_effect, nullptr});
+    const std::uint64_t takes_effect = loop().ticks() + (loop().is_real_time() ? 2 : 1);
+    bodies_.synchronise({session(), Workers::shared(), defaults_, seconds, takes_effect});
 }
 
 // --- the far side
 
-void WorldRun::start_links() {
-    std::vector<WorldLink*> attached;
-    for (MMTLink* const node : settings_.links) {
-        auto link = std::make_unique<WorldLink>(node->plan(), session_, from_godot(world_.get_gravity()),
-                                                pose_of(world_.get_global_transform()), loop_.ahead());
-        attached.push_back(link.get());
-        links_.push_back({node, std::move(link)});
-    }
-    WorldLink::attach(session_, attached);
-    if (links_.empty() || !links_.front().link->is_operator()) {
-        return;
-    }
+void WorldRun::start_model(const MMTLink& link) {
     model_ = std::make_unique<ModelView>(world_);
-    const OwnLink& link = links_.front();
-    link.link->set_distortion([this, errors = link.node->model_errors()](ObjectDescription& description) {
-        if (const auto error = errors.find(description.name); error != errors.end()) {
-            distort(error->second, description);
+    running_.links().front()->set_distortion([this, errors = link.model_errors()](ObjectDescription& object) {
+        if (const auto error = errors.find(object.name); error != errors.end()) {
+            distort(error->second, object);
         }
-        model_->note(description);
+        model_->note(object);
     });
 }
 
 void WorldRun::synchronise_links() {
-    const Nanoseconds now = loop_.now();
-    for (const OwnLink& link : links_) {
+    const auto& links = running_.links();
+    for (std::size_t i = 0; i < links.size(); ++i) {
+        auto* const node = node_of_id<MMTLink>(link_nodes_[i]);
         const bool has_new_objects =
-            link.link->synchronise(link.node != nullptr ? std::optional(link.node->plan()) : std::nullopt,
-                                   from_godot(world_.get_gravity()), Workers::shared(),
-                                   {now, !loop_.is_running(), !settings_.real_time});
+            running_.synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
+                                 from_godot(world_.get_gravity()));
         if (has_new_objects) {
-            std::ranges::move(model_->update(link.link->objects()), std::back_inserter(model_news_));
+            std::ranges::move(model_->update(links[i]->objects()), std::back_inserter(model_news_));
         }
     }
-    if (!links_.empty() && model_ == nullptr) {
-        tell_far_side(now);
-    }
-}
-
-void WorldRun::tell_far_side(Nanoseconds now) {
-    std::vector<WorldLink::Told> told;
-    std::vector<const BodyMirror*> mirrors;
-    for (const auto& mirror : bodies_.bodies()) {
-        if (mirror->handle() != no_handle && mirror->body() != nullptr) {
-            told.push_back({mirror->handle(), mirror->twin().revision()});
-            mirrors.push_back(mirror.get());
-        }
-    }
-    std::vector<WorldLink::ToldJoint> joints;
-    for (const auto& joint : bodies_.joints()) {
-        if (const JointTwin& twin = joint->twin(); twin.handle() != no_handle) {
-            joints.push_back(
-                {twin.handle(), twin.first(), twin.second(), &twin.joined(), joint->id(), twin.revision()});
-        }
-    }
-    const auto describe = [&](std::size_t i) {
-        return WorldLink::Description{from_godot(String(world_.get_path_to(mirrors[i]->body()))),
-                                      mirrors[i]->twin().addition()};
-    };
-    for (const OwnLink& link : links_) {
-        link.link->tell(told, describe, joints, session_.snapshot(), now);
+    if (model_ == nullptr) {
+        tell(bodies_.mirrors(), links, session().snapshot(), loop().now());
     }
 }
 
 // --- recording
 
-void WorldRun::synchronise_recorder() {
-    if (recorder_ != nullptr && !recorder_->is_recording()) {
-        forget(recorder_);
-    }
+void WorldRun::synchronise_recorders() {
     for (HapticRecorder* recorder : Roll<HapticRecorder>::all()) {
-        if (recorder == recorder_ || !recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
+        if (!recorder->is_recording() || HapticWorld::of(recorder) != &world_) {
             continue;
         }
-        if (recorder_ != nullptr) {
-            complaints_.say(*recorder, "another HapticRecorder, " + name_of(*recorder_) +
-                                           ", records this world already: stop that one first");
-            continue;
+        if (running_.recording() == nullptr) {
+            recorder_ = recorder->get_instance_id();
+            complaints_.say(world_, running_.record(recorder->recording()));
         }
-        recorder_ = recorder;
-        recorded_proxy_ = no_handle;
-        if (recorder->recording().has_trace()) {
-            complaints_.say(world_, loop_.trace_ticks());
-        }
-    }
-    if (recorder_ == nullptr) {
-        return;
-    }
-    const ProxyPointer* node = recorder_->proxy_node();
-    const SessionHandle proxy = hands_->handle_of(node);
-    const Node* object_node = recorder_->object_node();
-    const SessionHandle object = body_of(object_node);
-    complaints_.say(*recorder_, recorder_->problem());
-    if (proxy != no_handle && (proxy != recorded_proxy_ || object != recorded_object_)) {
-        recorded_proxy_ = proxy;
-        recorded_object_ = object;
-        if (!session_.record(*recorder_->recording().ring(), proxy, object)) {
-            complaints_.say(*recorder_, too_many_recordings);
-        }
-    }
-}
-
-void WorldRun::synchronise_feedback() {
-    for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
-        const bool is_known = std::ranges::find(listeners_, feedback, &Listener::node) != listeners_.end();
-        if (!is_known && HapticWorld::of(feedback) == &world_) {
-            listeners_.push_back({feedback, feedback->ring(), no_handle});
-        }
-    }
-    for (Listener& listener : listeners_) {
-        complaints_.say(*listener.node, listener.node->problem());
-        const SessionHandle proxy = hands_->handle_of(listener.node->proxy_node());
-        if (proxy == no_handle || proxy == listener.proxy) {
-            continue;
-        }
-        if (session_.record(*listener.ring, proxy, no_handle)) {
-            listener.proxy = proxy;
+        if (running_.recording() == recorder->recording()) {
+            give_ticks(*recorder, recorder->recording()->ring(), body_of(recorder->object_node()));
         } else {
-            complaints_.say(*listener.node, too_many_recordings);
+            complaints_.say(*recorder, "another HapticRecorder, " + name_of(*node_of_id<Node>(recorder_)) +
+                                           ", records this world already: stop that one first");
         }
     }
 }
 
-void WorldRun::drain() {
-    if (recorder_ == nullptr || !recorder_->is_recording()) {
-        return;
-    }
-    recorder_->recording().drain(loop_.epoch());
-    if (TickTrace* trace = loop_.trace()) {
-        recorder_->recording().drain(*trace);
+template <class NodeType>
+void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body) {
+    complaints_.say(node, node.problem());
+    const SessionHandle proxy = hands_->handle_of(node.proxy_node());
+    if (proxy != no_handle &&
+        !running_.listeners().listen(session(), node.get_instance_id(), ring, proxy, body)) {
+        complaints_.say(node, too_many_recordings);
     }
 }
 
 // --- what leaves
 
-void WorldRun::forget(HapticRecorder* recorder) {
-    if (recorder_ == nullptr || recorder != recorder_) {
-        return;
-    }
-    if (recorder_->is_recording()) {
-        session_.end_recording(*recorder_->recording().ring());
-        retired_.push_back(recorder_->recording().ring());
-    }
-    recorder_ = nullptr;
+void WorldRun::node_removed(const Node& node) {
+    const std::uint64_t id = node.get_instance_id();
+    hands_->forget(id, session());
+    running_.listeners().end(session(), id);
+    std::ranges::replace(link_nodes_, id, std::uint64_t{0});
+    view().scene_changed(node);
 }
 
-void WorldRun::forget(HapticFeedback* feedback) {
-    for (const Listener& listener : listeners_) {
-        if (listener.node == feedback) {
-            session_.end_recording(*listener.ring);
-            retired_.push_back(listener.ring);
-        }
-    }
-    std::erase_if(listeners_, [feedback](const Listener& listener) { return listener.node == feedback; });
-}
-
-void WorldRun::forget(MMTLink* link) {
-    for (OwnLink& one : links_) {
-        one.node = one.node == link ? nullptr : one.node;
-    }
-}
-
-void WorldRun::finish(HapticRecorder* recorder) {
-    if (recorder == recorder_) {
-        drain();
-        forget(recorder);
+void WorldRun::finish(HapticRecorder& recorder) {
+    if (recorder.recording() == running_.recording()) {
+        running_.finish_recording();
+        running_.listeners().end(session(), recorder_);
     }
 }
 
 // --- from the session to Godot
 
-const BodyState* WorldRun::state_of(const Node* node) {
-    const SessionHandle body = body_of(node);
-    const SessionSnapshot& snapshot = session_.snapshot();
-    for (std::size_t i = 0; body != no_handle && i < snapshot.body_count; ++i) {
-        if (snapshot.bodies[i].handle == body) {
-            return &snapshot.bodies[i];
-        }
-    }
-    return nullptr;
-}
-
 void WorldRun::show() {
     const Busy busy(is_busy_);
-    drain();
-    std::vector<std::pair<std::uint64_t, LinkReport>> reports;
-    for (const OwnLink& link : links_) {
-        if (link.node != nullptr) {
-            reports.emplace_back(link.node->get_instance_id(), link.link->report());
-        }
+    running_.drain();
+    std::vector<LinkReport> reports;
+    for (const auto& link : running_.links()) {
+        reports.push_back(link->report());
     }
     const std::vector<ModelNews> news = std::exchange(model_news_, {});
-    if (session_.refresh()) {
-        const SessionSnapshot& snapshot = session_.snapshot();
+    if (session().refresh()) {
+        const SessionSnapshot& snapshot = session().snapshot();
         hands_->show_devices(snapshot);
         show_bodies(snapshot);
-        if (!is_over_) {
+        if (!is_over()) {
             hands_->show_proxies(snapshot, [this](SessionHandle body) { return view().node_of(body); });
         }
     }
     // A script may have freed some of them by now.
-    for (const auto& [id, report] : reports) {
-        if (auto* node = Object::cast_to<MMTLink>(ObjectDB::get_instance(id))) {
-            node->take_report(report, news);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        if (auto* node = node_of_id<MMTLink>(link_nodes_[i])) {
+            node->take_report(reports[i], news);
         }
     }
 }
 
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
-    for (std::size_t i = 0; i < snapshot.body_count && !is_over_; ++i) {
+    for (std::size_t i = 0; i < snapshot.body_count && !is_over(); ++i) {
         view().show(snapshot.bodies[i], snapshot.tick);
     }
 }
 
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
-    for (const OwnLink& link : links_) {
-        std::ranges::move(link.link->problems(), std::back_inserter(all));
+    for (const auto& link : running_.links()) {
+        std::ranges::move(link->problems(), std::back_inserter(all));
     }
-    for (const auto& mirror : bodies_.bodies()) {
-        const CollisionObject3D* body = mirror->body();
-        for (const std::string& problem : mirror->problems()) {
-            all.push_back((body != nullptr ? from_godot(name_of(*body)) : std::string("a body")) + ": " +
-                          problem);
-        }
-    }
-    for (const auto& joint : bodies_.joints()) {
-        if (joint->node() != nullptr && !joint->problem().empty()) {
-            all.push_back(from_godot(name_of(*joint->node())) + ": " + joint->problem());
-        }
-    }
+    std::ranges::move(bodies_.mirrors().problems(), std::back_inserter(all));
     return all;
 }
 

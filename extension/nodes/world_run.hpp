@@ -1,4 +1,4 @@
-// What a HapticWorld owns while it runs: the session, its loop, and what of the scene tree stands in it.
+// What a HapticWorld owns while it runs: a running world, and what of the scene tree stands in it.
 //
 // Threads: the main thread; the haptic thread is that of the loop (world/world_loop.hpp).
 #pragma once
@@ -7,19 +7,15 @@
 #include <memory>
 #include <vector>
 
-#include "nodes/body_mirrors.hpp"
 #include "nodes/hand_mirrors.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/model_view.hpp"
 #include "nodes/proxy_pointer.hpp"
-#include "session/session.hpp"
-#include "world/world_link.hpp"
-#include "world/world_loop.hpp"
+#include "nodes/scene_bodies.hpp"
+#include "world/running_world.hpp"
 
 namespace tactus {
 
-class HapticDevice;
-class HapticFeedback;
 class HapticRecorder;
 class HapticWorld;
 class MMTLink;
@@ -40,15 +36,10 @@ public:
     // Gives everything back; nothing ticks after it. The run itself may be destroyed later: whoever is at
     // work in it finds out by is_over().
     void end();
-    bool is_over() const { return is_over_; }
+    bool is_over() const { return running_.is_over(); }
     // While scene and session are brought together. Godot may call scripts then, as bodies move.
     bool is_busy() const { return is_busy_; }
 
-    // Real time only. The text is empty, or why the loop could not start.
-    std::string start_loop(const TickLoopSettings& settings, bool baseline) {
-        return loop_.start(settings, baseline);
-    }
-    void stop_loop();
     // Ticks stop for a while: nothing pushes the hand meanwhile.
     void pause();
 
@@ -56,82 +47,52 @@ public:
     void synchronise(double seconds);
     // Shows in the scene tree what the loop has done.
     void show();
-    // Stepped time only: ticks at once, here.
-    void advance(std::int64_t ticks);
 
-    // A node has come or gone.
+    // A node has come; one is about to go.
     void scene_changed(const godot::Node& node) { view().scene_changed(node); }
-    void forget(HapticDevice* device) { hands_->forget(device, session_); }
-    void forget(ProxyPointer* proxy) { hands_->forget(proxy, session_); }
-    void forget(HapticRecorder* recorder);
-    void forget(HapticFeedback* feedback);
-    void forget(MMTLink* link);
+    void node_removed(const godot::Node& node);
     // The recorder is about to close its files: gives it what is there, then lets it go.
-    void finish(HapticRecorder* recorder);
+    void finish(HapticRecorder& recorder);
 
-    // Gives a body an impulse in the next tick; `for_a_frame`: the force of that size, and its torque, for as
-    // long as the next frame is.
-    void push(SessionHandle body, const BodyPush& push, bool for_a_frame);
     // no_handle where the node is no body of this world.
     SessionHandle body_of(const godot::Node* node) {
         return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
     }
-    // Of one that can move, as shown last; null where there is none.
-    const BodyState* state_of(const godot::Node* node);
+    BodyState state_of(const godot::Node* node) { return running_.state_of(body_of(node)); }
 
-    const BodyMirrors& bodies() const { return bodies_; }
-    Session& session() { return session_; }
-    WorldLoop& loop() { return loop_; }
-    const WorldLoop& loop() const { return loop_; }
+    const SceneBodies& bodies() const { return bodies_; }
+    RunningWorld& running() { return running_; }
+    Session& session() { return running_.session(); }
+    WorldLoop& loop() { return running_.loop(); }
+    const WorldLoop& loop() const { return running_.loop(); }
     std::size_t body_count() { return view().body_count(); }
-    std::size_t trees_building() const { return bodies_.building(); }  // bodies that wait for theirs
-    std::vector<std::string> problems() const;                         // each names its node
+    std::size_t trees_building() const { return bodies_.mirrors().building(); }  // bodies wait
+    std::vector<std::string> problems() const;                                   // each names its node
 
 private:
     SceneView& view() { return model_ != nullptr ? static_cast<SceneView&>(*model_) : bodies_; }
     void synchronise_bodies(double seconds);
     void look_at_scene();
-    void synchronise_recorder();
-    void synchronise_feedback();
-    void start_links();
+    void synchronise_recorders();
+    template <class NodeType>
+    void give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body);
+    void start_model(const MMTLink& link);
     void synchronise_links();
-    void tell_far_side(Nanoseconds now);
-    void drain();
     void show_bodies(const SessionSnapshot& snapshot);
 
-    struct OwnLink {
-        MMTLink* node = nullptr;  // null: it has left
-        std::unique_ptr<WorldLink> link;
-    };
-
-    // A node that hears every tick of a proxy.
-    struct Listener {
-        HapticFeedback* node = nullptr;
-        std::shared_ptr<RecorderRing<SessionRecord>> ring;
-        SessionHandle proxy = no_handle;
-    };
-
     HapticWorld& world_;
-    RunSettings settings_;
-    std::vector<OwnLink> links_;  // to each far side. Above the session, whose sides use them
-    Session session_;
-    WorldLoop loop_;
+    std::vector<std::uint64_t> link_nodes_;  // ids of the MMTLinks of its links; 0: it has left
+    RunningWorld running_;
     std::unique_ptr<ModelView> model_;   // at the operator; else null
     std::vector<ModelNews> model_news_;  // for its link's node
-    bool is_over_ = false;
     bool is_busy_ = false;
 
-    std::vector<std::pair<SessionHandle, BodyPush>> forces_;  // until the next frame
-    BodyMirrors bodies_;
-    std::unique_ptr<HandMirrors> hands_;
-    HapticRecorder* recorder_ = nullptr;
-    SessionHandle recorded_proxy_ = no_handle;
-    SessionHandle recorded_object_ = no_handle;
-    std::vector<Listener> listeners_;
-    std::vector<std::shared_ptr<void>> retired_;  // lives until the loop has let go of it
-    BodyDefaults defaults_;
-    std::uint32_t looks_ = 0;  // synchronise() so far
     Complaints complaints_;
+    SceneBodies bodies_;
+    std::unique_ptr<HandMirrors> hands_;
+    std::uint64_t recorder_ = 0;  // id of the HapticRecorder that records this world
+    BodyDefaults defaults_;       // as of the last frame
+    std::uint32_t looks_ = 0;     // synchronise() so far
 };
 
 }  // namespace tactus

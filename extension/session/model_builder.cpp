@@ -9,6 +9,17 @@ namespace tactus {
 
 namespace {
 
+// What moves and is told anew. Where it is said to be is one delay old; the model knows better, and a hand
+// that pushes it may be there by now. A number that is given again may be another object's.
+bool is_same(const ModelObject& before, const ModelObject& after) {
+    return !before.outdated && before.object == after.object && before.name == after.name &&
+           before.motion != Motion::Static && after.motion != Motion::Static;
+}
+
+// No farther than a hand moves things within the delay.
+constexpr double hand_speed = 1.0;  // (unit: meters per second)
+constexpr double nearby = 0.01;     // (unit: meters)
+
 BodyAddition addition_of(const ObjectDescription& description, const Pose& frame) {
     BodyAddition addition;
     addition.description = description.body;
@@ -32,6 +43,7 @@ void ModelBuilder::set_run(DiscoveryReceiver::Run run) {
 }
 
 bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
+    delay_ = 1e-9 * link.clock.mean_delay;
     if (link.peer_epoch != 0) {
         follow_gravity(now, link.peer_hello.gravity);
     }
@@ -57,18 +69,21 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
     return changed;
 }
 
-// At once before there is anything that falls; later no faster than a hand that holds something can follow.
+// At once before there is anything that falls. Later what is pushed or held gets heavier or lighter by it:
+// half of what is just noticed of a weight (7 %) in 100 ms.
 void ModelBuilder::follow_gravity(Nanoseconds now, const Vec3& wanted) {
-    constexpr double most_a_second = 50.0;  // (unit: meters per second cubed)
-    constexpr double longest_frame = 0.1;   // (unit: seconds)
+    constexpr double max_share_a_second = 0.35;
+    constexpr double least = 1.0;          // of which the share is (unit: meters per second squared)
+    constexpr double longest_frame = 0.1;  // (unit: seconds)
     const double seconds = std::min(to_seconds(now - gravity_at_), longest_frame);
     const bool at_once = !gravity_known_ || objects_.empty();
     const Vec3 way = wanted - gravity_;
     const double distance = glm::length(way);
+    const double max_change = max_share_a_second * std::max(least, glm::length(gravity_)) * seconds;
     gravity_at_ = now;
     if (!gravity_known_ || distance > 0.0) {
-        const bool arrives = at_once || distance <= most_a_second * seconds;
-        gravity_ = arrives ? wanted : gravity_ + way * (most_a_second * seconds / distance);
+        const bool arrives = at_once || distance <= max_change;
+        gravity_ = arrives ? wanted : gravity_ + way * (max_change / distance);
         gravity_known_ = true;
         session_.set_gravity(direction_to_parent(frame_, gravity_));
     }
@@ -151,9 +166,13 @@ bool ModelBuilder::add_prepared() {
 }
 
 void ModelBuilder::add(Preparing& prepared) {
-    ModelObject made{prepared.object, prepared.name, no_handle, {}};
+    ModelObject made{prepared.object, prepared.name, no_handle, {}, false, prepared.ready.motion};
     const auto before = find_before(prepared.object, prepared.name);
-    AddResult added = session_.add_body(std::move(prepared.ready));
+    FormerBody former;
+    if (before != objects_.end() && is_same(*before, made)) {
+        former = {before->body, std::max(nearby, hand_speed * delay_)};
+    }
+    AddResult added = session_.add_body(std::move(prepared.ready), former);
     made.body = added.handle;
     made.problem = std::move(added.error);
     port_->discovery.answer(prepared.object,

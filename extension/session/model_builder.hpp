@@ -27,6 +27,7 @@ struct ModelObject {
     SessionHandle body = no_handle;  // no_handle: it could not be built
     std::string problem;             // why
     bool outdated = false;           // of an earlier start of the far side, which has not described it yet
+    Motion motion = Motion::Static;  // as it was described
 };
 
 class ModelBuilder {
@@ -106,6 +107,7 @@ private:
     Vec3 gravity_{0.0};                  // as set last (unit: meters per second squared)
     Nanoseconds gravity_at_ = 0;
     bool gravity_known_ = false;
+    double delay_ = 0.0;  // there and back (unit: seconds)
     Pose frame_;
 };
 

@@ -226,7 +226,7 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     return ready;
 }
 
-AddResult Session::add_body(ReadyBody&& body) {
+AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
     if (!body.error.empty()) {
         return {no_handle, std::move(body.error)};
     }
@@ -239,7 +239,7 @@ AddResult Session::add_body(ReadyBody&& body) {
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
                                  std::move(body.touch), body.material, std::move(body.texture), body.layer,
-                                 body.pose, body.motion});
+                                 body.pose, body.motion, former});
     return {handle, {}};
 }
 

@@ -67,7 +67,7 @@ public:
     // Any thread, any time: builds the triangle tree and the rigid body, the tree with the help of `run`.
     static ReadyBody prepare_body(const BodyAddition& addition, const ParallelRunner& run = run_serially);
     // Hands it to the loop. Nothing is added on an error.
-    AddResult add_body(ReadyBody&& body);
+    AddResult add_body(ReadyBody&& body, const FormerBody& former = {});
     AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
     void remove_body(SessionHandle body);
     // Where the body is from the next tick on, without a way there: nothing is pushed.

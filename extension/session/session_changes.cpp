@@ -1,6 +1,7 @@
 // How the loop carries out each command of the owner.
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "realtime/thread_role.hpp"
 #include "session/session_loop.hpp"
@@ -33,6 +34,11 @@ void SessionLoop::follow(const SessionLoop& other, const Command& command) {
             if (const Body* const joined = body(handle)) {
                 physics_.take_state(joined->id, other.physics_);
             }
+        }
+    }
+    if (const auto* const added = std::get_if<command::AddBody>(&command)) {
+        if (const Body* const former = body(added->former.body)) {
+            physics_.take_state(former->id, other.physics_);
         }
     }
 }
@@ -69,7 +75,28 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     if (c.motion != Motion::Static) {
         show_state(c.handle);
     }
+    go_on_from(c);
     return false;
+}
+
+// Where its former is not near, it has been put elsewhere. Of another shape, how it lies is told.
+void SessionLoop::go_on_from(const command::AddBody& added) {
+    const Body* const former = body(added.former.body);
+    if (!former) {
+        return;
+    }
+    BodyMotion now = motion(added.former.body);
+    if (glm::distance(now.pose.position, added.pose.position) > added.former.within) {
+        return;
+    }
+    if (former->shape->reach != bodies_[added.handle].shape->reach) {
+        now.pose.rotation = added.pose.rotation;
+        now.angular_velocity = motion(added.handle).angular_velocity;
+    }
+    const BodyId id = bodies_[added.handle].id;
+    physics_.set_pose(id, now.pose);
+    physics_.set_velocity(id, now.linear_velocity, now.angular_velocity);
+    place(added.handle, now.pose, true);
 }
 
 // From the next snapshot on, the body is among those that can move.
@@ -382,7 +409,8 @@ struct Duplicate {
 
     bool operator()(command::AddBody& c) {
         same = command::AddBody{
-            c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion};
+            c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion,
+            c.former};
         return true;
     }
     bool operator()(command::DeformBody& c) {

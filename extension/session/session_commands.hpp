@@ -21,6 +21,7 @@ struct AddBody {
     std::uint32_t layer;
     Pose pose;
     Motion motion;
+    FormerBody former;
 };
 struct RemoveBody {
     SessionHandle handle;

@@ -72,7 +72,8 @@ public:
     // something.
     bool take(Command& command, Retired& retired);
 
-    // Before a twin of `other` takes the same command: a joint holds bodies as they are in the present.
+    // Before a twin of `other` takes the same command: a joint holds bodies as they are in the present, and a
+    // body that takes the place of another one goes on from there.
     void follow(const SessionLoop& other, const Command& command);
 
     // After the first bodies have come in and before the first tick.
@@ -190,6 +191,7 @@ private:
     void follow_physics();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void show_state(SessionHandle handle);
+    void go_on_from(const command::AddBody& added);
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
     void place_hand(DeviceSlot& slot) const;

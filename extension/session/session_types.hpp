@@ -55,6 +55,13 @@ enum SessionStatus : std::uint32_t {
     session_body_lost = 1u << 8,  // a body left the range of numbers and was put back where it was, asleep
 };
 
+// That a body which moves takes the place of. Where it is not farther than `within` from where the new one is
+// said to be, that goes on where it is then, and as it moves. It is to be removed next.
+struct FormerBody {
+    SessionHandle body = no_handle;
+    double within = 0.0;  // (unit: meters)
+};
+
 // What a dynamic body is given at once, in the next tick.
 struct BodyPush {
     Vec3 impulse{0.0};     // in the world (unit: newton seconds)

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/geometry/smooth_normals.hpp"
 #include "core/geometry/touch_shape.hpp"
 
 namespace tactus {
@@ -118,7 +119,35 @@ Vec3 direction_at(const std::vector<Vec3>& points, std::size_t i, bool closed) {
     return length > 0.0 ? way / length : Vec3(1.0, 0.0, 0.0);
 }
 
+// Flat ones are found at once, also of millions of triangles.
+std::vector<CornerNormals> shading(const Drawing& drawing) {
+    if (drawing.crease > 0.0) {
+        return smooth_normals(drawing.mesh, drawing.crease);
+    }
+    std::vector<CornerNormals> normals;
+    for (const auto& [a, b, c] : drawing.mesh.triangles) {
+        const Vec3& corner = drawing.mesh.vertices[a];
+        const Vec3 cross = glm::cross(drawing.mesh.vertices[b] - corner, drawing.mesh.vertices[c] - corner);
+        const double area = glm::length(cross);
+        const glm::vec3 normal(area > 0.0 ? cross / area : cross);
+        normals.push_back({normal, normal, normal});
+    }
+    return normals;
+}
+
 }  // namespace
+
+DrawnCorners corners_of(const Drawing& drawing) {
+    const std::vector<CornerNormals> normals = shading(drawing);
+    DrawnCorners drawn;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        for (const std::size_t corner : {0u, 2u, 1u}) {
+            drawn.places.emplace_back(drawing.mesh.vertices[drawing.mesh.triangles[i][corner]]);
+            drawn.normals.push_back(normals[i][corner]);
+        }
+    }
+    return drawn;
+}
 
 Drawing drawn_shape(const Shape& shape) {
     return std::visit(Draw{}, shape);

@@ -1,6 +1,7 @@
 // Triangles for the eye: what is shown of shapes that have none, and of paths.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "core/geometry/shape.hpp"
@@ -13,6 +14,12 @@ struct Drawing {
     TriangleMesh mesh;
     double crease = 0.0;  // facets that meet at less than this are one round surface (unit: radians)
 };
+
+// As graphics cards take them: three corners a triangle, clockwise seen from outside, each with its normal.
+struct DrawnCorners {
+    std::vector<glm::vec3> places, normals;
+};
+DrawnCorners corners_of(const Drawing& drawing);
 
 // A plane is drawn as a square about its nearest point to the origin.
 Drawing drawn_shape(const Shape& shape);

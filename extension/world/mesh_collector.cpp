@@ -76,4 +76,19 @@ std::vector<std::int32_t> read_indices(const SurfaceBytes& bytes) {
     return indices;
 }
 
+std::shared_ptr<TriangleSource> source_of(std::vector<LateSurface> surfaces) {
+    std::size_t count = 0;
+    for (const LateSurface& surface : surfaces) {
+        count += surface.triangle_count;
+    }
+    auto read = [surfaces = std::move(surfaces)] {
+        MeshCollector collector;
+        for (const LateSurface& surface : surfaces) {
+            surface.add_to(collector);
+        }
+        return collector.take();
+    };
+    return std::make_shared<TriangleSource>(std::move(read), count);
+}
+
 }  // namespace tactus

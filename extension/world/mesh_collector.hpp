@@ -4,10 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/geometry/triangle_mesh.hpp"
+#include "world/triangle_source.hpp"
 
 namespace tactus {
 
@@ -24,6 +27,13 @@ public:
 private:
     TriangleMesh mesh_;
 };
+
+// A surface that is read later, on another thread.
+struct LateSurface {
+    std::size_t triangle_count = 0;
+    std::function<void(MeshCollector&)> add_to;
+};
+std::shared_ptr<TriangleSource> source_of(std::vector<LateSurface> surfaces);
 
 // The bytes of one surface. A corner's place comes first in them, all places together: three floats, or in a
 // compressed surface four 16-bit numbers, of which three are shares of the box.

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/geometry/touch_shape.hpp"
@@ -74,6 +75,32 @@ private:
     Checked checked_;
     std::vector<Kept> kept_;
     std::vector<Former> former_;
+};
+
+// Sources by what they are read from: each is read by the first who asks, as long as somebody has it. One
+// thread.
+template <class Key>
+class KnownSources {
+public:
+    // `former`: what the asker knows to be out of date, or null: whoever is known by the key and is not that
+    // one is newer. `make` gives another one, which succeeds it.
+    template <class Make>
+    std::shared_ptr<TriangleSource> get(const Key& key, const std::shared_ptr<TriangleSource>& former,
+                                        const Make& make) {
+        std::erase_if(all_, [](const auto& entry) { return entry.second.expired(); });
+        std::shared_ptr<TriangleSource> source = all_[key].lock();
+        if (source == nullptr || source == former) {
+            source = make();
+            if (former != nullptr) {
+                source->succeed(*former);
+            }
+            all_[key] = source;
+        }
+        return source;
+    }
+
+private:
+    std::unordered_map<Key, std::weak_ptr<TriangleSource>> all_;
 };
 
 }  // namespace tactus

@@ -30,6 +30,14 @@ std::string ports(const NetworkSettings& settings) {
 
 }  // namespace
 
+UdpSettings with_usual_ports(UdpSettings udp, bool is_operator) {
+    constexpr std::uint16_t of_operator = 47001;
+    constexpr std::uint16_t of_far_side = 47002;
+    udp.local_port = udp.local_port > 0 ? udp.local_port : is_operator ? of_operator : of_far_side;
+    udp.remote_port = udp.remote_port > 0 ? udp.remote_port : is_operator ? of_far_side : of_operator;
+    return udp;
+}
+
 std::string problem_of_addresses(const UdpSettings& udp) {
     if (udp.remote_address.empty()) {
         return "the far side has no address: set 'remote_address'";
@@ -119,10 +127,16 @@ void WorldLink::keep_trace() {
     }
 }
 
+WorldLink::WayPlan WorldLink::way_of(const LinkPlan& plan) {
+    const UdpSettings& udp = plan.network.udp;
+    return {udp.local_address, udp.remote_address, plan.key_file, udp.local_port,
+            udp.remote_port,   plan.network.seed,  plan.wire};
+}
+
 // A way is opened anew only when the loop has let go of the one before: both may want the same port.
 void WorldLink::look_after_way(Workers& workers, const LinkMoment& moment) {
-    if (is_planned_ && plan_.way_revision != way_revision_) {
-        way_revision_ = plan_.way_revision;
+    if (const std::optional<WayPlan> way = way_of(plan_); is_planned_ && way != way_planned_) {
+        way_planned_ = way;
         let_go_of_way();
         next_try_ = moment.now;
     }

@@ -41,9 +41,8 @@ enum class LinkState : std::uint8_t {
 struct LinkPlan {
     bool is_operator = true;
     std::uint8_t scenario = 0;
-    std::string problem;             // why there can be no way to the far side, and what to do; or empty
-    std::uint64_t revision = 0;      // another one after every change of what is below
-    std::uint64_t way_revision = 0;  // another one after every change of what a way is opened with
+    std::string problem;         // why there can be no way to the far side, and what to do; or empty
+    std::uint64_t revision = 0;  // another one after every change of what is below
     TeleopSettings teleop;
     NetworkSettings network;
     std::string key_file;
@@ -52,6 +51,10 @@ struct LinkPlan {
     std::shared_ptr<const DelayTrace> trace;
     std::string trace_problem;  // why the emulated network has none; or empty
 };
+
+// With the port that a side listens at when nothing else is said, here and at the far side, for each that is
+// 0.
+UdpSettings with_usual_ports(UdpSettings udp, bool is_operator);
 
 // What keeps the two addresses from being those of two sides, and what to do; empty where nothing does.
 std::string problem_of_addresses(const UdpSettings& udp);
@@ -139,6 +142,14 @@ private:
         std::string error;
         std::atomic<bool> done{false};
     };
+    // What a way is opened with: where one of these is another, so is the way.
+    struct WayPlan {
+        std::string local_address, remote_address, key_file;
+        std::uint16_t local_port = 0, remote_port = 0;
+        std::uint64_t seed = 0;
+        std::shared_ptr<MemoryLinkPair> wire;
+        bool operator==(const WayPlan&) const = default;
+    };
     struct Telling {
         std::uint64_t revision = 0;  // that was told
         Nanoseconds at = 0;
@@ -149,6 +160,7 @@ private:
         std::string text;
     };
 
+    static WayPlan way_of(const LinkPlan& plan);
     std::unique_ptr<TeleopSide> make_side(const SessionSettings& session, const PointerShare& share);
     void tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now);
     void tell_joints(const std::vector<ToldJoint>& joints);
@@ -178,8 +190,8 @@ private:
     std::unordered_map<SessionHandle, std::pair<std::uint64_t, std::uint64_t>>
         told_joints_;  // source, revision
 
-    std::uint64_t revision_ = 0;      // of the plan, that has been passed on
-    std::uint64_t way_revision_ = 0;  // that the way was opened with
+    std::uint64_t revision_ = 0;          // of the plan, that has been passed on
+    std::optional<WayPlan> way_planned_;  // that the way is opened with
     std::unique_ptr<LinkWay> way_;
     std::unique_ptr<LinkWay> past_way_;                      // until the loop has let go of it
     std::vector<std::shared_ptr<const DelayTrace>> traces_;  // that conditions have pointed to

@@ -195,5 +195,14 @@ TEST(HandPath, SamplingNeitherAllocatesNorLocks) {
     EXPECT_EQ(audit.allocations() + audit.locks() + audit.system_calls(), 0u) << audit.describe();
 }
 
+TEST(HandPath, APointIsAPlaceWithinReach) {
+    for (const double far :
+         {2e6, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+        KeyframePath path;
+        path.keyframes = {{0, Vec3(0.0)}, {1'000'000'000, Vec3(far, 0, 0)}};
+        EXPECT_EQ(problem_with(path), "point 1 is no place within 1,000,000 m: set it anew");
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -210,6 +210,24 @@ func test_more_listeners_than_there_is_room_for_are_told() -> void:
 	await _strongest(feedback, 0.05)
 
 
+func test_feedback_that_is_off_is_given_no_ticks() -> void:
+	var feedback := _tapping_world(1000.0)
+	var others: Array[HapticFeedback] = []
+	for _i in 8:
+		var other := HapticFeedback.new()
+		other.sound = false
+		other.vibration = false
+		feedback.get_parent().add_child(other)
+		others.append(other)
+	await _strongest(feedback, 0.1)
+	feedback.vibration = false
+	feedback.sound = false
+	others[7].vibration = true
+	others[7].steady_share = 0.5
+	await _strongest(others[7], 0.3)
+	check(others[7].get_motor_levels().x > 0.1, "switched on: %s" % others[7].get_motor_levels())
+
+
 ## Godot's mixer lets go of a sound some time after its player has gone.
 func _the_mixer_is_done() -> void:
 	for node in get_children():

@@ -87,7 +87,7 @@ func test_a_device_whose_path_cannot_be_followed() -> void:
 	var way := path(Vector3.ZERO, Vector3.ONE)
 	way.points_times = PackedFloat64Array([1.0, 0.5])
 	add_hand(world, way)
-	expect_error("its path cannot be followed: keyframe 1 is not later")
+	expect_error("its path cannot be followed: point 1 is not later")
 	world.advance(0.1)
 
 

@@ -1,15 +1,8 @@
 #include "played/falcon_figures.hpp"
 
-#include <signal.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <ctime>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -20,6 +13,7 @@
 #include "devices/path_device.hpp"
 #include "platform/realtime_thread.hpp"
 #include "platform/sleep.hpp"
+#include "played/played_stall.hpp"
 #include "played/played_usb.hpp"
 #include "session/session.hpp"
 #include "shared/bench_kit.hpp"
@@ -169,17 +163,6 @@ double tick_p99(Device& device, double seconds, const auto& move) {
     return quantile(spans, 0.99);
 }
 
-pid_t thread_named(const std::string& name) {
-    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
-        std::string found;
-        std::getline(std::ifstream(entry.path() / "comm"), found);
-        if (found == name) {
-            return static_cast<pid_t>(std::stol(entry.path().filename()));
-        }
-    }
-    return 0;
-}
-
 }  // namespace
 
 int starts_ok(int starts, double failing) {
@@ -254,18 +237,11 @@ StallFigures stall_loop(int stalls) {
 }
 
 StallFigures stall_driver(int stalls) {
-    struct sigaction action{};
-    action.sa_handler = [](int) {
-        timespec span{0, stall};
-        nanosleep(&span, nullptr);
-    };
-    action.sa_flags = SA_RESTART;
-    sigaction(SIGUSR1, &action, nullptr);
     return time_stalls(
         stalls,
         [](Loop&) {
             const Nanoseconds now = monotonic_now();
-            syscall(SYS_tgkill, getpid(), thread_named("tactus-device"), SIGUSR1);
+            stall_thread("tactus-device", stall);
             return now;
         },
         [](Loop&) { SleepTimer().sleep_until(monotonic_now() + stall); });

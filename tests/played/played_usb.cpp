@@ -10,17 +10,19 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
 
 #include "platform/clock.hpp"
+#include "played/played_poll.hpp"
 
 namespace tactus::shared {
 
 namespace {
 
-// The kernel would sleep; a client that finds nothing to reap would ask again at once.
+// A client in another process, whose poll() is not played, would ask again at once.
 constexpr useconds_t nothing_to_reap = 100;
 
 // Where the system shows the device on a port of the first bus.
@@ -84,9 +86,15 @@ bool run_below_umockdev(char** arguments) {
     return false;
 }
 
-struct PlayedUsb::Impl {
+struct PlayedUsb::Impl final : PlayedPoll {
     Impl(const PlayedUsbSettings& given)
-        : settings(given), random(given.seed), falcon(given.falcon, given.seed), failing(given.failing) {}
+        : PlayedPoll(node_of(given.port)),
+          settings(given),
+          random(given.seed),
+          falcon(given.falcon, given.seed),
+          failing(given.failing) {}
+
+    Nanoseconds ready_at() override;
 
     bool fails() { return random.unit() < failing; }
     bool handle(UMockdevIoctlClient* client);
@@ -139,7 +147,9 @@ bool PlayedUsb::Impl::handle(UMockdevIoctlClient* client) {
                 return true;
             }
             lock.unlock();
-            usleep(nothing_to_reap);
+            if (!is_used()) {
+                usleep(nothing_to_reap);
+            }
             umockdev_ioctl_client_complete(client, -1, EAGAIN);
             return true;
         }
@@ -171,7 +181,21 @@ bool PlayedUsb::Impl::submit(UMockdevIoctlClient* client, UMockdevIoctlData* arg
     perform(urb);
     urbs.push_back(urb);
     umockdev_ioctl_client_complete(client, 0, 0);
+    changed();
     return true;
+}
+
+Nanoseconds PlayedUsb::Impl::ready_at() {
+    const std::lock_guard lock(mutex);
+    Nanoseconds ready = std::numeric_limits<Nanoseconds>::max();
+    for (const Urb& urb : urbs) {
+        if (urb.done || !plugged) {
+            return 0;
+        }
+        // Reads are served in the order in which they were asked for.
+        ready = std::min(ready, falcon.readable_at(urb.asked));
+    }
+    return ready;
 }
 
 // What the host sends arrives at once, or not at all.
@@ -204,8 +228,11 @@ void PlayedUsb::Impl::look(Urb& urb, Nanoseconds now) {
         urb.done = true;
         return;
     }
+    if (now < falcon.readable_at(urb.asked)) {
+        return;
+    }
     std::size_t room = static_cast<std::size_t>(u.buffer_length);
-    const bool wrong = now - urb.asked > 500'000 && fails();
+    const bool wrong = fails();
     if (wrong && random.flip()) {
         u.status = -EPROTO;  // what it has stays in the chip
         urb.done = true;
@@ -254,6 +281,7 @@ bool PlayedUsb::Impl::discard(UMockdevIoctlClient* client, UMockdevIoctlData* ar
     }
     found->urb().status = -ENOENT;
     found->done = true;
+    changed();
     umockdev_ioctl_client_complete(client, 0, 0);
     return true;
 }
@@ -282,6 +310,7 @@ void PlayedUsb::plug() {
         impl_->falcon.power_cycle();
         impl_->plugged = true;
     }
+    impl_->changed();
     umockdev_testbed_add_from_string(testbed(), device_text(impl_->settings.port).c_str(), nullptr);
 }
 
@@ -292,6 +321,7 @@ void PlayedUsb::unplug() {
             return;
         }
     }
+    impl_->changed();
     umockdev_testbed_remove_device(testbed(), ("/sys" + place_of(impl_->settings.port)).c_str());
 }
 

@@ -218,6 +218,24 @@ TEST(Mmt, AGroundThatIsPutRightIsSoInTheReplayedPastAsWell) {
     EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
 }
 
+// What it was said to be like is one delay old, and the hand that pushes it is there by now.
+TEST(Mmt, ABodyThatIsToldAnewStaysInTheWayOfTheHandThatPushesIt) {
+    TeleopScene push = scene(true);
+    KeyframePath path;
+    path.interpolation = PathInterpolation::linear;
+    path.keyframes = {
+        {0, {0.0, 0.06, 0.1}}, {500'000'000, {0.0, 0.06, 0.16}}, {3'000'000'000, {0.0, 0.06, 0.29}}};
+    push.path = path;
+    TeleopCase light = with_delay(100.0, 3.0);
+    light.object = "Box";
+    light.discovers = true;
+    light.wrong["Box"].mass = 0.5;
+    light.settings.correction = Correction::none;
+    light.events.push_back({1.5, TeleopEvent::Kind::told, "Box", 0.0});
+    const TeleopFigures figures = run_teleop(push, light);
+    EXPECT_LT(figures.at("force_error_left_N"), 0.05);
+}
+
 TEST(Mmt, AnArmPressesTheModelAsItWouldPressWhatIsThere) {
     const TeleopFigures figures = run_teleop(press(), with_arm(200.0));
     EXPECT_EQ(figures.at("hand_deviation_rms_mm"), 0.0);

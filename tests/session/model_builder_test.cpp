@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "model_rig.hpp"
 
@@ -20,6 +23,12 @@ BodyAddition box(const Vec3& position) {
 
 BodyAddition slab() {
     return body(BoxShape{{1.0, 0.05, 1.0}}, {0.0, -0.05, 0.0}, Motion::Static);
+}
+
+TeleopSettings never_corrected() {
+    TeleopSettings settings;
+    settings.correction = Correction::none;
+    return settings;
 }
 
 TEST(ModelBuilder, BuildsWhatTheFarSideHas) {
@@ -56,11 +65,7 @@ TEST(ModelBuilder, ALateOperatorIsToldWhereThingsAreByNow) {
     rig.far->session.teleport_body(handle, {{0.4, 0.05, 0.0}, {1.0, 0.0, 0.0, 0.0}});
     rig.run(500 * ms);
     rig.start_operator(11);
-    rig.near->port->settings.publish([] {
-        TeleopSettings settings;
-        settings.correction = Correction::none;  // nothing but the description says where it is
-        return settings;
-    }());
+    rig.near->port->settings.publish(never_corrected());  // nothing but the description says where it is
     rig.run(500 * ms);
     EXPECT_NEAR(glm::distance(rig.near->pose("Box").position, Vec3(0.4, 0.05, 0.0)), 0.0, 1e-3);
 }
@@ -97,11 +102,13 @@ TEST(ModelBuilder, ANumberThatIsGivenAgainIsAnotherObject) {
     rig.run(300 * ms);
     rig.far->remove(handle);
     rig.run(3 * ms);
-    const SessionHandle next = rig.far->add("Ball", body(SphereShape{0.05}, {0.2, 0.5, 0.0}, Motion::Static));
+    const SessionHandle next =
+        rig.far->add("Ball", body(SphereShape{0.05}, {0.2, 0.5, 0.0}, Motion::Kinematic));
     EXPECT_EQ(next, handle);
     rig.run(500 * ms);
     ASSERT_EQ(rig.near->builder.objects().size(), 1u);
-    EXPECT_NE(rig.near->find("Ball"), nullptr);
+    ASSERT_NE(rig.near->find("Ball"), nullptr);
+    EXPECT_NEAR(glm::distance(rig.near->pose("Ball").position, Vec3(0.2, 0.5, 0.0)), 0.0, 1e-9);
 }
 
 TEST(ModelBuilder, ANewDescriptionTakesThePlaceOfTheOld) {
@@ -119,6 +126,57 @@ TEST(ModelBuilder, ANewDescriptionTakesThePlaceOfTheOld) {
     EXPECT_EQ(rig.near->session.snapshot().body_count, 1u);
 }
 
+// By the time that it is told, it is elsewhere.
+TEST(ModelBuilder, WhatMovesAndIsToldAnewGoesOnFromWhereTheModelHasIt) {
+    LinkConditions conditions;
+    conditions.delay = 50 * ms;
+    Rig rig(conditions);
+    BodyAddition sled = box({0.0, 0.05, 0.0});
+    sled.description.gravity_scale = 0.0;
+    sled.description.linear_damping = 0.0;
+    sled.description.linear_velocity = {0.2, 0.0, 0.0};
+    const SessionHandle handle = rig.far->add("Sled", sled);
+    rig.near->port->settings.publish(never_corrected());
+    rig.run(500 * ms);
+    const SessionHandle before = rig.near->find("Sled")->body;
+    sled.description.mass = 0.6;
+    sled.description.pose = rig.far->session.snapshot().bodies[0].pose;
+    EXPECT_EQ(rig.far->teller.tell(handle, "Sled", sled), "");
+    const Nanoseconds told = rig.now;
+    const double from = rig.near->pose("Sled").position.x;
+    for (int i = 0; i < 300; ++i) {
+        rig.run(1 * ms);
+        if (const double at = rig.near->pose("Sled").position.x; at > -1.0) {  // the snapshot has it
+            EXPECT_NEAR(at - from, 0.2 * to_seconds(rig.now - told), 1e-6) << i;
+        }
+    }
+    EXPECT_NE(rig.near->find("Sled")->body, before);
+}
+
+// A weight on a hand changes by less than is noticed.
+TEST(ModelBuilder, GravityIsFollowedUnnoticed) {
+    Rig rig;
+    rig.far->add("Ball", body(SphereShape{0.05}, {0.0, 1000.0, 0.0}, Motion::Dynamic));
+    rig.near->port->settings.publish(never_corrected());
+    rig.run(500 * ms);
+    TeleopSettings moon;
+    moon.gravity = {0.0, -1.62, 0.0};
+    rig.far->port->settings.publish(moon);
+    constexpr double span = 0.1;
+    std::vector<double> fallen{rig.near->pose("Ball").position.y};
+    for (int i = 0; i < 90; ++i) {
+        rig.run(100 * ms);
+        fallen.push_back(rig.near->pose("Ball").position.y);
+    }
+    double before = -9.81;
+    for (std::size_t i = 2; i < fallen.size(); ++i) {
+        const double now = (fallen[i] - 2.0 * fallen[i - 1] + fallen[i - 2]) / (span * span);
+        EXPECT_LT(std::abs(now - before), 0.07 * std::abs(before)) << i;
+        before = now;
+    }
+    EXPECT_NEAR(before, -1.62, 1e-2);
+}
+
 TEST(ModelBuilder, TheModelMayBeMadeWrong) {
     Rig rig;
     rig.near->builder.set_distortion([](ObjectDescription& description) {
@@ -127,11 +185,7 @@ TEST(ModelBuilder, TheModelMayBeMadeWrong) {
         }
     });
     rig.far->add("Ball", body(SphereShape{0.05}, {0.2, 0.05, 0.0}, Motion::Kinematic));
-    rig.near->port->settings.publish([] {
-        TeleopSettings settings;
-        settings.correction = Correction::none;
-        return settings;
-    }());
+    rig.near->port->settings.publish(never_corrected());
     rig.run(300 * ms);
     EXPECT_NEAR(rig.near->pose("Ball").position.x, 0.3, 1e-9);
 }

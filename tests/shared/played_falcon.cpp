@@ -141,10 +141,14 @@ void PlayedFalcon::write(std::span<const std::uint8_t> bytes, Nanoseconds now) {
 
 // The chip sends what it has when its latency timer is over, or at once where a packet of USB is full; here a
 // report counts as one.
+Nanoseconds PlayedFalcon::readable_at(Nanoseconds asked) const {
+    const Nanoseconds timer = asked + latency_;
+    return out_.empty() ? timer : std::min(timer, out_.front().at);
+}
+
 std::vector<std::uint8_t> PlayedFalcon::read(std::size_t room, Nanoseconds asked, Nanoseconds now) {
     advance(now);
-    const bool ready = !out_.empty() && out_.front().at <= now;
-    if (!ready && now - asked < latency_) {
+    if (now < readable_at(asked)) {
         return {};
     }
     std::vector<std::uint8_t> bytes{0x01, 0x60};

@@ -34,6 +34,8 @@ public:
     // The host's side, in the order of time (unit of `now`: nanoseconds).
     void control(std::uint8_t request, std::uint16_t value);
     void write(std::span<const std::uint8_t> bytes, Nanoseconds now);
+    // When a read that was asked for then has something to bring, if nothing is written before.
+    Nanoseconds readable_at(Nanoseconds asked) const;
     // What the chip sends at `now`, with its two bytes of modem status, at most `room` bytes; empty: not yet.
     std::vector<std::uint8_t> read(std::size_t room, Nanoseconds asked, Nanoseconds now);
 

@@ -184,7 +184,6 @@ SessionHandle TeleopRun::object_id(const TeleopBody& body) const {
 }
 
 void TeleopRun::distort(ObjectDescription& description) const {
-    // What is told anew has a name of its own, or nobody would notice.
     const std::string name = description.name.substr(0, description.name.find('\''));
     if (std::ranges::find(told_, name) != told_.end()) {
         return;
@@ -249,7 +248,8 @@ void TeleopRun::tell_anew(const std::string& name) {
         }
     }
     told_.push_back(name);
-    teller_.tell(object, name + "'", addition);
+    // What stands is told in the same words as before, and nobody would notice: it gets another name.
+    teller_.tell(object, addition.description.motion == Motion::Static ? name + "'" : name, addition);
 }
 
 // Where the model has the moving body `moving` of the environment, if it does.

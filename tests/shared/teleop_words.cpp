@@ -237,6 +237,10 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         c.forth.jitter = c.back.jitter = from_seconds(1e-3 * number);
     } else if (key == "loss") {
         c.forth.loss = c.back.loss = number;
+    } else if (key == "loss_forth") {
+        c.forth.loss = number;
+    } else if (key == "loss_back") {
+        c.back.loss = number;
     } else if (key == "burst") {
         c.forth.burst = c.back.burst = bursts(number, 5.0);
     } else if (key == "seed") {

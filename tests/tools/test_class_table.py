@@ -50,3 +50,11 @@ def test_statistics_are_keys_in_code_and_lines_in_the_help():
 def test_a_range_is_said_with_its_unit():
     table = next(table for table in TABLES if table.name == "NetworkConditions")
     assert "[b]Range:[/b] 0 to 10 s." in table.help().decode()
+
+
+def test_what_is_not_shown_is_still_stored():
+    table = next(table for table in TABLES if table.name == "HapticPath")
+    for name, form in (("circle_radius", "FORM_CIRCLE_WAVE"), ("points_loop", "FORM_POINTS")):
+        assert f'(name == "{name}" && !(form_ == {form}))' in table.source()
+    assert "property.usage = PROPERTY_USAGE_STORAGE;" in table.source()
+    assert '(name == "form"' not in table.source()

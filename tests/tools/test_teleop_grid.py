@@ -34,6 +34,19 @@ def test_what_hangs_on_a_hinge_is_moved_about_it():
     assert 10 < hinged["wrong.Box.swing"] < 30 and "wrong.Box.move" not in hinged
 
 
+def test_what_chance_makes_wrong_is_the_same_every_time_and_within_what_the_grid_says():
+    drawn = teleop_grid.drawn(20)
+    assert drawn == teleop_grid.drawn(20) and len({str(wrong) for wrong in drawn.values()}) == 20
+    assert all(1 / 3 <= wrong[what] <= 3 for wrong in drawn.values() for what in ("mass", "friction"))
+    assert all(abs(wrong.get("moved", 0)) <= 0.05 and abs(wrong.get("tilt", 0)) <= 5 for wrong in drawn.values())
+
+
+def test_every_way_is_touched_by_the_same_hand():
+    description = DESCRIPTION | {"grid": DESCRIPTION["grid"] | {"wrong": teleop_grid.drawn(1)}}
+    keys = [teleop_grid._keys(description, "one.arm.seed_1.50ms.0pct", one) for one in (*teleop_grid.SCHEMES, teleop_grid.BOUND)]
+    assert len({one["path_shift"] for one in keys}) == 1
+
+
 def test_copies_stand_elsewhere_with_the_same_shapes():
     lines = Scene(DESCRIPTION["scene"]).varied({"copies": {"Other": {"of": "Box", "at": [1, 2, 3]}}}).splitlines()
     of, other = (next(i for i, line in enumerate(lines) if line.startswith(f"body {name} ")) for name in ("Box", "Other"))

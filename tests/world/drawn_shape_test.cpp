@@ -77,5 +77,38 @@ TEST(DrawnPath, IsNothingWhereThePathCannotBeFollowed) {
     EXPECT_TRUE(drawn_path(KeyframePath{}, 0.01).mesh.triangles.empty());
 }
 
+// At a pole two corners of a triangle are one.
+bool has_area(const DrawnCorners& corners, std::size_t first) {
+    return glm::length(glm::cross(corners.places[first + 1] - corners.places[first],
+                                  corners.places[first + 2] - corners.places[first])) > 1e-6f;
+}
+
+TEST(DrawnCorners, AreThreeATriangleClockwiseEachWithItsNormal) {
+    for (const Drawing& drawing : {drawn_shape(BoxShape{Vec3(1.0)}), drawn_shape(SphereShape{1.0})}) {
+        const DrawnCorners corners = corners_of(drawing);
+        ASSERT_EQ(corners.places.size(), 3 * drawing.mesh.triangles.size());
+        ASSERT_EQ(corners.normals.size(), corners.places.size());
+        for (std::size_t i = 0; i < corners.places.size(); i += 3) {
+            const glm::vec3 facing = glm::cross(corners.places[i + 2] - corners.places[i],
+                                                corners.places[i + 1] - corners.places[i]);
+            for (std::size_t corner = i; corner < i + 3 && has_area(corners, i); ++corner) {
+                EXPECT_NEAR(glm::length(corners.normals[corner]), 1.0f, 1e-5f);
+                EXPECT_GT(glm::dot(corners.normals[corner], facing), 0.0f);
+            }
+        }
+    }
+}
+
+TEST(DrawnCorners, AFlatFacetHasItsOwnNormalAndASphereOneForEachPlace) {
+    const DrawnCorners box = corners_of(drawn_shape(BoxShape{Vec3(1.0)}));
+    EXPECT_EQ(box.normals[0], box.normals[1]);
+    const DrawnCorners sphere = corners_of(drawn_shape(SphereShape{1.0}));
+    for (std::size_t i = 0; i < sphere.places.size(); i += 3) {
+        for (std::size_t corner = i; corner < i + 3 && has_area(sphere, i); ++corner) {
+            EXPECT_GT(glm::dot(sphere.places[corner], sphere.normals[corner]), 0.95f);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -91,5 +91,24 @@ TEST(SurfaceBytes, TooFewAreNotWhole) {
     EXPECT_FALSE(is_whole({bytes, {bytes.data(), 3}, 5, 1, false, {}, {}}));
 }
 
+TEST(LateSurface, AreReadTogetherWhenSomebodyAsks) {
+    int reads = 0;
+    const auto surface = [&reads](float z) {
+        return LateSurface{2, [&reads, z](MeshCollector& collector) {
+                               ++reads;
+                               std::vector<PackedPlace> corners = two_triangles;
+                               for (PackedPlace& corner : corners) {
+                                   corner[2] = z;
+                               }
+                               collector.add(corners, {});
+                           }};
+    };
+    const std::shared_ptr<TriangleSource> source = source_of({surface(0.0f), surface(1.0f)});
+    EXPECT_EQ(source->triangle_count(), 4u);
+    EXPECT_EQ(reads, 0);
+    EXPECT_EQ(source->triangles().mesh->vertices.size(), 8u);
+    EXPECT_EQ(reads, 2);
+}
+
 }  // namespace
 }  // namespace tactus

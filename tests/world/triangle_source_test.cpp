@@ -87,5 +87,30 @@ TEST(TriangleSource, OtherTrianglesAreBuiltAnew) {
     EXPECT_EQ(built.mesh->triangles.size(), 1u);
 }
 
+TEST(KnownSources, AreReadByTheFirstWhoAsks) {
+    KnownSources<int> known;
+    int reads = 0;
+    const auto make = [&reads] {
+        ++reads;
+        return std::make_shared<TriangleSource>([] { return sheet(0.0); }, 2);
+    };
+    std::shared_ptr<TriangleSource> first = known.get(1, nullptr, make);
+    EXPECT_EQ(known.get(1, nullptr, make), first);
+    EXPECT_NE(known.get(2, nullptr, make), first);
+    EXPECT_EQ(reads, 2);
+    first.reset();
+    known.get(1, nullptr, make);
+    EXPECT_EQ(reads, 3) << "nobody had it any more";
+}
+
+TEST(KnownSources, OfTwoWhoKnowOfAChangeTheFirstReadsAndTheOtherTakesIt) {
+    KnownSources<int> known;
+    const auto make = [] { return std::make_shared<TriangleSource>([] { return sheet(0.0); }, 2); };
+    const std::shared_ptr<TriangleSource> before = known.get(1, nullptr, make);
+    const std::shared_ptr<TriangleSource> now = known.get(1, before, make);
+    EXPECT_NE(now, before);
+    EXPECT_EQ(known.get(1, before, make), now);
+}
+
 }  // namespace
 }  // namespace tactus

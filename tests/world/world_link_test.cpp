@@ -26,7 +26,7 @@ LinkPlan plan_of(bool is_operator, const std::shared_ptr<MemoryLinkPair>& wire) 
     LinkPlan plan;
     plan.is_operator = is_operator;
     plan.scenario = model_mediated;
-    plan.revision = plan.way_revision = 1;
+    plan.revision = 1;
     plan.wire = wire;
     plan.partner = "the other one";
     return plan;
@@ -227,7 +227,6 @@ TEST(WorldLink, AnotherWayIsOpenedWhileItRuns) {
     const auto other = std::make_shared<MemoryLinkPair>();
     for (World* world : {&sides.here, &sides.there}) {
         world->plan.wire = other;
-        ++world->plan.way_revision;
         ++world->plan.revision;
     }
     frames(sides.here, sides.there, 60);
@@ -273,6 +272,17 @@ TEST(ProblemOfAddresses, SaysWhatIsMissingOrTheSame) {
     }
     udp.remote_port = 47002;
     EXPECT_EQ(problem_of_addresses(udp), "");
+}
+
+TEST(UsualPorts, AreTheOtherSidesTurnedRoundAndOnlyWhereNoneIsGiven) {
+    const UdpSettings here = with_usual_ports({}, true), there = with_usual_ports({}, false);
+    EXPECT_NE(here.local_port, here.remote_port);
+    EXPECT_EQ(here.local_port, there.remote_port);
+    EXPECT_EQ(here.remote_port, there.local_port);
+    UdpSettings own;
+    own.local_port = 5;
+    EXPECT_EQ(with_usual_ports(own, true).local_port, 5);
+    EXPECT_EQ(with_usual_ports(own, true).remote_port, here.remote_port);
 }
 
 }  // namespace

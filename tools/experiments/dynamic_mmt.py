@@ -2,7 +2,7 @@
 
     ./run experiment dynamic_mmt [--seconds=10] [--delays=0,25,50,100,200,500] [--losses=0,10,50] [--pictures=1]
         [--table=1] [--variants=1] [--grid=1] [--grid_scenes=one,three,stack,hinge] [--grid_wrong=all] [--grid_delays=50,100,200]
-        [--grid_schemes=default,never_corrected,…] [--grid_losses=0,50] [--grid_set=KEY=VALUE,KEY=VALUE]
+        [--grid_schemes=default,never_corrected,…] [--grid_losses=0,50] [--grid_seeds=6] [--grid_set=KEY=VALUE,KEY=VALUE]
         [--mass=0.8 --friction=1.3 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 Cases are CORRECTION.DERIVATION.DELAYms.LOSSpct: how a correction is brought in, how the present is derived from a state
@@ -13,7 +13,8 @@ measuring/rivals.py: among them "unsynchronised", a right model whose side ticks
 jittering link (thesis figure 5.5), and places that are seen with 1 mm of noise.
 
 The grid (measuring/teleop_grid.py; grid.csv has a line for each of its cases) asks the default against never correcting,
-pose alone, velocities and traditional touch, over models that are wrong in many ways. --table=0, --variants=0 and the options
+pose alone, velocities and traditional touch, over models that are wrong in many ways; grid.unseen.* are the same of models
+that chance has made wrong, by so many seeds (grid_unseen.csv). --table=0, --variants=0 and the options
 of the grid leave out what is not wanted; --grid_set changes the default, with keys of tests/shared/teleop_words.cpp.
 """
 
@@ -51,6 +52,7 @@ class Settings(teleop_runs.Imperfections):
     grid_wrong: str = "all"
     grid_delays: str = "50,100,200"
     grid_losses: str = "0,50"
+    grid_seeds: int = 6
     grid_schemes: str = "all"
     grid_set: str = ""
 
@@ -132,9 +134,16 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
     wrongs = _chosen(settings.grid_wrong, grid["wrong"])
     schemes = dict.fromkeys([*_chosen(settings.grid_schemes, teleop_grid.SCHEMES), "never_corrected"])
     more = dict(pair.split("=", 1) for pair in settings.grid_set.split(",") if pair)
+    delays = settings.grid_delays.split(",")
     summary: dict[str, object] = {}
-    for loss in settings.grid_losses.split(","):
-        names = teleop_grid.cases(grid, scenes, wrongs, settings.grid_delays.split(","), loss)
+    if settings.grid_seeds:
+        drawn = teleop_grid.drawn(settings.grid_seeds)
+        unseen = description | {"grid": grid | {"wrong": drawn}}
+        found = teleop_grid.run(unseen, teleop_grid.cases(grid, scenes, drawn, delays, "0"), [*schemes, teleop_grid.BOUND], output, more)
+        summary |= teleop_grid.summary(found, "grid.unseen.")
+        _write_grid(output / "grid_unseen.csv", found)
+    for loss in settings.grid_losses.split(",") if settings.grid_losses else ():
+        names = teleop_grid.cases(grid, scenes, wrongs, delays, loss)
         # With losses, the default is asked against what it has to beat there.
         asked = [*schemes, teleop_grid.BOUND] if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]
         found = teleop_grid.run(description, names, asked, output, more)

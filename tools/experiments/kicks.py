@@ -6,6 +6,8 @@ The hand presses (2.5 N), slides or pushes; the model is wrong in one thing and 
 far side starts anew, or the link dies. Bodies are described over the link, as between two programs. The figures count from
 then until the hand is about to leave: KIND.felt_excess_100ms_jnd_max, KIND.felt_excess_100ms_N_max, KIND.felt_excess_1ms_N_max, KIND.force_error_left_N,
 what of the mistake is still felt at the end, and KIND.let_go where the pointer has let go and said so. demo_project/experiments/kicks.json says what each KIND is.
+KIND.untold.felt_excess_… is what is felt of the same mistake where nothing changes. Of a model that is wrong from the start KIND.bound.felt_excess_… is
+what is left to any way: before a word of its mistake can have come.
 """
 
 import csv
@@ -16,7 +18,8 @@ from typing import Literal
 from measuring import options, teleop_runs
 from measuring.teleop_scene import Scene
 
-FIGURES = ("felt_excess_100ms_jnd_max", "felt_excess_100ms_N_max", "felt_excess_1ms_N_max", "force_error_left_N", "energy_created_J")
+EXCESS = ("felt_excess_100ms_jnd_max", "felt_excess_100ms_N_max", "felt_excess_1ms_N_max")
+FIGURES = (*EXCESS, "force_error_left_N", "energy_created_J")
 
 
 @dataclass(frozen=True)
@@ -41,11 +44,15 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         here = [kind for kind in chosen if (kinds[kind]["place"], kinds[kind].get("lift", 0.0)) == (place, lift)]
         lines = Scene(description["scene"]).varied(_lifted(description["places"][place], lift))
         cases = [case(description, kind, settings, output) for kind in here]
+        cases += [bound(description, kind, settings, output) for kind in here if "event" not in kinds[kind]]
+        cases += [untold(description, kind, settings, output) for kind in here if "event" in kinds[kind]]
         found |= teleop_runs.run(description["scene"], cases, output, lines=lines)
     summary: dict[str, object] = {}
     for kind in chosen:
         summary |= {f"{kind}.{key}": found[kind][key] for key in FIGURES}
         summary[f"{kind}.let_go"] = found[kind]["let_go_ticks"] > 0
+        summary |= {f"{kind}.bound.{key}": found[_bound(kind)][key] for key in EXCESS if _bound(kind) in found}
+        summary |= {f"{kind}.untold.{key}": found[_untold(kind)][key] for key in EXCESS if _untold(kind) in found}
     summary["kicking_kinds"] = sum(not is_quiet(found[kind]) for kind in chosen)
     with (output / "kicks.csv").open("w", newline="") as file:
         writer = csv.writer(file)
@@ -73,6 +80,26 @@ def case(description: dict, kind: str, settings: Settings, output: Path) -> tele
     keys |= teleop_runs.wrong(how.pop("wrong", {}))
     keys |= {key: value for key, value in how.items() if key not in ("place", "lift")}
     return keys | dict(pair.split("=", 1) for pair in settings.set.split(",") if pair)
+
+
+def bound(description: dict, kind: str, settings: Settings, output: Path) -> teleop_runs.Case:
+    """Never corrected, and right itself one delay after its first mistake has shown."""
+    keys = case(description, kind, settings, output) | {"name": _bound(kind), "correction": "none"}
+    del keys["rows"]
+    return keys | {"known_after_ms": settings.delay}
+
+
+def untold(description: dict, kind: str, settings: Settings, output: Path) -> teleop_runs.Case:
+    keys = case(description, kind, settings, output) | {"name": _untold(kind)}
+    return {key: value for key, value in keys.items() if key not in ("rows", "event.0")}
+
+
+def _bound(kind: str) -> str:
+    return f"{kind}.bound"
+
+
+def _untold(kind: str) -> str:
+    return f"{kind}.untold"
 
 
 def _lifted(variation: dict, by: float) -> dict:

@@ -4,6 +4,7 @@ A case is SCENE.HAND.WRONG.DELAYms.LOSSpct. What does not depend on the delay, t
 """
 
 import math
+import random
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -44,6 +45,20 @@ def cases(grid: dict, scenes: Iterable[str], wrongs: Iterable[str], delays: Iter
     ]
 
 
+def drawn(count: int) -> dict[str, dict]:
+    """Wrong models that nothing has been tuned on: each seed's own mistakes, under a hand that comes another way."""
+    wrongs: dict[str, dict] = {}
+    for seed in range(1, count + 1):
+        draw = random.Random(f"grid {seed}")
+        mass, friction = (3 ** draw.uniform(-1, 1) for _ in range(2))
+        moved, tilt = draw.uniform(-0.05, 0.05), draw.uniform(-5, 5)
+        x, z = (draw.uniform(-0.005, 0.005) for _ in range(2))
+        wrong: dict[str, object] = {"mass": mass, "friction": friction, "path_shift": f"{x},0,{z}"}
+        # Each second one stands elsewhere, each third one on another slope.
+        wrongs[f"seed_{seed}"] = wrong | ({"moved": moved} if seed % 2 == 0 else {}) | ({"tilt": tilt} if seed % 3 == 0 else {})
+    return wrongs
+
+
 def run(description: dict, names: list[str], schemes: Iterable[str], output: Path, more: teleop_runs.Case) -> Found:
     """`more`: keys of tests/bench/teleop.cpp for the default scheme, to try something out."""
     found: Found = {scheme: {} for scheme in schemes}
@@ -68,6 +83,8 @@ def _keys(description: dict, name: str, scheme: str) -> teleop_runs.Case:
     keys: teleop_runs.Case = {"object": description["object"], "seconds": description["grid"]["seconds"]}
     keys |= HANDS[hand] | SCHEMES["never_corrected" if scheme == BOUND else scheme]
     how = dict(description["grid"]["wrong"][wrong])
+    if "path_shift" in how:
+        keys["path_shift"] = how.pop("path_shift")
     if scheme == BOUND:
         how = {key: value for key, value in how.items() if key in ("mass", "friction")}
         return keys | _wrong(description, scene, how) | {"known_after_ms": delay.removesuffix("ms")}

@@ -14,7 +14,7 @@ struct ForceCommand {
 // From a force's writing to the last exchange that still sends it. With the way to the device, which takes
 // the rest, the hand is free 2 ms after the last sign of life; a tick that is late by half a period is still
 // in time.
-constexpr Nanoseconds force_lifetime = 1'600'000;
+constexpr Nanoseconds force_lifetime = 1'500'000;
 
 inline bool is_alive(const ForceCommand& command, Nanoseconds now) {
     return command.written_at != 0 && now - command.written_at <= force_lifetime;

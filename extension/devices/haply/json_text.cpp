@@ -19,10 +19,15 @@ std::string JsonReader::load() {
     const bool there =
         library_.load({"libjansson.so.4", "libjansson.4.dylib", "libjansson-4.dll", "jansson.dll"},
                       "json_loadb") &&
-        library_.find("json_loadb", load_text_) && library_.find("json_object_get", get_) &&
-        library_.find("json_array_get", at_) && library_.find("json_array_size", size_) &&
-        library_.find("json_number_value", number_) && library_.find("json_string_value", text_) &&
-        library_.find("json_delete", delete_);
+        library_.find({
+            {"json_loadb", load_text_},
+            {"json_object_get", get_},
+            {"json_array_get", at_},
+            {"json_array_size", size_},
+            {"json_number_value", number_},
+            {"json_string_value", text_},
+            {"json_delete", delete_},
+        });
     return there ? "" : "jansson is not installed: install it (Debian: apt-get install libjansson4)";
 }
 

@@ -28,13 +28,15 @@ std::string WebSocket::load() {
                        "wslay_event_context_client_init")) {
         return "wslay is not installed: install it (Debian: apt-get install libwslay1)";
     }
-    const bool all = library_.find("wslay_event_context_client_init", wslay_.init) &&
-                     library_.find("wslay_event_context_free", wslay_.free) &&
-                     library_.find("wslay_event_config_set_max_recv_msg_length", wslay_.set_most) &&
-                     library_.find("wslay_event_set_error", wslay_.set_error) &&
-                     library_.find("wslay_event_recv", wslay_.receive) &&
-                     library_.find("wslay_event_send", wslay_.send) &&
-                     library_.find("wslay_event_queue_msg", wslay_.queue);
+    const bool all = library_.find({
+        {"wslay_event_context_client_init", wslay_.init},
+        {"wslay_event_context_free", wslay_.free},
+        {"wslay_event_config_set_max_recv_msg_length", wslay_.set_most},
+        {"wslay_event_set_error", wslay_.set_error},
+        {"wslay_event_recv", wslay_.receive},
+        {"wslay_event_send", wslay_.send},
+        {"wslay_event_queue_msg", wslay_.queue},
+    });
     return all ? "" : "the installed wslay is too old: version 1.1 or later is needed";
 }
 

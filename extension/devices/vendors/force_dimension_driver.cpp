@@ -34,16 +34,21 @@ std::string ForceDimensionDriver::load() {
                "where the "
                "system looks for libraries";
     }
-    const bool all =
-        library_.find("dhdGetDeviceCount", dhd_.device_count) && library_.find("dhdOpenID", dhd_.open_id) &&
-        library_.find("dhdClose", dhd_.close) && library_.find("dhdGetSystemType", dhd_.system_type) &&
-        library_.find("dhdGetSystemName", dhd_.system_name) &&
-        library_.find("dhdEnableForce", dhd_.enable_force) &&
-        library_.find("dhdGetPosition", dhd_.get_position) &&
-        library_.find("dhdGetLinearVelocity", dhd_.get_velocity) &&
-        library_.find("dhdSetForce", dhd_.set_force) && library_.find("dhdGetButtonMask", dhd_.get_buttons) &&
-        library_.find("dhdSetGravityCompensation", dhd_.set_gravity_compensation) &&
-        library_.find("dhdErrorGetLastStr", dhd_.last_error) && library_.find("dhdStop", dhd_.stop);
+    const bool all = library_.find({
+        {"dhdGetDeviceCount", dhd_.device_count},
+        {"dhdOpenID", dhd_.open_id},
+        {"dhdClose", dhd_.close},
+        {"dhdGetSystemType", dhd_.system_type},
+        {"dhdGetSystemName", dhd_.system_name},
+        {"dhdEnableForce", dhd_.enable_force},
+        {"dhdGetPosition", dhd_.get_position},
+        {"dhdGetLinearVelocity", dhd_.get_velocity},
+        {"dhdSetForce", dhd_.set_force},
+        {"dhdGetButtonMask", dhd_.get_buttons},
+        {"dhdSetGravityCompensation", dhd_.set_gravity_compensation},
+        {"dhdErrorGetLastStr", dhd_.last_error},
+        {"dhdStop", dhd_.stop},
+    });
     return all ? ""
                : "Force Dimension's library is of a version that lacks what is needed: install SDK 3.9 or "
                  "later";

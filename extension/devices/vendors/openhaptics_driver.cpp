@@ -50,21 +50,25 @@ std::string OpenHapticsDriver::load() {
     if (!library_.load({"libHD.so.3.4", "libHD.so", "hd.dll"}, "hdInitDevice")) {
         return "OpenHaptics is not installed: install 3D Systems' OpenHaptics and its device driver";
     }
-    const bool all =
-        library_.find("hdInitDevice", hd_.init_device) &&
-        library_.find("hdDisableDevice", hd_.disable_device) &&
-        library_.find("hdMakeCurrentDevice", hd_.make_current) &&
-        library_.find("hdBeginFrame", hd_.begin_frame) && library_.find("hdEndFrame", hd_.end_frame) &&
-        library_.find("hdEnable", hd_.enable) && library_.find("hdGetDoublev", hd_.get_doubles) &&
-        library_.find("hdGetIntegerv", hd_.get_integers) && library_.find("hdGetString", hd_.get_string) &&
-        library_.find("hdSetDoublev", hd_.set_doubles) &&
-        library_.find("hdStartScheduler", hd_.start_scheduler) &&
-        library_.find("hdStopScheduler", hd_.stop_scheduler) &&
-        library_.find("hdScheduleAsynchronous", hd_.schedule) &&
-        library_.find("hdUnschedule", hd_.unschedule) &&
-        library_.find("hdCheckCalibration", hd_.check_calibration) &&
-        library_.find("hdUpdateCalibration", hd_.update_calibration) &&
-        library_.find("hdGetError", hd_.get_error);
+    const bool all = library_.find({
+        {"hdInitDevice", hd_.init_device},
+        {"hdDisableDevice", hd_.disable_device},
+        {"hdMakeCurrentDevice", hd_.make_current},
+        {"hdBeginFrame", hd_.begin_frame},
+        {"hdEndFrame", hd_.end_frame},
+        {"hdEnable", hd_.enable},
+        {"hdGetDoublev", hd_.get_doubles},
+        {"hdGetIntegerv", hd_.get_integers},
+        {"hdGetString", hd_.get_string},
+        {"hdSetDoublev", hd_.set_doubles},
+        {"hdStartScheduler", hd_.start_scheduler},
+        {"hdStopScheduler", hd_.stop_scheduler},
+        {"hdScheduleAsynchronous", hd_.schedule},
+        {"hdUnschedule", hd_.unschedule},
+        {"hdCheckCalibration", hd_.check_calibration},
+        {"hdUpdateCalibration", hd_.update_calibration},
+        {"hdGetError", hd_.get_error},
+    });
     return all ? "" : "the installed OpenHaptics lacks what is needed: install version 3.4 or later";
 }
 

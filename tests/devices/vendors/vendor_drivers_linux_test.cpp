@@ -17,7 +17,7 @@ template <typename StandIn>
 StandIn& stand_in(std::initializer_list<const char*> names, const char* function) {
     static RuntimeLibrary library;
     StandIn* (*get)() = nullptr;
-    EXPECT_TRUE(library.load(names, function) && library.find(function, get));
+    EXPECT_TRUE(library.load(names, function) && library.find({{function, get}}));
     return *get();
 }
 stand_ins::ForceDimension& dhd() {

@@ -1,16 +1,10 @@
-#include "nodes/body_mirrors.hpp"
+#include "world/body_mirrors.hpp"
 
 #include <algorithm>
 #include <unordered_set>
-
-#include "nodes/conversions.hpp"
-#include "nodes/haptic_mesh.hpp"
-#include "nodes/scene_warnings.hpp"
-#include "nodes/tree_walk.hpp"
+#include <utility>
 
 namespace tactus {
-
-using namespace godot;
 
 namespace {
 
@@ -20,86 +14,66 @@ constexpr Turns looks{.frames_a_round = 96, .min = 4, .max = 32};
 // Speeds are cheaper to ask for, and a throw should not wait.
 constexpr Turns looks_at_speeds{.frames_a_round = 16, .min = 12, .max = 256};
 
-}  // namespace
-
-BodyMirrors::BodyMirrors(std::size_t max_bodies, bool in_turn) : in_turn_(in_turn), by_handle_(max_bodies) {}
-
-// A shape or mesh that comes or goes changes the body above it.
-void BodyMirrors::scene_changed(const Node& node) {
-    const bool is_mirrored = is_solid_body(&node) || Object::cast_to<Joint3D>(&node) != nullptr;
-    tree_changed_ |= is_mirrored;
-    if (!is_mirrored) {
-        others_.push_back(node.get_instance_id());
-    }
-    if (const Node* parent = node.get_parent(); parent != nullptr && is_solid_body(parent)) {
-        note_change(parent->get_instance_id());
-    }
-}
-
-BodyMirror* BodyMirrors::of(std::uint64_t node) const {
-    const auto found = by_node_.find(node);
-    return found != by_node_.end() ? found->second : nullptr;
-}
-
-BodyMirror* BodyMirrors::of_handle(SessionHandle handle) const {
-    return handle < by_handle_.size() ? by_handle_[handle].mirror : nullptr;
-}
-
-// Mirrors of what has come; those of what has gone are let go.
-template <class Mirror, class NodeType>
-void BodyMirrors::match(std::vector<std::unique_ptr<Mirror>>& mirrors, const std::vector<NodeType*>& found,
-                        Session& session) {
-    std::unordered_set<std::uint64_t> there;
-    for (const NodeType* node : found) {
-        there.insert(node->get_instance_id());
-    }
+// Calls come(id) for what has come, in the order of `there`; what has gone is let go.
+template <class Mirror, class Come>
+void match_to(const std::vector<std::uint64_t>& there, std::vector<std::unique_ptr<Mirror>>& mirrors,
+              Session& session, const Come& come) {
+    std::unordered_set<std::uint64_t> missing(there.begin(), there.end());
     std::erase_if(mirrors, [&](const auto& mirror) {
-        const bool gone = !there.contains(mirror->id());
-        if (gone) {
+        const bool is_gone = !missing.contains(mirror->id());
+        if (is_gone) {
             mirror->release(session);
         }
-        return gone;
+        return is_gone;
     });
     for (const auto& mirror : mirrors) {
-        there.erase(mirror->id());
+        missing.erase(mirror->id());
     }
-    for (NodeType* node : found) {
-        if (there.contains(node->get_instance_id())) {
-            mirrors.push_back(std::make_unique<Mirror>(*node));
-            if constexpr (std::is_same_v<Mirror, BodyMirror>) {
-                note_change(node->get_instance_id());
-            }
+    for (const std::uint64_t id : there) {
+        if (missing.contains(id)) {
+            come(id);
         }
     }
 }
 
-void BodyMirrors::find(const Node& root, const MirrorContext& context) {
-    std::vector<CollisionObject3D*> bodies;
-    std::vector<Joint3D*> joints;
-    for_each_below(root, [&](Node& node) {
-        if (is_solid_body(&node)) {
-            bodies.push_back(Object::cast_to<CollisionObject3D>(&node));
-        } else if (auto* joint = Object::cast_to<Joint3D>(&node)) {
-            joints.push_back(joint);
-        } else if (is_first_look_) {
-            context.complaints.say(node, problem_of_kind(node));
-        }
+}  // namespace
+
+void BodyMirrors::match(const std::vector<std::uint64_t>& bodies, const MakeBody& make_body,
+                        const std::vector<std::uint64_t>& joints, const MakeJoint& make_joint,
+                        Session& session) {
+    match_to(joints, joints_, session,
+             [&](std::uint64_t id) { joints_.push_back(std::make_unique<JointMirror>(make_joint(id))); });
+    match_to(bodies, bodies_, session, [&](std::uint64_t id) {
+        bodies_.push_back(std::make_unique<BodyMirror>(make_body(id)));
+        news_->changed.push_back(id);
     });
-    is_first_look_ = false;
-    match(joints_, joints, context.session);
-    match(bodies_, bodies, context.session);
-    by_node_.clear();
+    by_body_.clear();
     building_.clear();
-    rigid_.clear();
+    thrown_.clear();
     std::ranges::fill(by_handle_, Shown{});
     for (const auto& mirror : bodies_) {
-        by_node_[mirror->id()] = mirror.get();
+        by_body_[mirror->id()] = mirror.get();
         if (mirror->can_be_thrown()) {
-            rigid_.push_back(mirror.get());
+            thrown_.push_back(mirror.get());
         }
         take_handle(*mirror, no_handle);
     }
     handles_changed_ = true;
+}
+
+const BodyMirror* BodyMirrors::of(std::uint64_t body) const {
+    const auto found = by_body_.find(body);
+    return found != by_body_.end() ? found->second : nullptr;
+}
+
+SessionHandle BodyMirrors::body_of(std::uint64_t node) const {
+    const BodyMirror* mirror = of(node);
+    return mirror != nullptr ? mirror->handle() : no_handle;
+}
+
+std::uint64_t BodyMirrors::node_of(SessionHandle body) const {
+    const BodyMirror* mirror = body < by_handle_.size() ? by_handle_[body].mirror : nullptr;
+    return mirror != nullptr ? mirror->id() : 0;
 }
 
 void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {
@@ -131,14 +105,14 @@ void BodyMirrors::look_at_bodies(const MirrorContext& context) {
     changed_.clear();
     std::swap(moved_, news_->moved);
     std::swap(changed_, news_->changed);
-    const bool meshes_changed = std::exchange(mesh_changes_, HapticMesh::changes()) != HapticMesh::changes();
+    const bool meshes_changed = std::exchange(mesh_changes_, context.mesh_changes) != context.mesh_changes;
     const auto look_at = [&](BodyMirror& mirror, bool shapes_changed = false) {
         change(mirror, [&](BodyMirror& one) { one.synchronise(context, shapes_changed); });
     };
     const auto each = [this](const std::vector<std::uint64_t>& ids, const auto& look) {
         for (const std::uint64_t id : ids) {
-            if (BodyMirror* mirror = of(id)) {
-                look(*mirror);
+            if (const auto found = by_body_.find(id); found != by_body_.end()) {
+                look(*found->second);
             }
         }
     };
@@ -151,24 +125,18 @@ void BodyMirrors::look_at_bodies(const MirrorContext& context) {
     each(changed_, [&](BodyMirror& mirror) { look_at(mirror, true); });
     each(moved_, [&](BodyMirror& mirror) { mirror.follow(context); });
     for (const auto& mirror : bodies_) {
-        if (meshes_changed && mirror->has_haptic_mesh()) {
+        if (meshes_changed && mirror->has_touched_mesh()) {
             look_at(*mirror);
         }
     }
     each(touched_, look_at);
     body_turns_.take(looks, bodies_, [&](const auto& mirror) { look_at(*mirror); });
-    speed_turns_.take(looks_at_speeds, rigid_, [&](BodyMirror* mirror) { mirror->follow_speed(context); });
+    speed_turns_.take(looks_at_speeds, thrown_, [&](BodyMirror* mirror) { mirror->follow_speed(context); });
 }
 
 void BodyMirrors::look_at_joints(const MirrorContext& context) {
-    const FindMirror mirror_of = [this](const Node* node) {
-        return node != nullptr ? of(node->get_instance_id()) : nullptr;
-    };
     const auto look_at = [&](const std::unique_ptr<JointMirror>& joint) {
-        joint->synchronise(context.session, mirror_of);
-        if (joint->node() != nullptr) {
-            context.complaints.say(*joint->node(), joint->problem());
-        }
+        joint->synchronise(context.session, [this](std::uint64_t body) { return of(body); });
     };
     if (std::exchange(handles_changed_, false) || !in_turn_) {
         std::ranges::for_each(joints_, look_at);
@@ -177,17 +145,7 @@ void BodyMirrors::look_at_joints(const MirrorContext& context) {
     }
 }
 
-void BodyMirrors::synchronise(const Node& root, MirrorContext context) {
-    context.news = news_;
-    for (const std::uint64_t id : std::exchange(others_, {})) {
-        auto* other = Object::cast_to<Node>(ObjectDB::get_instance(id));
-        if (other != nullptr && root.is_ancestor_of(other)) {
-            context.complaints.say(*other, problem_of_kind(*other));
-        }
-    }
-    if (std::exchange(tree_changed_, false)) {
-        find(root, context);
-    }
+void BodyMirrors::synchronise(const MirrorContext& context) {
     look_at_bodies(context);
     // Stepped time waits, so that every run has the same bodies in the same ticks.
     if (!in_turn_ && !building_.empty()) {
@@ -199,18 +157,8 @@ void BodyMirrors::synchronise(const Node& root, MirrorContext context) {
     look_at_joints(context);
 }
 
-SessionHandle BodyMirrors::body_of(std::uint64_t node) const {
-    const BodyMirror* mirror = of(node);
-    return mirror != nullptr ? mirror->handle() : no_handle;
-}
-
-std::uint64_t BodyMirrors::node_of(SessionHandle body) const {
-    const BodyMirror* mirror = of_handle(body);
-    return mirror != nullptr ? mirror->id() : 0;
-}
-
 void BodyMirrors::show(const BodyState& state, std::uint64_t tick) {
-    BodyMirror* const mirror = of_handle(state.handle);
+    BodyMirror* const mirror = state.handle < by_handle_.size() ? by_handle_[state.handle].mirror : nullptr;
     if (mirror == nullptr) {
         return;
     }
@@ -249,6 +197,22 @@ std::vector<QueriedBody> BodyMirrors::touchable(std::uint32_t mask) const {
         }
     }
     return touchable;
+}
+
+std::vector<std::string> BodyMirrors::problems() const {
+    std::vector<std::string> all;
+    for (const auto& mirror : bodies_) {
+        const SceneBody* body = mirror->body();
+        for (const std::string& problem : mirror->problems()) {
+            all.push_back((body != nullptr ? body->name() : "a body") + ": " + problem);
+        }
+    }
+    for (const auto& mirror : joints_) {
+        if (const SceneJoint* joint = mirror->joint(); joint != nullptr && !mirror->problem().empty()) {
+            all.push_back(joint->name() + ": " + mirror->problem());
+        }
+    }
+    return all;
 }
 
 void BodyMirrors::release(Session& session) {

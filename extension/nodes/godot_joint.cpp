@@ -1,12 +1,13 @@
-#include "nodes/joint_reading.hpp"
+#include "nodes/godot_joint.hpp"
 
 #include <godot_cpp/classes/engine.hpp>
 #include <godot_cpp/classes/generic6_dof_joint3d.hpp>
 #include <godot_cpp/classes/hinge_joint3d.hpp>
 #include <godot_cpp/classes/pin_joint3d.hpp>
 #include <godot_cpp/classes/slider_joint3d.hpp>
+#include <godot_cpp/core/object.hpp>
 
-#include "nodes/conversions.hpp"
+#include "nodes/body_reading.hpp"
 
 namespace tactus {
 
@@ -14,6 +15,8 @@ namespace {
 
 using godot::Generic6DOFJoint3D;
 using godot::HingeJoint3D;
+using godot::Joint3D;
+using godot::NodePath;
 using godot::Object;
 using godot::SliderJoint3D;
 
@@ -50,31 +53,37 @@ void read(const SliderJoint3D& node, JointReading& reading) {
     joint.kind = turns ? JointKind::SixAxes : JointKind::Slider;
 }
 
+// Godot asks for each axis by functions of its own.
+struct SixAxis {
+    double (*param)(const Generic6DOFJoint3D&, Generic6DOFJoint3D::Param);
+    bool (*flag)(const Generic6DOFJoint3D&, Generic6DOFJoint3D::Flag);
+};
+
+constexpr SixAxis six_axes[3] = {
+    {[](const auto& node, auto param) -> double { return node.get_param_x(param); },
+     [](const auto& node, auto flag) { return node.get_flag_x(flag); }},
+    {[](const auto& node, auto param) -> double { return node.get_param_y(param); },
+     [](const auto& node, auto flag) { return node.get_flag_y(flag); }},
+    {[](const auto& node, auto param) -> double { return node.get_param_z(param); },
+     [](const auto& node, auto flag) { return node.get_flag_z(flag); }},
+};
+
 void read(const Generic6DOFJoint3D& node, JointReading& reading) {
-    using Param = Generic6DOFJoint3D::Param;
-    using Flag = Generic6DOFJoint3D::Flag;
+    using Joint = Generic6DOFJoint3D;
     JointDescription& joint = reading.joint;
     joint.kind = JointKind::SixAxes;
     bool has_more = false;
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto param = [&node, i](Param which) -> double {
-            return i == 0   ? node.get_param_x(which)
-                   : i == 1 ? node.get_param_y(which)
-                            : node.get_param_z(which);
-        };
-        const auto flag = [&node, i](Flag which) {
-            return i == 0 ? node.get_flag_x(which) : i == 1 ? node.get_flag_y(which) : node.get_flag_z(which);
-        };
-        joint.linear[i] = range(flag(Generic6DOFJoint3D::FLAG_ENABLE_LINEAR_LIMIT),
-                                param(Generic6DOFJoint3D::PARAM_LINEAR_LOWER_LIMIT),
-                                param(Generic6DOFJoint3D::PARAM_LINEAR_UPPER_LIMIT));
-        joint.angular[i] = turned(range(flag(Generic6DOFJoint3D::FLAG_ENABLE_ANGULAR_LIMIT),
-                                        param(Generic6DOFJoint3D::PARAM_ANGULAR_LOWER_LIMIT),
-                                        param(Generic6DOFJoint3D::PARAM_ANGULAR_UPPER_LIMIT)));
-        for (const Flag more :
-             {Generic6DOFJoint3D::FLAG_ENABLE_LINEAR_SPRING, Generic6DOFJoint3D::FLAG_ENABLE_ANGULAR_SPRING,
-              Generic6DOFJoint3D::FLAG_ENABLE_MOTOR, Generic6DOFJoint3D::FLAG_ENABLE_LINEAR_MOTOR}) {
-            has_more |= flag(more);
+        const auto& [param, flag] = six_axes[i];
+        joint.linear[i] =
+            range(flag(node, Joint::FLAG_ENABLE_LINEAR_LIMIT), param(node, Joint::PARAM_LINEAR_LOWER_LIMIT),
+                  param(node, Joint::PARAM_LINEAR_UPPER_LIMIT));
+        joint.angular[i] = turned(range(flag(node, Joint::FLAG_ENABLE_ANGULAR_LIMIT),
+                                        param(node, Joint::PARAM_ANGULAR_LOWER_LIMIT),
+                                        param(node, Joint::PARAM_ANGULAR_UPPER_LIMIT)));
+        for (const Joint::Flag more : {Joint::FLAG_ENABLE_LINEAR_SPRING, Joint::FLAG_ENABLE_ANGULAR_SPRING,
+                                       Joint::FLAG_ENABLE_MOTOR, Joint::FLAG_ENABLE_LINEAR_MOTOR}) {
+            has_more |= flag(node, more);
         }
     }
     if (has_more) {
@@ -84,9 +93,7 @@ void read(const Generic6DOFJoint3D& node, JointReading& reading) {
     }
 }
 
-}  // namespace
-
-JointReading read_joint(const godot::Joint3D& node) {
+JointReading read_joint(const Joint3D& node) {
     JointReading reading;
     if (const auto* hinge = Object::cast_to<HingeJoint3D>(&node)) {
         read(*hinge, reading);
@@ -107,6 +114,37 @@ JointReading read_joint(const godot::Joint3D& node) {
         reading.usable = false;
     }
     return reading;
+}
+
+}  // namespace
+
+std::string problem_of_joint(const Joint3D& node) {
+    if (std::string problem = read_joint(node).problem; !problem.empty()) {
+        return problem;
+    }
+    if (node.get_node_a().is_empty() && node.get_node_b().is_empty()) {
+        return "it joins nothing: set node_a, node_b or both";
+    }
+    for (const auto& [property, path] :
+         {std::pair("node_a", node.get_node_a()), {"node_b", node.get_node_b()}}) {
+        if (!path.is_empty() && !is_solid_body(node.get_node_or_null(path))) {
+            return from_godot(wrong_path(property, path, "a body") + ", or leave it empty for the world");
+        }
+    }
+    return {};
+}
+
+bool GodotJoint::is_there() const {
+    return godot::UtilityFunctions::is_instance_id_valid(static_cast<int64_t>(id_));
+}
+
+JointReading GodotJoint::read() const {
+    return read_joint(node_);
+}
+
+SceneJoint::End GodotJoint::end_of(const NodePath& path) const {
+    const godot::Node* body = path.is_empty() ? nullptr : node_.get_node_or_null(path);
+    return {!path.is_empty(), body != nullptr ? body->get_instance_id() : 0};
 }
 
 }  // namespace tactus

@@ -1,0 +1,206 @@
+#include "nodes/godot_body.hpp"
+
+#include <algorithm>
+#include <godot_cpp/classes/animatable_body3d.hpp>
+#include <godot_cpp/classes/character_body3d.hpp>
+#include <godot_cpp/classes/physics_material.hpp>
+#include <godot_cpp/classes/physics_server3d.hpp>
+#include <godot_cpp/core/object.hpp>
+
+#include "nodes/haptic_material.hpp"
+#include "nodes/haptic_mesh.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+using Axis = PhysicsServer3D::BodyAxis;
+
+constexpr Axis axes[6] = {PhysicsServer3D::BODY_AXIS_LINEAR_X,  PhysicsServer3D::BODY_AXIS_LINEAR_Y,
+                          PhysicsServer3D::BODY_AXIS_LINEAR_Z,  PhysicsServer3D::BODY_AXIS_ANGULAR_X,
+                          PhysicsServer3D::BODY_AXIS_ANGULAR_Y, PhysicsServer3D::BODY_AXIS_ANGULAR_Z};
+constexpr std::uint32_t all_turns = 0b111000;
+
+void read_touch(const Ref<PhysicsMaterial>& material, const BodyDefaults& defaults, BodyValues& values) {
+    if (const auto* haptic = Object::cast_to<HapticMaterial>(material.ptr())) {
+        values.touch = haptic->touch();
+        values.texture = haptic->heights();
+        return;
+    }
+    values.touch = defaults.touch;
+    values.texture = defaults.texture;
+    if (material.is_valid()) {
+        values.touch.static_friction = values.touch.dynamic_friction =
+            std::max(0.0, static_cast<double>(material->get_friction()));
+    }
+}
+
+double damping_of(RigidBody3D::DampMode mode, double own, double project) {
+    return std::max(0.0, mode == RigidBody3D::DAMP_MODE_REPLACE ? own : own + project);
+}
+
+Motion motion_of(const CollisionObject3D& body) {
+    if (const auto* rigid = Object::cast_to<RigidBody3D>(&body)) {
+        if (!rigid->is_freeze_enabled()) {
+            return Motion::Dynamic;
+        }
+        return rigid->get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC ? Motion::Kinematic
+                                                                              : Motion::Static;
+    }
+    const bool is_told = Object::cast_to<AnimatableBody3D>(&body) != nullptr ||
+                         Object::cast_to<CharacterBody3D>(&body) != nullptr;
+    return is_told ? Motion::Kinematic : Motion::Static;
+}
+
+std::uint64_t id_of(const Ref<PhysicsMaterial>& material) {
+    return material.is_valid() ? material->get_instance_id() : 0;
+}
+
+}  // namespace
+
+GodotBody::GodotBody(CollisionObject3D& node, const Node& world, std::shared_ptr<BodyNews> news,
+                     Complaints& complaints)
+    : id_(node.get_instance_id()),
+      node_(node),
+      rigid_(Object::cast_to<RigidBody3D>(&node)),
+      world_(world),
+      news_(std::move(news)),
+      complaints_(complaints) {}
+
+// A watch lives and dies in its body.
+bool GodotBody::is_there() const {
+    return watch_ != nullptr || UtilityFunctions::is_instance_id_valid(static_cast<int64_t>(id_));
+}
+
+bool GodotBody::is_in_scene() const {
+    return watch_ != nullptr ? is_in_tree_ : is_there() && node_.is_inside_tree();
+}
+
+std::string GodotBody::path() const {
+    return from_godot(String(world_.get_path_to(&node_)));
+}
+
+SceneSpeed GodotBody::speed() const {
+    return rigid_ != nullptr ? SceneSpeed{from_godot(rigid_->get_linear_velocity()),
+                                          from_godot(rigid_->get_angular_velocity())}
+                             : SceneSpeed{};
+}
+
+BodyMakings GodotBody::makings() const {
+    BodyMakings makings;
+    if (rigid_ == nullptr) {
+        return makings;
+    }
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        makings.locks |= rigid_->get_axis_lock(axes[i]) ? 1u << i : 0u;
+    }
+    makings.locks |= rigid_->is_lock_rotation_enabled() ? all_turns : 0u;
+    makings.mass = rigid_->get_mass();
+    const HapticMesh* mesh = haptic_mesh_of(node_);
+    if (mesh != nullptr && mesh->is_giving_mass()) {
+        makings.mass = mesh->library_mass(scaling_of(frame()));
+        makings.solid_of_mesh = true;
+    }
+    makings.inertia = from_godot(rigid_->get_inertia());
+    if (rigid_->get_center_of_mass_mode() == RigidBody3D::CENTER_OF_MASS_MODE_CUSTOM) {
+        makings.center_of_mass = from_godot(rigid_->get_center_of_mass());
+    }
+    makings.continuous = rigid_->is_using_continuous_collision_detection();
+    makings.can_sleep = rigid_->is_able_to_sleep();
+    return makings;
+}
+
+ShapeKey GodotBody::shape_key() const {
+    ShapeKey key;
+    key.scaling = scaling_of(frame());
+    for_each_shape(node_, [&key](const Ref<Shape3D>& shape, const Transform3D& place, Object*) {
+        key.shapes.push_back({shape->get_instance_id(), frame_of(place)});
+    });
+    return key;
+}
+
+BodyValues GodotBody::values(const BodyDefaults& defaults) {
+    const Ref<PhysicsMaterial> material = material_of(node_);
+    if (watch_ != nullptr && material_ != id_of(material)) {
+        listen();
+    }
+    BodyValues values;
+    values.motion = motion_of(node_);
+    read_touch(material, defaults, values);
+    if (material.is_valid()) {
+        values.surface = {std::max(0.0, static_cast<double>(material->get_friction())),
+                          std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0),
+                          material->is_rough(), material->is_absorbent()};
+    }
+    values.layers = {static_cast<std::uint32_t>(node_.get_collision_layer()),
+                     static_cast<std::uint32_t>(node_.get_collision_mask())};
+    if (rigid_ != nullptr) {
+        values.gravity_scale = rigid_->get_gravity_scale();
+        values.constant_force = from_godot(rigid_->get_constant_force());
+        values.constant_torque = from_godot(rigid_->get_constant_torque());
+        values.linear_damping =
+            damping_of(rigid_->get_linear_damp_mode(), rigid_->get_linear_damp(), defaults.linear_damping);
+        values.angular_damping =
+            damping_of(rigid_->get_angular_damp_mode(), rigid_->get_angular_damp(), defaults.angular_damping);
+    }
+    return values;
+}
+
+// Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its
+// own, and what is outside the world still finds the body where it is.
+void GodotBody::hold_still() {
+    PhysicsServer3D* server = PhysicsServer3D::get_singleton();
+    if (rigid_ != nullptr && server->body_get_mode(rigid_->get_rid()) != PhysicsServer3D::BODY_MODE_STATIC) {
+        server->body_set_mode(rigid_->get_rid(), PhysicsServer3D::BODY_MODE_STATIC);
+    }
+}
+
+void GodotBody::listen() {
+    if (watch_ == nullptr) {
+        watch_ = BodyWatch::put_into(node_, *this);
+    }
+    if (watch_ == nullptr) {
+        return;
+    }
+    std::vector<Ref<Resource>> resources;
+    for_each_shape(node_, [&resources](const Ref<Shape3D>& shape, const Transform3D&, Object*) {
+        resources.push_back(shape);
+    });
+    const Ref<PhysicsMaterial> material = material_of(node_);
+    material_ = id_of(material);
+    if (material.is_valid()) {
+        resources.push_back(material);
+    }
+    watch_->listen_to(std::move(resources));
+}
+
+void GodotBody::tell_of_moves(bool tell) {
+    if (watch_ != nullptr) {
+        watch_->set_notify_transform(tell);
+    }
+}
+
+void GodotBody::let_go() {
+    if (watch_ != nullptr) {
+        std::exchange(watch_, nullptr)->take_out();
+    }
+    if (rigid_ != nullptr && is_there()) {
+        PhysicsServer3D::get_singleton()->body_set_mode(rigid_->get_rid(), own_mode(*rigid_));
+    }
+}
+
+SceneSpeed GodotBody::set_speed(const SceneSpeed& speed) {
+    rigid_->set_linear_velocity(to_godot(speed.linear));
+    rigid_->set_angular_velocity(to_godot(speed.angular));
+    return this->speed();
+}
+
+SceneFrame GodotBody::stand_at(const Pose& pose, const Mat3& scaling) {
+    const Transform3D place = to_godot(pose, scaling);
+    node_.set_global_transform(place);
+    return is_in_scene() ? frame() : frame_of(place);
+}
+
+}  // namespace tactus

@@ -1,0 +1,67 @@
+#include "nodes/scene_bodies.hpp"
+
+#include <utility>
+
+#include "nodes/godot_body.hpp"
+#include "nodes/godot_joint.hpp"
+#include "nodes/haptic_mesh.hpp"
+#include "nodes/scene_warnings.hpp"
+#include "nodes/tree_walk.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+// A shape or mesh that comes or goes changes the body above it.
+void SceneBodies::scene_changed(const Node& node) {
+    const bool is_mirrored = is_solid_body(&node) || Object::cast_to<Joint3D>(&node) != nullptr;
+    tree_changed_ |= is_mirrored;
+    if (!is_mirrored) {
+        others_.push_back(node.get_instance_id());
+    }
+    if (const Node* parent = node.get_parent(); parent != nullptr && is_solid_body(parent)) {
+        mirrors_.news()->changed.push_back(parent->get_instance_id());
+    }
+}
+
+void SceneBodies::find(Session& session) {
+    std::vector<std::uint64_t> bodies, joints;
+    for_each_below(world_, [&](Node& node) {
+        if (is_solid_body(&node)) {
+            bodies.push_back(node.get_instance_id());
+        } else if (Object::cast_to<Joint3D>(&node) != nullptr) {
+            joints.push_back(node.get_instance_id());
+        } else if (is_first_look_) {
+            complaints_.say(node, problem_of_kind(node));
+        }
+    });
+    is_first_look_ = false;
+    const auto make_body = [this](std::uint64_t id) {
+        return std::make_unique<GodotBody>(*node_of_id<CollisionObject3D>(id), world_, mirrors_.news(),
+                                           complaints_);
+    };
+    const auto make_joint = [this](std::uint64_t id) {
+        return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), complaints_);
+    };
+    mirrors_.match(bodies, make_body, joints, make_joint, session);
+}
+
+void SceneBodies::synchronise(MirrorContext context) {
+    for (const std::uint64_t id : std::exchange(others_, {})) {
+        auto* other = node_of_id<Node>(id);
+        if (other != nullptr && world_.is_ancestor_of(other)) {
+            complaints_.say(*other, problem_of_kind(*other));
+        }
+    }
+    if (std::exchange(tree_changed_, false)) {
+        find(context.session);
+    }
+    context.mesh_changes = HapticMesh::changes();
+    mirrors_.synchronise(context);
+}
+
+CollisionObject3D* SceneBodies::node(std::size_t index) const {
+    return node_of_id<CollisionObject3D>(mirrors_.bodies()[index]->id());
+}
+
+}  // namespace tactus

@@ -1,0 +1,44 @@
+// What a running world finds below itself: the bodies and joints of Godot's scene, given to what mirrors them
+// (world/body_mirrors.hpp). Main thread only.
+#pragma once
+
+#include <godot_cpp/classes/collision_object3d.hpp>
+
+#include "nodes/messages.hpp"
+#include "nodes/scene_view.hpp"
+#include "world/body_mirrors.hpp"
+
+namespace tactus {
+
+class SceneBodies final : public SceneView {
+public:
+    // `in_turn`: see BodyMirrors.
+    SceneBodies(const godot::Node& world, std::size_t max_bodies, bool in_turn, Complaints& complaints)
+        : world_(world), complaints_(complaints), mirrors_(max_bodies, in_turn) {}
+
+    void scene_changed(const godot::Node& node) override;
+    SessionHandle body_of(std::uint64_t node) const override { return mirrors_.body_of(node); }
+    std::uint64_t node_of(SessionHandle body) const override { return mirrors_.node_of(body); }
+    std::size_t body_count() const override { return mirrors_.bodies().size(); }
+    void show(const BodyState& state, std::uint64_t tick) override { mirrors_.show(state, tick); }
+    void release(Session& session) override { mirrors_.release(session); }
+
+    // Brings the session up to date with all that stands below the world.
+    void synchronise(MirrorContext context);
+
+    BodyMirrors& mirrors() { return mirrors_; }
+    const BodyMirrors& mirrors() const { return mirrors_; }
+    godot::CollisionObject3D* node(std::size_t index) const;  // of mirrors().bodies(); null: it is gone
+
+private:
+    void find(Session& session);
+
+    const godot::Node& world_;
+    Complaints& complaints_;
+    BodyMirrors mirrors_;
+    std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
+    bool is_first_look_ = true;
+    bool tree_changed_ = true;
+};
+
+}  // namespace tactus

@@ -1,0 +1,90 @@
+// One body of a scene and its twin in the session: what changes in the scene is passed on, and what the
+// session moves is shown in the scene. Owner's thread only.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "world/body_twin.hpp"
+#include "world/scene_body.hpp"
+
+namespace tactus {
+
+// What all mirrors of a world share in one synchronise().
+struct MirrorContext {
+    Session& session;
+    Workers& workers;  // for bodies of many triangles
+    BodyDefaults defaults;
+    double seconds = 0.0;            // what moved in the scene since the last time took so long for it
+    std::uint64_t takes_effect = 0;  // the first tick that has certainly taken what is sent now
+    std::uint64_t mesh_changes = 0;  // another one when the mesh that a body is touched by may be
+};
+
+class BodyMirror {
+public:
+    explicit BodyMirror(std::unique_ptr<SceneBody> body) : body_(std::move(body)), id_(body_->id()) {}
+
+    std::uint64_t id() const { return id_; }
+    SessionHandle handle() const { return twin_.handle(); }
+    const BodyTwin& twin() const { return twin_; }
+    SceneBody* body() const { return body_->is_there() ? body_.get() : nullptr; }  // null: it is gone
+
+    // Brings the session up to date, and says what is wrong. `shapes_changed`: what the body is made of says
+    // that it has changed since the last time.
+    void synchronise(const MirrorContext& context, bool shapes_changed);
+    // Its place and speed alone.
+    void follow(const MirrorContext& context);
+    // Its speed alone, which engines tell nobody of.
+    void follow_speed(const MirrorContext& context);
+    bool can_be_thrown() const { return body_->can_be_thrown(); }
+    bool moves() const { return moves_; }
+    bool has_touched_mesh() const { return !twin_.planned().form.touched.empty(); }
+
+    // Hands over a twin that has become ready, and says what is wrong with it.
+    void take_ready(const MirrorContext& context);
+
+    // `tick` is the tick of the snapshot that the state is from.
+    enum class Applied {
+        no,         // it is shown already, or made without what was sent last
+        yes,        // until come_to_rest(), the scene tells of its place no more
+        elsewhere,  // no: a script has given the body a place or speed meanwhile: follow() that first
+    };
+    Applied apply(const BodyState& state, std::uint64_t tick);
+    // It is shown as it is for another frame. Whether a script has given it a place or speed meanwhile.
+    bool come_to_rest();
+
+    // Takes the twin out and gives the body back to the engine's own physics.
+    void release(Session& session);
+
+    // Why it cannot be touched, or only in part; as it was found in the last synchronise().
+    std::vector<std::string> problems() const;
+
+private:
+    void plan(const MirrorContext& context);
+    void hand_over(const MirrorContext& context);
+    void say_problems() const;
+    bool needs_a_new_twin(const SceneFrame& frame, bool shapes_changed, std::uint64_t mesh_changes);
+    void send_place(const SceneFrame& frame, const MirrorContext& context);
+    void send_speed(const MirrorContext& context);
+    bool has_other_speed(const SceneSpeed& speed) const;
+    bool is_elsewhere() const;
+    void remember();
+    BodyPlace remembered() const;
+
+    // What a body that moves needs in every frame stands together, with the beginning of the twin.
+    std::unique_ptr<SceneBody> body_;
+    std::uint64_t id_;
+    SceneFrame frame_;           // of the scene's body, when it was seen or set last
+    SceneSpeed speed_;           // likewise
+    SceneSpeed shown_;           // that the scene's body was given last; `speed_` is what it kept of it
+    bool moves_ = false;         // as shown last
+    std::string place_problem_;  // of where it is now; the twin stays where it was
+    ShapeKey key_;
+    BodyTwin twin_;
+    std::uint64_t mesh_changes_ = 0;
+    bool tried_ = false;
+    bool was_nowhere_ = false;  // when the newest twin was planned: there could be none
+};
+
+}  // namespace tactus

@@ -1,0 +1,98 @@
+#include "world/scene_hand.hpp"
+
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "devices/path_device.hpp"
+#include "devices/robot_table.hpp"
+
+namespace tactus {
+
+namespace {
+
+Vec3 in_device(const Workspace& mapping, const Vec3& place) {
+    return to_local(mapping.pose, place) / mapping.scale;
+}
+
+DriverKind driver_of(HandKind kind) {
+    return static_cast<DriverKind>(static_cast<int>(kind) - static_cast<int>(HandKind::falcon));
+}
+
+}  // namespace
+
+SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan.start) {
+    if (has_driver(plan.kind)) {
+        driver_ = std::make_shared<DriverDevice>(make_driver(driver_of(plan.kind), std::move(plan.driver)));
+        port_ = driver_;
+    } else if (plan.kind == HandKind::path) {
+        port_ = std::make_shared<PathDevice>(std::move(plan.path));
+    } else if (plan.kind == HandKind::arm) {
+        arm_ = std::make_shared<SimulatedArm>(std::move(plan.path), plan.arm);
+        port_ = arm_;
+    } else if (plan.kind == HandKind::emulated_robot) {
+        RobotTable::Settings table;
+        table.height = plan.table_height;
+        port_ = std::make_shared<EmulatedRobot>(EmulatedRobotSettings{}, std::make_shared<RobotTable>(table));
+    } else {
+        follower_ = std::make_shared<FollowingDevice>(
+            FollowingDevice::Settings{.rest = in_device(mapping, plan.start)});
+        port_ = follower_;
+    }
+}
+
+void SceneHand::change(const ArmSettings& arm) {
+    if (arm_ != nullptr) {
+        arm_->change(arm);
+    }
+}
+
+void SceneHand::lead(const Vec3& place, const Workspace& mapping, std::uint32_t buttons) {
+    if (is_led() && glm::length(place) < farthest_hand) {
+        follower_->aim({in_device(mapping, place), buttons});
+    }
+}
+
+void SceneHand::point(const ScreenRay& ray, double deeper, const Workspace& mapping, std::uint32_t buttons) {
+    if (const auto place = is_led() ? under_pointer(ray, pointed_at_, deeper) : std::nullopt) {
+        pointed_at_ = *place;
+        follower_->aim({in_device(mapping, pointed_at_), buttons});
+    }
+}
+
+void SceneHand::steer(const Vec3& deflection, const SteeringSettings& steering, double seconds,
+                      const Workspace& mapping, std::uint32_t buttons) {
+    if (is_led()) {
+        steered_to_ = steered(steered_to_, direction_to_local(mapping.pose, deflection), steering, seconds);
+        follower_->aim({steered_to_, buttons});
+    }
+}
+
+std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said) {
+    if (!said.empty()) {
+        return said;
+    }
+    if (!state.connected) {
+        return has_driver ? "waiting for the device" : "waiting for the first tick";
+    }
+    std::string text = "connected";
+    if (state.safety != HandState::working) {
+        text += std::string("; ") + text_of(state.safety);
+    }
+    const std::string too_stiff = explain_stiffness(state.stiffness_wanted, state.stiffness_used, state.lag);
+    return too_stiff.empty() ? text : text + "; " + too_stiff;
+}
+
+std::string state_of_fingertip(const ProxyState& state) {
+    if (state.handle == no_handle) {
+        return "waiting for the first tick";
+    }
+    if ((state.status & proxy_absent) != 0) {
+        return "the hand began inside a body: move it out once";
+    }
+    if ((state.status & proxy_letting_out) != 0) {
+        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
+    }
+    return (state.status & proxy_touching) != 0 ? "touching" : "free";
+}
+
+}  // namespace tactus

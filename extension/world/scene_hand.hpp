@@ -1,0 +1,88 @@
+// The hand that a scene has chosen: its port, and where it is led to if it has no device of its own. Owner's
+// thread only.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "devices/driver_device.hpp"
+#include "devices/drivers.hpp"
+#include "devices/following_device.hpp"
+#include "devices/simulated_arm.hpp"
+#include "devices/steering.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+enum class HandKind : std::uint8_t {
+    path,
+    mouse,
+    arm,
+    automatic,  // a path where there is one, else the mouse
+    keyboard,
+    gamepad,
+    node,
+    falcon = 16,  // those with a driver are in the order of DriverKind
+    force_dimension,
+    openhaptics,
+    inverse3,
+    emulated_robot,
+};
+
+constexpr bool follows_path(HandKind kind) {
+    return kind == HandKind::path || kind == HandKind::arm;
+}
+constexpr bool is_steered(HandKind kind) {
+    return kind == HandKind::keyboard || kind == HandKind::gamepad;
+}
+constexpr bool has_driver(HandKind kind) {
+    return kind >= HandKind::falcon && kind <= HandKind::inverse3;
+}
+
+struct HandPlan {
+    HandKind kind = HandKind::mouse;  // not automatic
+    HandPath path;                    // of those that follow one; problem_with() finds nothing wrong with it
+    ArmSettings arm;
+    DriverSettings driver;
+    double table_height = 0.0;  // of an emulated robot's (unit: meters)
+    Vec3 start{0.0};            // where one that is led begins, in the scene (unit: meters)
+};
+
+class SceneHand {
+public:
+    SceneHand() = default;  // none
+    SceneHand(HandPlan plan, const Workspace& mapping);
+
+    const std::shared_ptr<Device>& port() const { return port_; }  // null: there is none
+
+    void change(const ArmSettings& arm);
+    // Of its driver; of any other hand there is nothing to say.
+    DriverHealth health() const { return driver_ != nullptr ? driver_->health() : DriverHealth{}; }
+
+    // Where a hand goes that is led; any other hears none of it. `mapping` is that of now.
+    bool is_led() const { return follower_ != nullptr; }
+    // To a place in the scene; far beyond it there is none.
+    void lead(const Vec3& place, const Workspace& mapping, std::uint32_t buttons);
+    // Under a pointer, deeper by this much than it was.
+    void point(const ScreenRay& ray, double deeper, const Workspace& mapping, std::uint32_t buttons);
+    // Along a deflection in the scene's axes.
+    void steer(const Vec3& deflection, const SteeringSettings& steering, double seconds,
+               const Workspace& mapping, std::uint32_t buttons);
+
+private:
+    std::shared_ptr<Device> port_;
+    std::shared_ptr<FollowingDevice> follower_;  // the same as port_, or null; likewise these
+    std::shared_ptr<SimulatedArm> arm_;
+    std::shared_ptr<DriverDevice> driver_;
+    Vec3 pointed_at_{0.0};  // in the scene (unit: meters)
+    Vec3 steered_to_{0.0};  // in the device's own frame (unit: meters)
+};
+
+// What a hand does, or why it gives no force, and what of the scene is too stiff for it. `said`: what its
+// driver has to say.
+std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said);
+
+// What a fingertip does, or why it is not felt.
+std::string state_of_fingertip(const ProxyState& state);
+
+}  // namespace tactus
