@@ -15,6 +15,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -23,6 +24,9 @@ using namespace godot;
 namespace {
 
 constexpr double never = -1.0;
+
+// What moves is guessed to go on as it did for three images, and no longer (unit: seconds).
+constexpr double longest_guess = 0.1;
 
 const char* word_of(SightState state) {
     switch (state) {
@@ -73,7 +77,8 @@ void DepthSensor::pictures_changed() {
 
 void DepthSensor::show() {
     if (sensor_ != nullptr) {
-        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_});
+        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_},
+                     age());
     }
 }
 
@@ -105,6 +110,10 @@ String DepthSensor::problem() const {
 const Sight& DepthSensor::sight() const {
     static const Sight nothing;
     return sensor_ != nullptr ? sensor_->sight() : nothing;
+}
+
+double DepthSensor::age() const {
+    return std::clamp(to_seconds(monotonic_now() - sight().arrived), 0.0, longest_guess);
 }
 
 // The rest of the scene, which a synthetic camera looks at, may not be there yet.
@@ -221,6 +230,8 @@ void DepthSensor::look() {
     const bool is_new = sensor_->take();
     if (is_new) {
         show();
+    } else {
+        seen_.go_on(sight(), age());
     }
     tell(is_new);
 }

@@ -66,6 +66,7 @@ private:
     void pictures_changed();
     void show();
     const Sight& sight() const;
+    double age() const;  // of what was seen last (unit: seconds)
     godot::String problem() const;
     godot::PackedStringArray library_names() const;
     void begin();

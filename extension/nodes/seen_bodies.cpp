@@ -10,6 +10,7 @@
 #include <unordered_set>
 
 #include "core/math/least_turn.hpp"
+#include "core/teleop/body_motion.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/mesh_drawing.hpp"
@@ -46,6 +47,19 @@ double volume_of(const TriangleMesh& mesh) {
         volume += glm::dot(mesh.vertices[a], glm::cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
     }
     return std::abs(volume);
+}
+
+bool moves(const SightedObject& object) {
+    return object.linear_velocity != Vec3(0.0) || object.angular_velocity != Vec3(0.0);
+}
+
+// Where it is after `seconds` if it goes on as it moves.
+Pose pose_after(const SightedObject& object, double seconds) {
+    if (!moves(object)) {
+        return object.pose;
+    }
+    return {object.pose.position + seconds * object.linear_velocity,
+            glm::normalize(turn_by(object.angular_velocity, seconds) * object.pose.rotation)};
 }
 
 bool is_known(const SightedObject& object, std::span<const SeenMesh> library) {
@@ -114,13 +128,13 @@ Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> 
     return made;
 }
 
-void SeenBodies::place(Made& made, const SightedObject& object) const {
-    made.pose = object.pose;
+void SeenBodies::place(Made& made, const SightedObject& object, double age) const {
+    made.pose = pose_after(object, age);
     auto* const node = Object::cast_to<Node3D>(ObjectDB::get_instance(made.node));
     if (node == nullptr) {
         return;
     }
-    node->set_global_transform(to_godot(object.pose));
+    node->set_global_transform(to_godot(made.pose));
     auto* const body = Object::cast_to<RigidBody3D>(node);
     if (body != nullptr && !body->is_freeze_enabled()) {
         body->set_linear_velocity(to_godot(object.linear_velocity));
@@ -128,8 +142,17 @@ void SeenBodies::place(Made& made, const SightedObject& object) const {
     }
 }
 
+void SeenBodies::go_on(const Sight& sight, double age) {
+    for (const SightedObject& object : sight.objects) {
+        const auto made = made_.find(object.id);
+        if (made != made_.end() && moves(object)) {
+            place(made->second, object, age);
+        }
+    }
+}
+
 void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
-                        const Looks& looks) {
+                        const Looks& looks, double age) {
     if (std::exchange(made_as_, looks.objects) != looks.objects ||
         std::exchange(are_shown_, looks.show_objects) != looks.show_objects) {
         clear();
@@ -157,7 +180,7 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
                 made.node = node->get_instance_id();
             }
         }
-        place(made, object);
+        place(made, object, age);
     }
     std::erase_if(made_, [&](const auto& one) {
         if (there.contains(one.first)) {
