@@ -81,12 +81,13 @@ func _knows_all() -> bool:
 	return _part == "direct" or _link.get_statistics().get("objects", 0) >= OBJECTS
 
 
-## Back and forth, as if somebody slid it.
+## Back and forth by 4 cm, as if somebody slid it.
 func _push() -> void:
 	var cube: RigidBody3D = _reality.get_node("Cube")
-	_reality.apply_central_force(
-		cube, Vector3(5.0 * signf(sin(Time.get_unix_time_from_system() * 1.2)), 0, 0)
-	)
+	var meant := -0.1 + 0.04 * sin(Time.get_unix_time_from_system() * 1.2)
+	var speed := _reality.get_linear_velocity(cube).x
+	var force := clampf(150.0 * (meant - cube.global_position.x) - 10.0 * speed, -8.0, 8.0)
+	_reality.apply_central_force(cube, Vector3(force, 0, 0))
 
 
 ## Where the way begins.
