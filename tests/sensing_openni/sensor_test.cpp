@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 
 #include "scene.hpp"
@@ -28,6 +29,7 @@ OwnedSensor sensor_of(const Scene& scene) {
     SensorSettings settings;
     settings.camera = scene.camera();
     settings.wants_cloud = true;
+    settings.max_rate = 0.0;  // every image
     made->set_settings(settings);
     return made;
 }
@@ -143,6 +145,37 @@ TEST(Sensor, FindsTheMeshesOfItsLibraryWhereTheyAre) {
             return object.mesh < 0 && !object.hull.vertices.empty();
         });
     }));
+}
+
+// Two bodies at one place throw each other away in a model.
+TEST(Sensor, KnowsWhatMovesOnceAndWhereItIs) {
+    SyntheticCamera camera;
+    camera.rate = 0.0;
+    camera.depth_error = 0.0;
+    Scene scene(camera);
+    const OwnedSensor eyes = sensor_of(scene);
+    const TriangleMesh box = shared::box({0.05, 0.04, 0.03});
+    const std::array<KnownMesh, 1> library{KnownMesh{"box", testing::view_of(box), 0.7}};
+    eyes->set_library(library);
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    for (int frame = 1; frame <= 300; ++frame) {
+        const auto time = static_cast<std::uint64_t>(frame) * 33333;
+        scene.move(0.04 * std::sin(1.2 * 1e-6 * static_cast<double>(time)));
+        const Vec3 true_place = scene.box().position;
+        scene.show(time);
+        ASSERT_TRUE(until(*eyes, [&](const Sight& sight) { return sight.camera_time == time; })) << frame;
+        int known = 0;
+        for (const SightedObject& object : eyes->sight().objects) {
+            if (object.mesh == 0 && object.state != SightState::lost) {
+                ++known;
+                EXPECT_LT(glm::distance(object.pose.position, true_place), 0.02) << frame;
+                EXPECT_LT(glm::length(object.linear_velocity), 0.5) << frame;
+                EXPECT_LT(glm::length(object.angular_velocity), 10.0) << frame;
+            }
+        }
+        EXPECT_LE(known, 1) << frame;
+    }
 }
 
 TEST(Sensor, RefusesAnImageInWhichNothingCanBeSeen) {
