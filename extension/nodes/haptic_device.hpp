@@ -2,6 +2,7 @@
 
 #include <godot_cpp/classes/camera3d.hpp>
 #include <godot_cpp/classes/input_event.hpp>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/node_path.hpp>
@@ -32,6 +33,7 @@ public:
         DRIVER_OPENHAPTICS = static_cast<int64_t>(HandKind::openhaptics),
         DRIVER_INVERSE3 = static_cast<int64_t>(HandKind::inverse3),
         DRIVER_EMULATED_ROBOT = static_cast<int64_t>(HandKind::emulated_robot),
+        DRIVER_ROBOT_TIP = static_cast<int64_t>(HandKind::robot_tip),
     };
     enum Steering : int64_t {
         STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
@@ -80,6 +82,9 @@ private:
     HandKind kind() const;
     HandPlan plan() const;
     godot::Node3D* target_node() const;
+    HapticDevice* robot_node() const;  // whose tip this one is; null: none
+    // Around the workspace, where it is to be seen.
+    void draw_box();
     // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
     void lead_hand();
 
@@ -98,11 +103,14 @@ private:
     double force_limit_ = 8.0;
     double force_scale_ = 1.0;
     double edge_speed_ = 0.0;
+    bool show_workspace_ = false;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
 
     SceneHand hand_;
+    std::shared_ptr<TipExchange> tip_ = std::make_shared<TipExchange>();  // as an emulated robot
     DeviceState state_;
+    godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen
 };
 
 }  // namespace tactus

@@ -4,10 +4,12 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "devices/driver_device.hpp"
 #include "devices/drivers.hpp"
 #include "devices/following_device.hpp"
+#include "devices/robot_tip.hpp"
 #include "devices/simulated_arm.hpp"
 #include "devices/steering.hpp"
 #include "session/session_types.hpp"
@@ -27,6 +29,7 @@ enum class HandKind : std::uint8_t {
     openhaptics,
     inverse3,
     emulated_robot,
+    robot_tip,  // of an emulated robot in another world
 };
 
 constexpr bool follows_path(HandKind kind) {
@@ -45,7 +48,9 @@ struct HandPlan {
     ArmSettings arm;
     DriverSettings driver;
     double table_height = 0.0;  // of an emulated robot's (unit: meters)
-    Vec3 start{0.0};            // where one that is led begins, in the scene (unit: meters)
+    // Of an emulated robot, and of the hand that is its tip: the same one.
+    std::shared_ptr<TipExchange> tip = std::make_shared<TipExchange>();
+    Vec3 start{0.0};  // where one that is led begins, in the scene (unit: meters)
 };
 
 class SceneHand {
@@ -77,6 +82,17 @@ private:
     Vec3 pointed_at_{0.0};  // in the scene (unit: meters)
     Vec3 steered_to_{0.0};  // in the device's own frame (unit: meters)
 };
+
+// Of a hand's workspace in its own frame, as far as it is known before the device is there (unit: meters); 0:
+// it has none, or only the device knows.
+double usual_radius(HandKind kind, const SteeringSettings& steering);
+
+// Why there is no such gamepad, and what to do; empty where it is among those that are there.
+struct Gamepad {
+    int number = 0;
+    std::string name;
+};
+std::string problem_of_gamepad(int wanted, const std::vector<Gamepad>& there);
 
 // What a hand does, or why it gives no force, and what of the scene is too stiff for it. `said`: what its
 // driver has to say.
