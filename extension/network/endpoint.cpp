@@ -12,8 +12,6 @@
 namespace tactus {
 namespace {
 
-constexpr Nanoseconds first_second = nanoseconds_per_second;
-constexpr Nanoseconds hurry = 5;  // times as many clock requests in it
 constexpr double smoothing = 1.0 / 16.0;
 
 // Nothing is held up for longer. Whoever still speaks of an epoch then was put aside by somebody else.
@@ -162,9 +160,11 @@ void Endpoint::meet(std::uint64_t epoch) {
     epoch_packets_ = reported_packets_ = reported_sequence_ = 0;
     statistics_.lost_there = 0.0;
     clock_.forget();
+    queue_there_.forget();
     statistics_.clock = {};
+    statistics_.queue_there = {};
     one_way_known_ = false;
-    met_at_ = now_;
+    often_until_ = now_ + nanoseconds_per_second;
     next_hello_ = next_request_ = now_;  // it need not wait to be heard
 }
 
@@ -240,8 +240,17 @@ void Endpoint::answer(const ClockRequest& request, Nanoseconds arrived) {
 }
 
 void Endpoint::take_answer(const ClockAnswer& answer, Nanoseconds arrived) {
-    clock_.add({answer.t0, arrived, answer.t1, answer.t2});
+    const std::uint64_t jumps = clock_.figures().jumps;
+    const bool holds = clock_.add({answer.t0, arrived, answer.t1, answer.t2});
     statistics_.clock = clock_.figures();
+    if (!holds) {
+        return;
+    }
+    if (statistics_.clock.jumps != jumps) {
+        queue_there_.forget();
+    }
+    queue_there_.add(answer.t0, answer.t1, now_ - (arrived - answer.t0));
+    statistics_.queue_there = queue_there_.figures();
 }
 
 void Endpoint::note_one_way(Nanoseconds sent_at, Nanoseconds arrived) {
@@ -285,8 +294,9 @@ void Endpoint::end_tick() {
     }
     if (hears_peer() && now_ >= next_request_) {
         send(ClockRequest{++request_, local_now_});
-        const bool fresh = now_ - met_at_ < first_second;
-        next_request_ = now_ + (fresh ? settings_.clock_every / hurry : settings_.clock_every);
+        next_request_ = now_ + (now_ < often_until_ ? often_every : settings_.clock_every);
+    } else if (now_ < often_until_) {
+        next_request_ = std::min(next_request_, now_ + often_every);
     }
     measure_rates(now_);
 }

@@ -52,10 +52,9 @@ void SampleStream::add(const OperatorSample& sample) {
 }
 
 void SampleStream::end_tick(Endpoint& link, Nanoseconds now) {
-    const LinkStatistics& statistics = link.statistics();
-    pace_.adapt(statistics, now);
+    pace_.adapt(link, now);
     // Where a queue is the trouble, repeats make it longer, and who asks whether less helps sends less.
-    const std::uint32_t wanted = pace_.asks() ? least_repeats : repeats_for(statistics.lost_there);
+    const std::uint32_t wanted = pace_.asks() ? least_repeats : repeats_for(link.statistics().lost_there);
     repeats_ = pace_.queues() ? 0 : std::min(settings_.max_repeats, wanted);
     if (++tick_ % pace_.stride() == 0) {
         send(link);

@@ -53,7 +53,7 @@ private:
 
     SampleStreamSettings settings_;
     std::vector<Pointer> pointers_;
-    Pace pace_{0.1};
+    Pace pace_{PaceSettings{0.1, 8}};
     std::uint32_t repeats_ = 2;
     std::uint64_t tick_ = 0;
 };

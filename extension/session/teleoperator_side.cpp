@@ -44,7 +44,10 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 void TeleoperatorSide::take_orders() {
     TeleopPort& port = channel_.port();
     while (PreparedDiscovery* const announced = port.announced.front()) {
-        discovery_.announce(*announced);
+        const ObjectId object = announced->object;
+        if (discovery_.announce(*announced)) {
+            states_.announced(object);
+        }
         port.released.try_push(std::move(announced->content));
         port.announced.pop();
     }
@@ -52,6 +55,7 @@ void TeleoperatorSide::take_orders() {
     while (port.withdrawn.try_pop(gone)) {
         std::shared_ptr<const std::vector<std::byte>> content;
         discovery_.withdraw(gone, content);
+        states_.withdrawn(gone);
         port.released.try_push(std::move(content));
     }
 }
@@ -75,7 +79,9 @@ void TeleoperatorSide::start_over_if_peer_has() {
     if (channel_.peer_has_started()) {
         release_hands();
         discovery_.restart();
+        bulk_ = {};
         states_.restart();
+        force_pace_.restart();
     }
 }
 
@@ -89,16 +95,20 @@ void TeleoperatorSide::release_hands() {
 }
 
 void TeleoperatorSide::describe(Nanoseconds now) {
-    constexpr int most_a_tick = 2;
+    constexpr int max_a_tick = 4;
     constexpr Nanoseconds soonest = 200'000'000;
     discovery_.set_repeat_after(
         std::max(soonest, static_cast<Nanoseconds>(1.5 * channel_.link().clock().figures().mean_delay)));
     const DiscoveryCounts& counts = discovery_.counts();
     channel_.link().set_world(counts.waiting + counts.known + counts.refused + counts.no_room,
                               direction_to_local(settings().frame, settings().gravity));
+    const bool heard = channel_.link().hears_peer();
+    bulk_.adapt(channel_.link(), now, heard && discovery_.has_more());
     Message message;
-    for (int i = 0; i < most_a_tick && channel_.link().hears_peer() && discovery_.next(now, message); ++i) {
-        channel_.link().send(message);
+    for (int i = 0; i < max_a_tick && heard && bulk_.may_send() && discovery_.next(now, message); ++i) {
+        const std::uint64_t before = channel_.link().statistics().bytes_sent;
+        channel_.send(message);
+        bulk_.sent(channel_.link().statistics().bytes_sent - before);
     }
 }
 
@@ -204,7 +214,7 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
 }
 
 void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
-    states_.tell(loop, channel_, newest_applied_, now);
+    states_.tell(loop, channel_, newest_applied_, now, bulk_.can_yield());
     if (settings().traditional) {
         send_forces(loop, now);
     }
@@ -231,6 +241,12 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
 }
 
 void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
+    if (!bulk_.can_yield()) {
+        force_pace_.adapt(channel_.link(), now);
+    }
+    if (++force_tick_ % force_pace_.stride() != 0) {
+        return;
+    }
     ForceSamples message;
     for (std::size_t i = 0; i < share_.most() && message.count < ForceSamples::most; ++i) {
         if (pointers_[i].holds && slot_of(loop, i).present() && force_is_due(loop, i, now)) {

@@ -2,6 +2,7 @@
 // and tells what became of the bodies, or what the hand would feel.
 #pragma once
 
+#include "network/bulk_rate.hpp"
 #include "session/channel.hpp"
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
@@ -67,11 +68,14 @@ private:
 
     Channel channel_;
     DiscoverySender discovery_;
+    BulkRate bulk_;  // of discovery
     GhostTeller ghosts_;
     StateTeller states_;
     PointerShare share_;
     PlayedHands hands_;
     double seconds_;  // of a tick
+    Pace force_pace_{PaceSettings{}};
+    std::uint64_t force_tick_ = 0;
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     TeleopStatistics statistics_;
