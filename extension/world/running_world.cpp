@@ -1,7 +1,5 @@
 #include "world/running_world.hpp"
 
-#include <algorithm>
-
 namespace tactus {
 
 RunningWorld::RunningWorld(const SessionSettings& settings, bool real_time, const Pose& frame,
@@ -86,6 +84,12 @@ void RunningWorld::push_for(double seconds) {
         session_.push_body(body, push);
     }
     forces_.clear();
+}
+
+BodyState RunningWorld::state_of(SessionHandle body) {
+    const SessionSnapshot& snapshot = session_.snapshot();
+    const BodyState* state = tactus::state_of(snapshot.bodies, snapshot.body_count, body);
+    return state != nullptr ? *state : BodyState{};
 }
 
 // --- far sides

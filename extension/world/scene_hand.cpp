@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "devices/falcon/falcon_arm.hpp"
 #include "devices/path_device.hpp"
 #include "devices/robot_table.hpp"
 
@@ -67,6 +68,30 @@ void SceneHand::steer(const Vec3& deflection, const SteeringSettings& steering, 
     }
 }
 
+double usual_radius(HandKind kind, const SteeringSettings& steering) {
+    if (has_driver(kind)) {
+        return make_driver(driver_of(kind), {})->capabilities().radius;
+    }
+    if (kind == HandKind::emulated_robot) {
+        return falcon_capabilities().radius;
+    }
+    return is_steered(kind) ? steering.reach : 0.0;
+}
+
+std::string problem_of_gamepad(int wanted, const std::vector<Gamepad>& there) {
+    if (there.empty()) {
+        return "no gamepad is connected: plug one in, or choose another driver";
+    }
+    std::string all;
+    for (const Gamepad& gamepad : there) {
+        if (gamepad.number == wanted) {
+            return {};
+        }
+        all += (all.empty() ? "" : ", ") + std::to_string(gamepad.number) + " (" + gamepad.name + ")";
+    }
+    return "there is no gamepad " + std::to_string(wanted) + ": set 'gamepad' to one of " + all;
+}
+
 std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said) {
     if (!said.empty()) {
         return said;
@@ -80,6 +105,19 @@ std::string state_of_hand(const DeviceState& state, bool has_driver, const std::
     }
     const std::string too_stiff = explain_stiffness(state.stiffness_wanted, state.stiffness_used, state.lag);
     return too_stiff.empty() ? text : text + "; " + too_stiff;
+}
+
+std::string state_of_fingertip(const ProxyState& state) {
+    if (state.handle == no_handle) {
+        return "waiting for the first tick";
+    }
+    if ((state.status & proxy_absent) != 0) {
+        return "the hand began inside a body: move it out once";
+    }
+    if ((state.status & proxy_letting_out) != 0) {
+        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
+    }
+    return (state.status & proxy_touching) != 0 ? "touching" : "free";
 }
 
 }  // namespace tactus
