@@ -137,6 +137,26 @@ TEST(SampleStream, LossesThatStayAsTheyAreSlowNothingDown) {
     }
 }
 
+// Whether less helps is asked while a hand is at work: it costs few samples.
+TEST(SampleStream, AskingWhetherLessHelpsLosesLittle) {
+    StreamRig rig(lossy(0.5));
+    rig.run(300 * ms);
+    const std::uint64_t from = rig.sequence;
+    std::uint32_t longest_stride = 0;
+    for (int i = 0; i < 4000; ++i) {
+        rig.run(1 * ms);
+        longest_stride = std::max(longest_stride, rig.stream.ticks_a_packet());
+    }
+    const std::uint64_t to = rig.sequence;
+    rig.rig.run(100 * ms);
+    std::size_t lost = 0;
+    for (std::uint64_t sequence = from; sequence <= to; ++sequence) {
+        lost += rig.heard[0].contains(sequence) ? 0 : 1;
+    }
+    EXPECT_EQ(longest_stride, 2u);
+    EXPECT_LE(lost, 100u);
+}
+
 // A way that keeps nothing back and drops what is too much.
 TEST(SampleStream, LossesThatSendingLessMakesFewerAreHeeded) {
     LinkConditions narrow;
