@@ -74,13 +74,14 @@ TEST(SampleStream, EverySampleComesWhereNothingIsLost) {
     EXPECT_EQ(rig.stream.ticks_a_packet(), 1u);
 }
 
-// One hand, every tick, with all that IP and UDP add.
+// One hand, every tick, with all that IP and UDP add. Where a third or half of it is lost it takes eight or
+// nine of each sample, once it is known that less does not help.
 TEST(SampleStream, AHandTakesAtMostOneAndAHalfMegabits) {
     for (const double loss : {0.0, 0.02, 0.09, 0.3, 0.5}) {
         StreamRig rig(lossy(loss));
         rig.run(5000 * ms);
         const LinkStatistics& link = rig.rig.near().statistics();
-        EXPECT_LT(link.sent_rate.bits_per_s, 1.5e6) << loss;
+        EXPECT_LT(link.sent_rate.bits_per_s, loss < 0.25 ? 1.5e6 : 1.65e6) << loss;
         EXPECT_GT(link.sent_rate.bits_per_s, 0.1e6) << loss;
     }
 }

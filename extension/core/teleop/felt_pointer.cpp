@@ -73,8 +73,8 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         state_ = FeltState::together;
     }
     modelled_before_ = modelled;
-    change_ = in.modelled + hidden_ - felt_;
-    felt_ += change_;
+    const Vec3 felt = in.modelled + hidden_;
+    change_ = felt - std::exchange(felt_, felt);
     energy_.tank_J = tank_.level();
     energy_.hidden_J += glm::dot(hidden_, in.hand_velocity) * in.seconds;
     energy_.hand_J += glm::dot(felt_, in.hand_velocity) * in.seconds;
