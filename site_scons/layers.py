@@ -62,6 +62,12 @@ def sources(layer, system, architecture):
     return [path for folder in _folders(layer) for path in chosen(folder, "*.cpp", system, architecture)]
 
 
+def part(layer, folder, platform):
+    """The sources of one of its folders; of "", those that lie in no folder of it."""
+    found = chosen(Path("extension", layer, folder), "*.cpp", platform.system, platform.architecture)
+    return [path for path in found if folder or Path(path).parent == Path("extension", layer)]
+
+
 def present():
     return with_sources(MAY_INCLUDE)
 

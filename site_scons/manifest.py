@@ -10,12 +10,13 @@ from pathlib import Path
 
 ADDON = Path("demo_project/addons/tactus")
 TARGETS = {"debug": "template_debug", "release": "template_release"}
+EYES = ["tactus_sensing", "tactus_camera"]
 SUFFIX = {"linux": "so", "windows": "dll", "macos": "dylib"}
 
 
-def library(platform, target):
-    """The file name of a library."""
-    return f"libtactus.{platform.system}.{target}.{platform.architecture}.{SUFFIX[platform.system]}"
+def library(platform, target, name="tactus"):
+    """The file name of a library: the extension's own, or one that it loads from beside itself."""
+    return f"lib{name}.{platform.system}.{target}.{platform.architecture}.{SUFFIX[platform.system]}"
 
 
 def api_version(description):
@@ -35,8 +36,8 @@ def installed_api_version(includes):
     return None
 
 
-def text(minimum, precision, platforms):
-    """`platforms`: of every library beside it."""
+def text(minimum, precision, platforms, seeing=()):
+    """`platforms`: of every library beside it; `seeing`: those of them that have the eyes' libraries, too."""
     lines = ["[configuration]", "", 'entry_symbol = "tactus_library_init"', f'compatibility_minimum = "{minimum}"']
     lines += ["reloadable = false", "", "[libraries]", ""]
     for platform in platforms:
@@ -44,6 +45,13 @@ def text(minimum, precision, platforms):
             # A library of one precision cannot be loaded by a Godot of the other: the tag hides it.
             tags = f"{platform.system}.{feature}.{precision}.{platform.architecture}"
             lines.append(f'{tags} = "bin/{library(platform, target)}"')
+    if seeing:
+        # Loaded by the extension itself; named here so that exported programs have them beside it.
+        lines += ["", "[dependencies]", ""]
+    for platform in seeing:
+        for feature, target in TARGETS.items():
+            eyes = ", ".join(f'"bin/{library(platform, target, name)}": ""' for name in EYES)
+            lines.append(f"{platform.system}.{feature}.{precision}.{platform.architecture} = {{{eyes}}}")
     lines += ["", "[icons]", ""]
     lines += [f'{icon.stem} = "icons/{icon.name}"' for icon in sorted((ADDON / "icons").glob("*.svg"))]
     return "\n".join(lines) + "\n"

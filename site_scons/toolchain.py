@@ -1,6 +1,7 @@
 """Compiler flags: one set for everything, so that the same numbers come out of every build."""
 
 import subprocess
+from pathlib import Path
 
 # A fused multiply-add rounds once where the source rounds twice; whether one is made depends on inlining.
 SAME_BITS = ["-ffp-contract=off"]
@@ -93,6 +94,12 @@ def flags_of_file(platform, source, sanitizers):
     anywhere = ANY_PROCESSOR[platform.architecture] if source in RUN_ANYWHERE else []
     audit = [f"-DTACTUS_SANITIZE_{name.upper()}=1" for name in sanitizers.split(",") if name]
     return [*anywhere, *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]
+
+
+def openni():
+    """Folders of OpenNI2's headers; none where it is not installed."""
+    found = [Path(folder) for folder in ("/usr/include/openni2", "/usr/local/include/openni2")]
+    return [folder for folder in found if (folder / "OniCAPI.h").is_file() and (folder / "Driver/OniDriverAPI.h").is_file()][:1]
 
 
 # A library that is loaded later finds the played calls first.

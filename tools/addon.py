@@ -94,7 +94,9 @@ def _description(others: list[Platform]) -> str:
     precision = re.search(r"\.debug\.(\w+)\.", own)
     if not minimum or not precision:
         raise RuntimeError(f"{FOLDER}/tactus.gdextension names no version or no library: ./run setup writes it")
-    return manifest.text(minimum[1], precision[1], [platforms.host(), *others])
+    eyes = [manifest.library(platforms.host(), target, name) for target in manifest.TARGETS.values() for name in manifest.EYES]
+    seeing = [platforms.host()] if all((FOLDER / "bin" / name).is_file() for name in eyes) else []
+    return manifest.text(minimum[1], precision[1], [platforms.host(), *others], seeing)
 
 
 def _libraries(description: str) -> list[str]:

@@ -9,12 +9,16 @@ needs() { # needs PACKAGE COMMAND…: the package is missing when the command fa
     "$@" >/dev/null 2>&1 || missing+=("$package")
 }
 
-optional=()
+played=()
 wants() { # wants PACKAGE COMMAND…: without the package some tests are left out
     local package="$1"
     shift
-    "$@" >/dev/null 2>&1 || optional+=("$package")
+    "$@" >/dev/null 2>&1 || played+=("$package")
 }
+
+# OpenNI2, by which depth cameras are read.
+sensing=()
+[ -e /usr/include/openni2/Driver/OniDriverAPI.h ] || sensing=(libopenni2-dev)
 
 needs python3 test -x /usr/bin/python3
 needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
@@ -32,7 +36,12 @@ wants libumockdev-dev pkg-config --exists umockdev-1.0
 wants libwslay1 python3 -c 'import ctypes; ctypes.CDLL("libwslay.so.1")'
 wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
 wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
+seeing=no
 for extra in "$@"; do
+    case "$extra" in
+    sensing) seeing=wanted && continue ;;
+    with_sensing) missing+=("${sensing[@]}") && continue ;;
+    esac
     needs make command -v make
     case "$extra" in
     windows) needs g++-mingw-w64-x86-64-posix command -v x86_64-w64-mingw32-g++-posix ;;
@@ -42,14 +51,19 @@ for extra in "$@"; do
     esac
 done
 
-if [ ${#optional[@]} -gt 0 ] && command -v apt-get >/dev/null; then
+goes_without() { # goes_without WHAT PACKAGE…: root installs the packages, others are told how
+    local what="$1"
+    shift
+    [ $# -gt 0 ] && command -v apt-get >/dev/null || return 0
     if [ "$(id -u)" -eq 0 ]; then
-        missing+=("${optional[@]}")
+        missing+=("$@")
     else
-        echo "Left out: tests with devices that are played. They need" >&2
-        echo "  sudo apt-get install --yes --no-install-recommends ${optional[*]}" >&2
+        echo "Left out: $what. For that:" >&2
+        echo "  sudo apt-get install --yes --no-install-recommends $*" >&2
     fi
-fi
+}
+goes_without "tests with devices that are played" "${played[@]}"
+[ "$seeing" = no ] || goes_without "depth cameras and their tests" "${sensing[@]}"
 [ ${#missing[@]} -gt 0 ] || exit 0
 # What the same is called elsewhere. Godot itself is fetched on Debian only: there, one of version 4.4 or later must be on
 # the PATH or in GODOT.

@@ -75,18 +75,19 @@ void DiscoverySender::restart() {
     }
 }
 
-void DiscoverySender::take(const DiscoveryAcknowledgement& acknowledgement) {
+bool DiscoverySender::take(const DiscoveryAcknowledgement& acknowledgement) {
     Entry* entry = find(acknowledgement.object);
     if (entry == nullptr || entry->prepared.hash != acknowledgement.hash) {
-        return;  // of an earlier description
+        return false;  // of an earlier description
     }
     const bool removed = acknowledgement.verdict == DiscoveryVerdict::removed;
     if (entry->progress == Progress::removing) {
         if (removed) {
             drop(*entry);
         }
-        return;
+        return false;
     }
+    const bool was_known = entry->progress == Progress::known;
     switch (acknowledgement.verdict) {
         case DiscoveryVerdict::known:
             set_progress(*entry, Progress::known);
@@ -100,6 +101,7 @@ void DiscoverySender::take(const DiscoveryAcknowledgement& acknowledgement) {
         case DiscoveryVerdict::removed:
             break;  // answers a removal that is not meant any more
     }
+    return entry->progress == Progress::known && !was_known;
 }
 
 bool DiscoverySender::next(Nanoseconds now, Message& message) {

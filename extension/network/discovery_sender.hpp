@@ -47,7 +47,8 @@ public:
     // The far side has started anew and knows nothing.
     void restart();
 
-    void take(const DiscoveryAcknowledgement& acknowledgement);
+    // True where the far side knows the object now as it was described last, and did not before.
+    bool take(const DiscoveryAcknowledgement& acknowledgement);
 
     // How long after the last piece of an object it is sent again (unit: nanoseconds): longer than an answer
     // takes.

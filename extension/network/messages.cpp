@@ -21,7 +21,7 @@ consteval std::uint8_t type_of() {
         return number;
     }(static_cast<Message*>(nullptr));
 }
-static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<ForceSamples>() == 10);
+static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<Ghosts>() == 11);
 
 // One list of fields for each kind, for a WireWriter and const values or a WireReader and plain ones.
 
@@ -134,6 +134,15 @@ void fields(Stream& s, auto& m, const ForceSamples&) {
     s.require(m.count >= 1 && m.count <= ForceSamples::most);
     for (std::size_t i = 0; s.good() && i < m.count; ++i) {
         force_sample_fields(s, m.samples[i]);
+    }
+}
+
+template <typename Stream>
+void fields(Stream& s, auto& m, const Ghosts&) {
+    s.integer(m.count);
+    s.require(m.count >= 1 && m.count <= Ghosts::max_count);
+    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
+        ghost_fields(s, m.ghosts[i]);
     }
 }
 

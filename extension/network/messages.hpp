@@ -186,8 +186,26 @@ struct ForceSamples {
     std::array<ForceSample, most> samples{};
 };
 
+// A fingertip of another operator in the same environment: something to be seen, nothing to be felt.
+struct Ghost {
+    std::uint16_t pointer = 0;  // of the environment's pointers, from 0
+    bool touches = false;
+    Vec3 position{0.0};   // of its centre (unit: meters)
+    double radius = 0.0;  // (unit: meters), 0 … max_ghost_radius
+};
+inline constexpr double max_ghost_radius = 1e3;
+inline constexpr double radius_quantum = 1e-6;  // (unit: meters)
+
+// All that there are. Nothing is said where there are none.
+struct Ghosts {
+    static constexpr std::size_t max_count = 16;
+
+    std::uint8_t count = 0;  // 1 … max_count
+    std::array<Ghost, max_count> ghosts{};
+};
+
 using Message = std::variant<Hello, Bye, ClockRequest, ClockAnswer, DiscoveryFragment, ObjectRemoval,
-                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples>;
+                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples, Ghosts>;
 
 struct Packet {
     PacketHeader header;

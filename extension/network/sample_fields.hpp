@@ -165,6 +165,26 @@ void force_sample_fields(Stream& s, auto& m) {
     }
 }
 
+template <typename Stream>
+void ghost_fields(Stream& s, auto& m) {
+    enum : std::uint8_t { touching = 1 };
+    std::uint64_t pointer = m.pointer;
+    s.varint(pointer);
+    std::uint8_t flags = m.touches ? touching : 0;
+    s.integer(flags);
+    s.require(pointer <= 0xffffu && (flags & ~touching) == 0);
+    whole_fields(s, m.position, position_quantum, plausible::max_position);
+    s.require(m.radius >= 0.0 && m.radius <= max_ghost_radius);  // false for what is no number
+    std::uint64_t radius = s.good() ? static_cast<std::uint64_t>(std::llround(m.radius / radius_quantum)) : 0;
+    s.varint(radius);
+    s.require(static_cast<double>(radius) <= max_ghost_radius / radius_quantum);
+    if constexpr (Stream::reads) {
+        m.pointer = static_cast<std::uint16_t>(pointer);
+        m.touches = (flags & touching) != 0;
+        m.radius = s.good() ? static_cast<double>(radius) * radius_quantum : 0.0;
+    }
+}
+
 // A sample in whole numbers, as the next one of its pointer is told from it.
 struct WholeSample {
     WholeVector position{}, velocity{}, force{}, relative{};

@@ -96,20 +96,18 @@ void HandMirrors::synchronise(Session& session, Complaints& complaints) {
     for_each_node<ProxyPointer>(proxies_, each);
 }
 
-void HandMirrors::forget(HapticDevice& device, Session& session) {
-    if (const auto found = std::ranges::find(devices_, device.get_instance_id(), &DeviceMirror::id);
-        found != devices_.end()) {
-        remove(found->twin, session);
-        devices_.erase(found);
-        device.clear_state();
-    }
+void HandMirrors::forget(std::uint64_t node, Session& session) {
+    forget<HapticDevice>(node, devices_, session);
+    forget<ProxyPointer>(node, proxies_, session);
 }
 
-void HandMirrors::forget(const ProxyPointer& proxy, Session& session) {
-    if (const auto found = std::ranges::find(proxies_, proxy.get_instance_id(), &ProxyMirror::id);
-        found != proxies_.end()) {
+template <class NodeType, class Mirror>
+void HandMirrors::forget(std::uint64_t node, std::vector<Mirror>& mirrors, Session& session) {
+    const auto found = std::ranges::find(mirrors, node, &Mirror::id);
+    if (found != mirrors.end()) {
         remove(found->twin, session);
-        proxies_.erase(found);
+        mirrors.erase(found);
+        node_of_id<NodeType>(node)->clear_state();
     }
 }
 

@@ -25,8 +25,8 @@ public:
     void synchronise(Session& session, Complaints& complaints);
     // Says what keeps fingertips from touching this.
     void look_at_scene(const SceneFacts& facts, Complaints& complaints) const;
-    void forget(HapticDevice& device, Session& session);
-    void forget(const ProxyPointer& proxy, Session& session);
+    // Nothing where the node is none of them.
+    void forget(std::uint64_t node, Session& session);
 
     // The node that shows a body; 0: none.
     using NodeOf = std::function<std::uint64_t(SessionHandle)>;
@@ -57,6 +57,8 @@ private:
     void synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints);
     void remove(DeviceTwin& twin, Session& session) { twin.remove(session, retired_); }
     void remove(ProxyTwin& twin, Session& session) { twin.remove(session); }
+    template <class NodeType, class Mirror>
+    void forget(std::uint64_t node, std::vector<Mirror>& mirrors, Session& session);
     template <class NodeType, class Mirror>
     void match(std::vector<Mirror>& mirrors, Session& session);
 

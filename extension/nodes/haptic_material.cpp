@@ -41,7 +41,11 @@ std::shared_ptr<const HeightImage> heights_of(const Ref<Texture2D>& texture) {
 }  // namespace
 
 void HapticMaterial::set_preset(Preset preset) {
-    if (!is_one_of(*this, "preset", preset, PRESET_SPONGE, "PRESET") || preset == get_preset()) {
+    if (preset < PRESET_CUSTOM || preset > PRESET_SPONGE) {
+        refuse(*this, "preset", static_cast<int64_t>(preset), "one of the constants PRESET_…");
+        return;
+    }
+    if (preset == get_preset()) {
         return;
     }
     if (const auto now = choice_.choose(static_cast<MaterialPreset>(preset), values())) {

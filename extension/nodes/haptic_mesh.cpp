@@ -8,7 +8,6 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
-#include "nodes/mesh_library.hpp"
 #include "nodes/mesh_source.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -48,7 +47,7 @@ void HapticMesh::mesh_changed() {
 }
 
 void HapticMesh::library_changed() {
-    known_mass_.reset();
+    entry_.reset();
     forget_triangles();
 }
 
@@ -56,16 +55,16 @@ void HapticMesh::form_changed() {
     ++change_count;
 }
 
-double HapticMesh::known_mass() const {
-    if (!known_mass_) {
-        known_mass_ = get_library_mass();
+const LibraryEntry& HapticMesh::entry() const {
+    if (!entry_) {
+        entry_ = mesh_library_entry(library_mesh_);
     }
-    return *known_mass_;
+    return *entry_;
 }
 
 // A body twice as large in each direction is eight times as heavy.
 double HapticMesh::library_mass(const Mat3& body_scale) const {
-    return known_mass() * std::abs(glm::determinant(body_scale * frame_of(get_transform()).axes));
+    return entry().mass * std::abs(glm::determinant(body_scale * frame_of(get_transform()).axes));
 }
 
 std::shared_ptr<TriangleSource> HapticMesh::source() const {
@@ -97,16 +96,6 @@ ShapeReading HapticMesh::read(const SceneFrame& body_scale) const {
             {triangles, scaling_of(frame), pose_of(frame), smoothing_angle_, one_sided_, {}});
     }
     return reading;
-}
-
-double HapticMesh::get_library_mass() const {
-    const std::optional<LibraryEntry> entry = mesh_library_entry(library_mesh_);
-    return entry ? entry->mass : 0.0;
-}
-
-String HapticMesh::get_library_source() const {
-    const std::optional<LibraryEntry> entry = mesh_library_entry(library_mesh_);
-    return entry ? entry->source : String();
 }
 
 PackedStringArray HapticMesh::get_library_names() {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/mesh_library.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
 
@@ -21,8 +22,8 @@ public:
 
     TACTUS_PROPERTIES(HapticMesh)
 
-    double get_library_mass() const;
-    godot::String get_library_source() const;
+    double get_library_mass() const { return entry().mass; }
+    godot::String get_library_source() const { return entry().source; }
     static godot::PackedStringArray get_library_names();
     static godot::Ref<godot::Mesh> create_library_mesh(const godot::String& name);
 
@@ -36,7 +37,7 @@ public:
 
     // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
     // kilograms).
-    bool is_giving_mass() const { return use_library_mass_ && mesh_.is_null() && known_mass() > 0.0; }
+    bool is_giving_mass() const { return use_library_mass_ && mesh_.is_null() && entry().mass > 0.0; }
     double library_mass(const Mat3& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
@@ -50,7 +51,7 @@ protected:
 private:
     // Null where nothing is named; a source with an error where it cannot be read.
     std::shared_ptr<TriangleSource> source() const;
-    double known_mass() const;
+    const LibraryEntry& entry() const;
     void mesh_changed();
     void library_changed();
     void form_changed();
@@ -61,7 +62,7 @@ private:
     double smoothing_angle_ = 0.0;  // (unit: radians)
     bool one_sided_ = false;
     bool use_library_mass_ = false;
-    mutable std::optional<double> known_mass_;        // of the library's mesh, looked up once
+    mutable std::optional<LibraryEntry> entry_;       // of the library's mesh, looked up once
     mutable std::shared_ptr<TriangleSource> source_;  // read once, when somebody asks
     mutable std::shared_ptr<TriangleSource> former_;  // until then: the one before the mesh changed
 };

@@ -41,14 +41,9 @@ double HapticPath::get_duration() const {
     return problem_with(path).empty() ? to_seconds(path_duration(path)) : 0.0;
 }
 
-Vector3 HapticPath::sample(double time) const {
+HandSample HapticPath::sample_at(double time) const {
     const HandPath path = hand_path();
-    return problem_with(path).empty() ? to_godot(sample_path(path, from_seconds(time)).position) : Vector3();
-}
-
-Vector3 HapticPath::sample_velocity(double time) const {
-    const HandPath path = hand_path();
-    return problem_with(path).empty() ? to_godot(sample_path(path, from_seconds(time)).velocity) : Vector3();
+    return problem_with(path).empty() ? sample_path(path, from_seconds(time)) : HandSample{};
 }
 
 Ref<ArrayMesh> HapticPath::create_line_mesh(double thickness) const {

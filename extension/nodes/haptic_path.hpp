@@ -23,8 +23,8 @@ public:
 
     godot::String get_problem() const;
     double get_duration() const;
-    godot::Vector3 sample(double time) const;
-    godot::Vector3 sample_velocity(double time) const;
+    godot::Vector3 sample(double time) const { return to_godot(sample_at(time).position); }
+    godot::Vector3 sample_velocity(double time) const { return to_godot(sample_at(time).velocity); }
     godot::Ref<godot::ArrayMesh> create_line_mesh(double thickness) const;
 
     HandPath hand_path() const;
@@ -35,6 +35,7 @@ protected:
 
 private:
     void form_changed();
+    HandSample sample_at(double time) const;  // at rest where the path cannot be followed
 
     Form form_ = FORM_CIRCLE_WAVE;
     CircleWave circle_;

@@ -54,17 +54,9 @@ PackedStringArray HapticRecorder::_get_configuration_warnings() const {
     return warnings;
 }
 
-int64_t HapticRecorder::get_rows() const {
-    return static_cast<int64_t>(recording_ != nullptr ? recording_->rows() : rows_);
-}
-
-int64_t HapticRecorder::get_lost_rows() const {
-    return static_cast<int64_t>(recording_ != nullptr ? recording_->lost() : lost_);
-}
-
 bool HapticRecorder::start() {
     stop();
-    rows_ = lost_ = 0;
+    recording_.reset();
     const auto say = [this](const std::string& what) {
         UtilityFunctions::push_warning(name_of(*this), ": ", to_godot(what), ".");
     };
@@ -80,13 +72,10 @@ bool HapticRecorder::start() {
 }
 
 void HapticRecorder::stop() {
-    if (recording_ == nullptr) {
-        return;
+    if (is_recording()) {
+        HapticWorld::finish_recording(*this);
+        recording_->close();
     }
-    HapticWorld::finish_recording(*this);
-    rows_ = recording_->rows();
-    lost_ = recording_->lost();
-    recording_.reset();
 }
 
 void HapticRecorder::_notification(int what) {

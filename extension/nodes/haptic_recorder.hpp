@@ -24,9 +24,11 @@ public:
 
     bool start();
     void stop();
-    bool is_recording() const { return recording_ != nullptr; }
-    int64_t get_rows() const;
-    int64_t get_lost_rows() const;
+    bool is_recording() const { return recording_ != nullptr && recording_->is_open(); }
+    int64_t get_rows() const { return recording_ != nullptr ? static_cast<int64_t>(recording_->rows()) : 0; }
+    int64_t get_lost_rows() const {
+        return recording_ != nullptr ? static_cast<int64_t>(recording_->lost()) : 0;
+    }
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
@@ -51,8 +53,7 @@ private:
     double trace_seconds_ = 15.0;
     bool autostart_ = true;
 
-    std::shared_ptr<Recording> recording_;  // null while nothing is recorded
-    std::uint64_t rows_ = 0, lost_ = 0;     // of the last one
+    std::shared_ptr<Recording> recording_;  // the last one, when it has ended; null: none yet
 };
 
 }  // namespace tactus

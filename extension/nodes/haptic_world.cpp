@@ -9,12 +9,9 @@
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/godot_joint.hpp"
-#include "nodes/haptic_device.hpp"
-#include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
-#include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
@@ -37,11 +34,14 @@ constexpr double max_advance = 3600.0;  // (unit: seconds)
 // for its way (unit: seconds).
 constexpr double shortest_way = 1e-3;
 
+double project_number(const char* name, double otherwise) {
+    return ProjectSettings::get_singleton()->get_setting(name, otherwise);
+}
+
 Vector3 project_gravity() {
-    const ProjectSettings* project = ProjectSettings::get_singleton();
-    const double size = project->get_setting("physics/3d/default_gravity", 9.8);
-    const Vector3 direction = project->get_setting("physics/3d/default_gravity_vector", Vector3(0, -1, 0));
-    return direction * static_cast<real_t>(size);
+    const Vector3 direction =
+        ProjectSettings::get_singleton()->get_setting("physics/3d/default_gravity_vector", Vector3(0, -1, 0));
+    return direction * static_cast<real_t>(project_number("physics/3d/default_gravity", 9.8));
 }
 
 Dictionary distribution(const DurationHistogram& periods) {
@@ -93,12 +93,15 @@ bool HapticWorld::_set(const StringName& name, const Variant& value) {
     return now != nullptr;
 }
 
-TouchMaterial HapticWorld::default_touch() const {
-    return default_material_.is_valid() ? default_material_->touch() : TouchMaterial{};
-}
-
-std::shared_ptr<const HeightImage> HapticWorld::default_texture() const {
-    return default_material_.is_valid() ? default_material_->heights() : nullptr;
+BodyDefaults HapticWorld::body_defaults() const {
+    BodyDefaults defaults;
+    defaults.linear_damping = project_number("physics/3d/default_linear_damp", defaults.linear_damping);
+    defaults.angular_damping = project_number("physics/3d/default_angular_damp", defaults.angular_damping);
+    if (default_material_.is_valid()) {
+        defaults.touch = default_material_->touch();
+        defaults.texture = default_material_->heights();
+    }
+    return defaults;
 }
 
 // --- life
@@ -246,19 +249,11 @@ void HapticWorld::node_removed(Node* node) {
     if (node == nullptr || run_ == nullptr) {
         return;
     }
-    if (auto* device = Object::cast_to<HapticDevice>(node)) {
-        run_->forget(*device);
-    } else if (auto* proxy = Object::cast_to<ProxyPointer>(node)) {
-        run_->forget(*proxy);
-    } else if (auto* feedback = Object::cast_to<HapticFeedback>(node)) {
-        run_->forget(*feedback);
-    } else if (auto* link = Object::cast_to<MMTLink>(node)) {
-        run_->forget(*link);
-        if (link->is_networked() && is_ancestor_of(link)) {
+    run_->node_removed(*node);
+    if (const auto* link = Object::cast_to<MMTLink>(node); link != nullptr && link->is_networked()) {
+        if (is_ancestor_of(node)) {
             link_changed();
         }
-    } else {
-        run_->scene_changed(*node);
     }
 }
 

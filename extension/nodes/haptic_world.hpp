@@ -13,6 +13,7 @@
 #include "nodes/properties.hpp"
 #include "realtime/tick_loop.hpp"
 #include "world/body_queries.hpp"
+#include "world/scene_body.hpp"
 
 namespace tactus {
 
@@ -73,8 +74,7 @@ public:
     godot::Vector3 get_gravity() const { return gravity_; }
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder& recorder);
-    TouchMaterial default_touch() const;
-    std::shared_ptr<const HeightImage> default_texture() const;
+    BodyDefaults body_defaults() const;
 
 protected:
     static void _bind_methods();

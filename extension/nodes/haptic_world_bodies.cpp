@@ -75,13 +75,11 @@ void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
 }
 
 Vector3 HapticWorld::get_linear_velocity(Body* body) const {
-    const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
-    return state != nullptr ? to_godot(state->linear_velocity) : Vector3();
+    return run_ != nullptr ? to_godot(run_->state_of(body).linear_velocity) : Vector3();
 }
 
 Vector3 HapticWorld::get_angular_velocity(Body* body) const {
-    const BodyState* state = run_ != nullptr ? run_->state_of(body) : nullptr;
-    return state != nullptr ? to_godot(state->angular_velocity) : Vector3();
+    return run_ != nullptr ? to_godot(run_->state_of(body).angular_velocity) : Vector3();
 }
 
 bool HapticWorld::can_ask(const char* method, const Vector3& where, double size) const {

@@ -81,21 +81,16 @@ std::shared_ptr<TriangleSource> load_library_mesh(const String& name) {
                          : failed(from_godot(path) + ": " + wrong);
 }
 
-std::optional<LibraryEntry> mesh_library_entry(const String& name) {
+LibraryEntry mesh_library_entry(const String& name) {
     const String path = mesh_library_folder().path_join("library.json");
-    if (!FileAccess::file_exists(path)) {
-        return std::nullopt;
-    }
-    const godot::Variant whole = godot::JSON::parse_string(FileAccess::get_file_as_string(path));
+    const godot::Variant whole = FileAccess::file_exists(path)
+                                     ? godot::JSON::parse_string(FileAccess::get_file_as_string(path))
+                                     : godot::Variant();
     if (whole.get_type() != godot::Variant::DICTIONARY) {
-        return std::nullopt;
+        return {};
     }
-    const godot::Dictionary entries = whole;
-    if (!entries.has(name)) {
-        return std::nullopt;
-    }
-    const godot::Dictionary entry = entries[name];
-    return LibraryEntry{entry.get("mass_kg", 0.0), entry.get("source", "")};
+    const godot::Dictionary entry = godot::Dictionary(whole).get(name, godot::Dictionary());
+    return {entry.get("mass_kg", 0.0), entry.get("source", "")};
 }
 
 }  // namespace tactus

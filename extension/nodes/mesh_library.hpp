@@ -6,7 +6,6 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <memory>
-#include <optional>
 
 #include "world/triangle_source.hpp"
 
@@ -26,6 +25,7 @@ struct LibraryEntry {
     godot::String source;  // where the mesh comes from
 };
 
-std::optional<LibraryEntry> mesh_library_entry(const godot::String& name);
+// Empty where library.json says nothing of it.
+LibraryEntry mesh_library_entry(const godot::String& name);
 
 }  // namespace tactus

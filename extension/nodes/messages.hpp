@@ -53,17 +53,6 @@ inline godot::String wrong_path(const char* property, const godot::NodePath& pat
            " of the scene: set '" + property + "' anew";
 }
 
-// Whether the value is one of an enum's, counted from 0 to `last`; says why not.
-template <class Enum>
-bool is_one_of(const godot::Object& who, const char* property, Enum value, Enum last, const char* constants) {
-    const auto number = static_cast<int64_t>(value);
-    if (number >= 0 && number <= static_cast<int64_t>(last)) {
-        return true;
-    }
-    refuse(who, property, number, (std::string("one of the constants ") + constants + "_…").c_str());
-    return false;
-}
-
 // Says each text once; an empty one says nothing.
 class Complaints {
 public:

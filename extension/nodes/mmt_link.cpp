@@ -219,6 +219,27 @@ LinkReport MMTLink::at_rest() const {
 
 void MMTLink::clear_report() {
     report_ = at_rest();
+    show_ghosts();
+}
+
+TypedArray<Dictionary> MMTLink::get_ghosts() const {
+    TypedArray<Dictionary> ghosts;
+    const SeenGhosts& seen = report_.teleop.ghosts;
+    for (std::size_t i = 0; i < seen.count; ++i) {
+        Dictionary ghost;
+        ghost["pointer"] = seen.ghosts[i].pointer;
+        ghost["position"] = to_godot(seen.ghosts[i].position);
+        ghost["radius"] = seen.ghosts[i].radius;
+        ghost["touching"] = seen.ghosts[i].touches;
+        ghosts.push_back(ghost);
+    }
+    return ghosts;
+}
+
+void MMTLink::show_ghosts() {
+    if (is_inside_tree()) {
+        ghosts_.show(*this, show_ghosts_ ? report_.teleop.ghosts : SeenGhosts{});
+    }
 }
 
 // Where no world runs it, this node alone can say why.
@@ -250,10 +271,11 @@ void MMTLink::take_report(const LinkReport& report, const std::vector<ModelNews>
     } else if (was_connected && (report.state == LinkState::lost || report.state == LinkState::left)) {
         say("peer_lost");
     }
+    show_ghosts();
     for (const ModelNews& one : news) {
         switch (one.kind) {
             case ModelNews::Kind::discovered:
-                say("object_discovered", to_godot(one.name), NodeId{one.node});
+                say("object_discovered", to_godot(one.name), SignalArgument::object(one.node));
                 break;
             case ModelNews::Kind::removed:
                 say("object_removed", to_godot(one.name));

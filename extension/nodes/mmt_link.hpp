@@ -5,11 +5,13 @@
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <godot_cpp/variant/packed_string_array.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "nodes/ghost_view.hpp"
 #include "nodes/network_conditions.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/teleop_tuning.hpp"
@@ -54,6 +56,7 @@ public:
     State get_state() const;
     godot::String get_state_text() const;
     bool is_peer_connected() const { return report_.state == LinkState::connected; }
+    godot::TypedArray<godot::Dictionary> get_ghosts() const;
     godot::Dictionary get_statistics() const;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
@@ -84,6 +87,7 @@ protected:
 
 private:
     void changed();
+    void show_ghosts();
     void restart_world();
     LinkReport at_rest() const;
     godot::String way_problem() const;
@@ -119,6 +123,8 @@ private:
     std::uint64_t revision_ = 1;
     std::shared_ptr<MemoryLinkPair> wire_;
     LinkReport report_;
+    bool show_ghosts_ = true;
+    GhostView ghosts_;
 };
 
 }  // namespace tactus

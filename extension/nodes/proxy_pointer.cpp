@@ -1,6 +1,5 @@
 #include "nodes/proxy_pointer.hpp"
 
-#include <algorithm>
 #include <godot_cpp/core/object.hpp>
 
 #include "nodes/conversions.hpp"
@@ -13,6 +12,7 @@
 #include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
 #include "world/hand_picture.hpp"
+#include "world/scene_hand.hpp"
 
 namespace tactus {
 
@@ -110,16 +110,7 @@ String ProxyPointer::get_state_text() const {
     if (HapticWorld::of(this) == nullptr) {
         return "no HapticWorld is running: put one into the scene, best above this node";
     }
-    if (state_.handle == no_handle) {
-        return "waiting for the first tick";
-    }
-    if (!is_present()) {
-        return "the hand began inside a body: move it out once";
-    }
-    if (is_being_let_out()) {
-        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
-    }
-    return is_touching() ? "touching" : "free";
+    return to_godot(state_of_fingertip(state_));
 }
 
 PackedStringArray ProxyPointer::_get_configuration_warnings() const {
@@ -160,24 +151,22 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.device = device;
     description.settings.radius = radius_;
     description.settings.mask = mask_;
-    description.force_law =
-        force_law_ == FORCE_LAW_SMOOTHED ? tactus::ForceLaw::smoothed : tactus::ForceLaw::spring;
+    description.force_law = force_law_;
     description.enabled = enabled_;
     return description;
 }
 
-void ProxyPointer::emit_changes(const std::vector<std::uint64_t>& touched) {
-    const std::vector<std::uint64_t> before = std::exchange(touched_, touched);
-    const auto emit_for_missing = [this](const std::vector<std::uint64_t>& in,
-                                         const std::vector<std::uint64_t>& from, const char* signal) {
+void ProxyPointer::emit_changes(std::set<std::uint64_t> touched) {
+    const std::set<std::uint64_t> before = std::exchange(touched_, std::move(touched));
+    const auto emit_for_missing = [this](const auto& in, const auto& from, const char* signal) {
         for (const std::uint64_t body : in) {
-            if (std::find(from.begin(), from.end(), body) == from.end()) {
-                post_signal(*this, signal, {NodeId{body}});
+            if (!from.contains(body)) {
+                post_signal(*this, signal, {SignalArgument::object(body)});
             }
         }
     };
-    emit_for_missing(before, touched, "contact_ended");
-    emit_for_missing(touched, before, "contact_started");
+    emit_for_missing(before, touched_, "contact_ended");
+    emit_for_missing(touched_, before, "contact_started");
 }
 
 void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
@@ -189,13 +178,9 @@ void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
         set_global_position(to_godot(state.position));
     }
     place_pictures();
-    std::vector<std::uint64_t> touched;
-    for (const std::uint64_t body : bodies) {
-        if (body != 0 && std::find(touched.begin(), touched.end(), body) == touched.end()) {
-            touched.push_back(body);
-        }
-    }
-    emit_changes(touched);
+    std::set<std::uint64_t> touched(bodies.begin(), bodies.end());
+    touched.erase(0);
+    emit_changes(std::move(touched));
 }
 
 void ProxyPointer::clear_state() {

@@ -6,7 +6,7 @@
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
-#include <vector>
+#include <set>
 
 #include "nodes/properties.hpp"
 #include "session/session_types.hpp"
@@ -28,7 +28,10 @@ public:
         STATUS_UNFINISHED = proxy_unfinished,
         STATUS_SQUEEZED = proxy_squeezed
     };
-    enum ForceLaw : int64_t { FORCE_LAW_SPRING, FORCE_LAW_SMOOTHED };
+    enum ForceLaw : int64_t {
+        FORCE_LAW_SPRING = static_cast<int64_t>(tactus::ForceLaw::spring),
+        FORCE_LAW_SMOOTHED = static_cast<int64_t>(tactus::ForceLaw::smoothed)
+    };
 
     TACTUS_PROPERTIES(ProxyPointer)
     void set_radius(double meters);
@@ -73,7 +76,7 @@ protected:
 
 private:
     godot::String problem_of_scene() const;
-    void emit_changes(const std::vector<std::uint64_t>& touched);
+    void emit_changes(std::set<std::uint64_t> touched);
     void make_pictures();
     void place_pictures();
     godot::MeshInstance3D* add_picture(const Shape& shape, const godot::Ref<godot::Material>& look);
@@ -87,13 +90,13 @@ private:
     double radius_ = 0.01;
     bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;
-    ForceLaw force_law_ = FORCE_LAW_SPRING;
+    tactus::ForceLaw force_law_ = tactus::ForceLaw::spring;
     bool enabled_ = true;
     bool show_proxy_ = true;
     bool show_hand_ = true;
 
     ProxyState state_;
-    std::vector<std::uint64_t> touched_;  // ids of the bodies that are touched
+    std::set<std::uint64_t> touched_;  // ids of the bodies that are touched
     BodyIds contact_bodies_{};
     godot::MeshInstance3D* proxy_picture_ = nullptr;
     godot::MeshInstance3D* hand_picture_ = nullptr;

@@ -4,6 +4,7 @@
 #include <godot_cpp/godot.hpp>
 
 #include "nodes/body_watch.hpp"
+#include "nodes/depth_sensor.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_material.hpp"
@@ -37,6 +38,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(NetworkConditions);
     GDREGISTER_CLASS(TeleopTuning);
     GDREGISTER_CLASS(MMTLink);
+    GDREGISTER_CLASS(DepthSensor);
     GDREGISTER_CLASS(HapticWorld);
 }
 

@@ -60,16 +60,6 @@ void SceneBodies::synchronise(MirrorContext context) {
     mirrors_.synchronise(context);
 }
 
-SessionHandle SceneBodies::body_of(std::uint64_t node) const {
-    const BodyMirror* mirror = mirrors_.of(node);
-    return mirror != nullptr ? mirror->handle() : no_handle;
-}
-
-std::uint64_t SceneBodies::node_of(SessionHandle body) const {
-    const BodyMirror* mirror = mirrors_.of_handle(body);
-    return mirror != nullptr ? mirror->id() : 0;
-}
-
 CollisionObject3D* SceneBodies::node(std::size_t index) const {
     return node_of_id<CollisionObject3D>(mirrors_.bodies()[index]->id());
 }

@@ -17,8 +17,8 @@ public:
         : world_(world), complaints_(complaints), mirrors_(max_bodies, in_turn) {}
 
     void scene_changed(const godot::Node& node) override;
-    SessionHandle body_of(std::uint64_t node) const override;
-    std::uint64_t node_of(SessionHandle body) const override;
+    SessionHandle body_of(std::uint64_t node) const override { return mirrors_.body_of(node); }
+    std::uint64_t node_of(SessionHandle body) const override { return mirrors_.node_of(body); }
     std::size_t body_count() const override { return mirrors_.bodies().size(); }
     void show(const BodyState& state, std::uint64_t tick) override { mirrors_.show(state, tick); }
     void release(Session& session) override { mirrors_.release(session); }

@@ -1,5 +1,6 @@
 #include "nodes/signals.hpp"
 
+#include <algorithm>
 #include <deque>
 #include <godot_cpp/variant/array.hpp>
 #include <godot_cpp/variant/callable.hpp>
@@ -14,7 +15,7 @@ namespace {
 struct Posted {
     std::uint64_t from = 0;
     const char* name = "";
-    std::array<SignalArgument, max_signal_arguments> arguments;
+    std::vector<SignalArgument> arguments;
 };
 
 std::deque<Posted>& posted() {
@@ -24,26 +25,20 @@ std::deque<Posted>& posted() {
 
 void send(const Posted& signal) {
     Object* from = ObjectDB::get_instance(signal.from);
+    if (from == nullptr || std::ranges::any_of(signal.arguments, &SignalArgument::is_gone)) {
+        return;
+    }
     Array call;
     call.push_back(signal.name);
     for (const SignalArgument& argument : signal.arguments) {
-        Object* object = argument.is_object ? ObjectDB::get_instance(argument.object_id) : nullptr;
-        if (argument.is_object && object == nullptr) {
-            return;
-        }
-        if (argument.is_object || argument.is_value) {
-            call.push_back(argument.is_object ? Variant(object) : argument.value);
-        }
+        call.push_back(argument.value());
     }
-    if (from != nullptr) {
-        from->callv("emit_signal", call);
-    }
+    from->callv("emit_signal", call);
 }
 
 }  // namespace
 
-void post_signal(const Object& from, const char* name,
-                 const std::array<SignalArgument, max_signal_arguments>& arguments) {
+void post_signal(const Object& from, const char* name, const std::vector<SignalArgument>& arguments) {
     if (posted().empty()) {
         callable_mp_static(&deliver_signals).call_deferred();
     }

@@ -5,34 +5,36 @@
 // order of posting. What is gone by then sends nothing, and nothing is sent about nodes that are gone.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/variant.hpp>
+#include <vector>
 
 namespace tactus {
 
-// An object that may be gone by the time the signal is sent.
-struct NodeId {
-    std::uint64_t id = 0;
-};
-
-struct SignalArgument {
-    SignalArgument() = default;
-    SignalArgument(NodeId object) : is_object(true), object_id(object.id) {}
+// A value, or an object that may be gone by the time the signal is sent.
+class SignalArgument {
+public:
     template <class Value>
-    SignalArgument(const Value& plain) : is_value(true), value(plain) {}
+    SignalArgument(const Value& value) : value_(value) {}
+    static SignalArgument object(std::uint64_t id) {
+        SignalArgument argument{godot::Variant()};
+        argument.object_ = id;
+        return argument;
+    }
 
-    bool is_value = false;
-    bool is_object = false;
-    std::uint64_t object_id = 0;
-    godot::Variant value;
+    bool is_gone() const { return object_ != 0 && godot::ObjectDB::get_instance(object_) == nullptr; }
+    godot::Variant value() const {
+        return object_ != 0 ? godot::Variant(godot::ObjectDB::get_instance(object_)) : value_;
+    }
+
+private:
+    godot::Variant value_;
+    std::uint64_t object_ = 0;  // 0: it is a value
 };
-
-constexpr std::size_t max_signal_arguments = 2;
 
 void post_signal(const godot::Object& from, const char* name,
-                 const std::array<SignalArgument, max_signal_arguments>& arguments = {});
+                 const std::vector<SignalArgument>& arguments = {});
 
 // At the end of what a script has called: nothing may be used after it that a handler could free.
 void deliver_signals();

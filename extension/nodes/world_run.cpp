@@ -1,7 +1,6 @@
 #include "nodes/world_run.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/core/object.hpp>
 
 #include "core/haptics/touch_values.hpp"
@@ -20,10 +19,6 @@ namespace tactus {
 using namespace godot;
 
 namespace {
-
-double project_number(const char* name, double otherwise) {
-    return ProjectSettings::get_singleton()->get_setting(name, otherwise);
-}
 
 constexpr const char* too_many_recordings =
     "eight recorders and feedbacks listen to this world already: take one of them away";
@@ -56,8 +51,6 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
       running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
                plans_of(settings.links)),
       bodies_(world, settings.session.most_bodies, settings.real_time, complaints_) {
-    defaults_.linear_damping = project_number("physics/3d/default_linear_damp", 0.1);
-    defaults_.angular_damping = project_number("physics/3d/default_angular_damp", 0.1);
     for (const MMTLink* link : settings.links) {
         link_nodes_.push_back(link->get_instance_id());
     }
@@ -110,7 +103,7 @@ void WorldRun::synchronise(double seconds) {
     synchronise_recorders();
     for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
         if (!feedback->is_wanted()) {
-            forget(*feedback);
+            running_.listeners().end(session(), feedback->get_instance_id());
         } else if (HapticWorld::of(feedback) == &world_) {
             give_ticks(*feedback, feedback->ring(), no_handle);
         }
@@ -139,13 +132,11 @@ void WorldRun::look_at_scene() {
 
 void WorldRun::synchronise_bodies(double seconds) {
     running_.push_for(seconds);
-    const TouchMaterial touch = world_.default_touch();
-    const std::shared_ptr<const HeightImage> texture = world_.default_texture();
-    if (!same_values(touch, defaults_.touch) || texture != defaults_.texture) {
+    const BodyDefaults defaults = world_.body_defaults();
+    if (!same_values(defaults.touch, defaults_.touch) || defaults.texture != defaults_.texture) {
         bodies_.mirrors().note_all_changed();
     }
-    defaults_.touch = touch;
-    defaults_.texture = texture;
+    defaults_ = defaults;
     bodies_.mirrors().touched(hands_->touched());
     // In real time a tick may be under way that has already taken its commands.
     const std::uint64_t takes_effect = loop().ticks() + (loop().is_real_time() ? 2 : 1);
@@ -212,12 +203,12 @@ void WorldRun::give_ticks(const NodeType& node, const std::shared_ptr<TickRing>&
 
 // --- what leaves
 
-void WorldRun::forget(HapticFeedback& feedback) {
-    running_.listeners().end(session(), feedback.get_instance_id());
-}
-
-void WorldRun::forget(MMTLink& link) {
-    std::ranges::replace(link_nodes_, link.get_instance_id(), std::uint64_t{0});
+void WorldRun::node_removed(const Node& node) {
+    const std::uint64_t id = node.get_instance_id();
+    hands_->forget(id, session());
+    running_.listeners().end(session(), id);
+    std::ranges::replace(link_nodes_, id, std::uint64_t{0});
+    view().scene_changed(node);
 }
 
 void WorldRun::finish(HapticRecorder& recorder) {
@@ -228,17 +219,6 @@ void WorldRun::finish(HapticRecorder& recorder) {
 }
 
 // --- from the session to Godot
-
-const BodyState* WorldRun::state_of(const Node* node) {
-    const SessionHandle body = body_of(node);
-    const SessionSnapshot& snapshot = session().snapshot();
-    for (std::size_t i = 0; body != no_handle && i < snapshot.body_count; ++i) {
-        if (snapshot.bodies[i].handle == body) {
-            return &snapshot.bodies[i];
-        }
-    }
-    return nullptr;
-}
 
 void WorldRun::show() {
     const Busy busy(is_busy_);

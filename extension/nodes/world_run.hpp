@@ -16,8 +16,6 @@
 
 namespace tactus {
 
-class HapticDevice;
-class HapticFeedback;
 class HapticRecorder;
 class HapticWorld;
 class MMTLink;
@@ -50,12 +48,9 @@ public:
     // Shows in the scene tree what the loop has done.
     void show();
 
-    // A node has come or gone.
+    // A node has come; one is about to go.
     void scene_changed(const godot::Node& node) { view().scene_changed(node); }
-    void forget(HapticDevice& device) { hands_->forget(device, session()); }
-    void forget(ProxyPointer& proxy) { hands_->forget(proxy, session()); }
-    void forget(HapticFeedback& feedback);
-    void forget(MMTLink& link);
+    void node_removed(const godot::Node& node);
     // The recorder is about to close its files: gives it what is there, then lets it go.
     void finish(HapticRecorder& recorder);
 
@@ -63,8 +58,7 @@ public:
     SessionHandle body_of(const godot::Node* node) {
         return node != nullptr ? view().body_of(node->get_instance_id()) : no_handle;
     }
-    // Of one that can move, as shown last; null where there is none.
-    const BodyState* state_of(const godot::Node* node);
+    BodyState state_of(const godot::Node* node) { return running_.state_of(body_of(node)); }
 
     const SceneBodies& bodies() const { return bodies_; }
     RunningWorld& running() { return running_; }
@@ -97,8 +91,8 @@ private:
     SceneBodies bodies_;
     std::unique_ptr<HandMirrors> hands_;
     std::uint64_t recorder_ = 0;  // id of the HapticRecorder that records this world
-    BodyDefaults defaults_;
-    std::uint32_t looks_ = 0;  // synchronise() so far
+    BodyDefaults defaults_;       // as of the last frame
+    std::uint32_t looks_ = 0;     // synchronise() so far
 };
 
 }  // namespace tactus

@@ -34,17 +34,6 @@ const Packet* Channel::receive() {
     return received ? &received->packet : nullptr;
 }
 
-JitterBufferSettings Channel::jitter_buffer(double seconds) const {
-    const Nanoseconds period = link_.statistics().peer_hello.period;
-    JitterBufferSettings buffer;
-    buffer.depth = settings_.buffer_depth;
-    buffer.sparse = settings_.deadband.enabled;
-    buffer.seconds = seconds;
-    buffer.sample_seconds = period > 0 ? to_seconds(period) : seconds;
-    buffer.guess_seconds = 2.0 * to_seconds(settings_.deadband.longest_silence);
-    return buffer;
-}
-
 void Channel::end_tick(TeleopStatistics& statistics) {
     link_.end_tick();
     statistics.link = link_.statistics();

@@ -33,9 +33,6 @@ public:
     // Last thing in a tick: what is due goes out, and the owner is told.
     void end_tick(TeleopStatistics& statistics);
 
-    // For what the far side samples, played out in ticks of `seconds`.
-    JitterBufferSettings jitter_buffer(double seconds) const;
-
     Endpoint& link() { return link_; }
     const Endpoint& link() const { return link_; }
     TeleopPort& port() { return *port_; }

@@ -32,6 +32,9 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
 
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     changed_ = loop.take_touch_change();
+    for (std::size_t i = 0; i < most_proxies; ++i) {
+        changed_ = changed_ || has_leapt(loop, loop.proxy(i).state);
+    }
     if (channel_.begin_tick(now)) {
         take_settings(loop);
     }
@@ -44,7 +47,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
             hands_.push_back(slot.hand);
         }
     }
-    receive(loop);
+    receive(loop, now);
     statistics_.cost = {};
     targets_.clear();
     corrected_ = false;
@@ -109,7 +112,7 @@ void OperatorSide::begin_model(SessionLoop& loop) {
 
 // --- receiving
 
-void OperatorSide::receive(SessionLoop& loop) {
+void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
     start_over_if_peer_has();
     ObjectBinding binding;
     while (channel_.port().bindings.try_pop(binding)) {
@@ -125,6 +128,8 @@ void OperatorSide::receive(SessionLoop& loop) {
             for (std::size_t i = 0; i < forces->count; ++i) {
                 take(forces->samples[i]);
             }
+        } else if (const auto* const ghosts = std::get_if<Ghosts>(message)) {
+            ghosts_.take(*ghosts, packet->header.sequence, settings().frame, now);
         } else if (const auto* const piece = std::get_if<DiscoveryFragment>(message)) {
             if (!restart_waits_) {
                 discovery.put(*piece);
@@ -149,6 +154,7 @@ void OperatorSide::forget_far_side() {
     truths_.forget_all();
     std::ranges::fill(filters_, PoseFilter{});
     eyes_ = {};
+    ghosts_.forget();
     std::ranges::fill(body_of_object_, no_handle);
     std::ranges::fill(object_of_body_, no_object);
     traditional_.forget();
@@ -461,6 +467,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     samples_.end_tick(channel_.link(), now);
     acknowledge();
     statistics_.sample = sample_;
+    statistics_.ghosts = ghosts_.seen(now);
     channel_.end_tick(statistics_);
 }
 

@@ -16,6 +16,7 @@
 #include "network/sample_stream.hpp"
 #include "session/carried_pointer.hpp"
 #include "session/channel.hpp"
+#include "session/ghosts.hpp"
 #include "session/resimulator.hpp"
 #include "session/traditional_touch.hpp"
 
@@ -90,7 +91,7 @@ private:
     void begin_model(SessionLoop& loop);
     void forget_past();
     void forget_far_side();
-    void receive(SessionLoop& loop);
+    void receive(SessionLoop& loop, Nanoseconds now);
     void start_over_if_peer_has();
     void bind(const ObjectBinding& binding);
     void forget_body(SessionHandle body);
@@ -126,6 +127,7 @@ private:
                       bool changed);
     Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
     void note_given(SessionLoop& loop, std::size_t index);
+    bool has_leapt(SessionLoop& loop, const ProxyState& touch) const;
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 
@@ -148,6 +150,7 @@ private:
     std::vector<Pupil> pupils_;                 // of this tick
     std::vector<PoseFilter> filters_;           // by body
     FarEyes eyes_;
+    GhostEar ghosts_;
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there

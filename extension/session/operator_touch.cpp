@@ -54,6 +54,9 @@ std::uint32_t felt_status(FeltState state) {
     return 0;
 }
 
+// A body that has gone so much farther than its rates say has been put there (unit: meters).
+constexpr double leap = 2e-4;
+
 // A far side that has heard nothing more of the hand for so long has lost it (unit: seconds).
 constexpr double usual_silence = 0.5;
 
@@ -216,10 +219,35 @@ void OperatorSide::note_given(SessionLoop& loop, std::size_t index) {
     pointer.passivity.given(settings().passive, pointer.force, seconds_);
 }
 
+// Whether what is touched is not where its motion leads: a joint, say, has put it there.
+bool OperatorSide::has_leapt(SessionLoop& loop, const ProxyState& touch) const {
+    if (settings().traditional) {
+        return false;
+    }
+    for (int i = 0; i < touch.contact_count; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const SessionLoop::Body* const body = loop.body(touch.bodies[at]);
+        if (!body || body->motion != Motion::Dynamic) {
+            continue;
+        }
+        const TouchBody& touched = loop.scene().body(body->slot);
+        const Vec3& point = touch.points[at];
+        const double way = glm::distance(to_parent(touched.pose, to_local(touched.previous, point)), point);
+        const BodyMotion motion = loop.motion(touch.bodies[at]);
+        const double speed =
+            glm::length(motion.linear_velocity) +
+            glm::length(motion.angular_velocity) * glm::distance(point, touched.pose.position);
+        if (way > 2.0 * speed * seconds_ + leap) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now) {
     Pointer& pointer = pointers_[index];
     const Vec3 way = pointer.known ? slot.hand - pointer.hand : Vec3(0.0);
-    bool changed = changed_;
+    bool changed = changed_ || (!corrected_ && has_leapt(loop, slot.state));
     FeltInput in;
     in.hand_velocity = way / seconds_;
     in.seconds = seconds_;
@@ -256,7 +284,7 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     }
     slot.state.force = pointer.felt.feel(settings().stealth, in);
     pointer.modelled_before =
-        pointer.known && !changed ? pointer.modelled : modelled;  // a change is no trend
+        pointer.known && !changed && !corrected_ ? pointer.modelled : modelled;  // a change is no trend
     pointer.modelled = modelled;
     pointer.hand = slot.hand;
     pointer.known = true;
@@ -264,9 +292,17 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
 }
 
 // A correction's part is known to the bit. Any other change of what is touched, or of who answers, is what
-// the force has changed by beyond what the hand's own way can have made of it.
+// the force had changed by without the correction, beyond what the hand's own way can have made of it.
 void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
                                 bool changed) {
+    if (changed && pointer.known) {
+        const Vec3 expected = pointer.modelled + (pointer.modelled - pointer.modelled_before);
+        const Vec3& uncorrected = corrected_ ? pointer.uncorrected : modelled;
+        const double natural = 2.0 * stiffness * glm::length(way) + no_force;
+        if (glm::distance(expected, uncorrected) > natural) {
+            pointer.felt.hide(expected, uncorrected);
+        }
+    }
     if (corrected_) {
         CorrectionCost& cost = statistics_.cost;
         const Vec3 before = pointer.uncorrected + pointer.felt.hidden();
@@ -278,14 +314,6 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
             pointer.update.changed(pointer.uncorrected, modelled, stiffness);
         }
         cost.force_step = std::max(cost.force_step, glm::distance(modelled + pointer.felt.hidden(), before));
-    }
-    if (changed && pointer.known) {
-        const Vec3 expected = pointer.modelled + (pointer.modelled - pointer.modelled_before);
-        const double off = glm::distance(expected, modelled);
-        const double natural = 2.0 * stiffness * glm::length(way) + no_force;
-        if (off > natural) {
-            pointer.felt.hide(expected, modelled);
-        }
     }
 }
 

@@ -27,26 +27,17 @@ RobotBody body_of(const DeviceCapabilities& robot) {
 
 RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                      std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
-    : channel_(settings, link, std::move(port), endpoint), seconds_(to_seconds(session.period)) {
-    set_buffers();
-}
-
-void RobotSide::set_buffers() {
-    peer_period_ = channel_.link().statistics().peer_hello.period;
-    const JitterBufferSettings buffer = channel_.jitter_buffer(seconds_);
-    for (Pointer& pointer : pointers_) {
-        pointer.buffer.set_settings(buffer);
-    }
-}
+    : channel_(settings, link, std::move(port), endpoint),
+      hands_(channel_, most_proxies, to_seconds(session.period)),
+      seconds_(to_seconds(session.period)) {}
 
 void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (channel_.begin_tick(now) || channel_.link().statistics().peer_hello.period != peer_period_) {
-        set_buffers();
-    }
+    const bool changed = channel_.begin_tick(now);
     receive();
+    hands_.follow(channel_, changed);
     for (std::size_t i = 0; i < most_proxies; ++i) {
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
-            play(loop, pointers_[i], slot);
+            play(loop, i, slot);
         }
     }
 }
@@ -55,25 +46,20 @@ void RobotSide::receive() {
     while (const Packet* const packet = channel_.receive()) {
         if (channel_.peer_has_started()) {
             statistics_.sample = no_sample;
+            hands_.restart();
             for (Pointer& pointer : pointers_) {
-                if (pointer.buffer.counts().exact > 0) {
-                    pointer.buffer.restart();
-                }
                 pointer.holds = false;
             }
         }
         if (const auto* const samples = std::get_if<OperatorSamples>(&packet->message)) {
-            for (std::size_t i = 0; i < samples->count; ++i) {
-                if (samples->samples[i].pointer < most_proxies) {
-                    pointers_[samples->samples[i].pointer].buffer.insert(samples->samples[i]);
-                }
-            }
+            hands_.take(*samples);
         }
     }
 }
 
-void RobotSide::play(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) {
-    const bool waits = pointer.buffer.play(pointer.played) == Playing::waiting;
+void RobotSide::play(const SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot) {
+    Pointer& pointer = pointers_[index];
+    const bool waits = hands_.play(index, pointer.played) == Playing::waiting;
     const RobotView robot = loop.robot(slot.description.device);
     if (waits || !pointer.played.connected || !robot.connected || !channel_.link().hears_peer()) {
         pointer.holds = false;
@@ -148,8 +134,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
             pointer.had_hand = slot.hand;
         }
     }
-    statistics_.buffer = pointers_[0].buffer.counts();
-    statistics_.buffer_depth = pointers_[0].buffer.depth();
+    hands_.tell(statistics_);
     channel_.end_tick(statistics_);
 }
 

@@ -6,9 +6,8 @@
 //     robot's place, force of its motors -> momentum observer -> contact force -> operator
 #pragma once
 
-#include "core/teleop/jitter_buffer.hpp"
 #include "core/teleop/robot_drive.hpp"
-#include "session/channel.hpp"
+#include "session/played_hands.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
@@ -27,7 +26,6 @@ public:
 
 private:
     struct Pointer {
-        JitterBuffer<OperatorSample> buffer;
         OperatorSample played;
         FarPassivity passivity;
         ContactObserver observer;
@@ -42,15 +40,14 @@ private:
     };
 
     const TeleopSettings& settings() const { return channel_.settings(); }
-    void set_buffers();
     void receive();
-    void play(const SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot);
+    void play(const SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
 
     Channel channel_;
-    double seconds_;               // of a tick
-    Nanoseconds peer_period_ = 0;  // of a tick of the operator, as the buffers have it
+    PlayedHands hands_;
+    double seconds_;  // of a tick
     std::array<Pointer, most_proxies> pointers_;
     TeleopStatistics statistics_;
 };

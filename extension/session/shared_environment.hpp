@@ -1,5 +1,6 @@
 // Several operators on one environment. Each has a side of its own, with its own link, pointers and truths,
-// and is a ghost to the others: they know of it only what it does to the bodies.
+// and is a ghost to the others: they see where its hands are (ghosts.hpp), and feel only what it does to the
+// bodies.
 #pragma once
 
 #include <memory>

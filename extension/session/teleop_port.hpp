@@ -26,6 +26,7 @@
 #include "network/endpoint.hpp"
 #include "realtime/spsc_ring.hpp"
 #include "realtime/triple_buffer.hpp"
+#include "session/ghosts.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {
@@ -86,6 +87,7 @@ struct TeleopStatistics {
     std::uint64_t let_go = 0;  // times that a pointer has begun to let go of what was too large to hide
     EnergyFigures energy;
     std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past
+    SeenGhosts ghosts;               // operator: the hands of others
     BufferCounts buffer;
     std::uint64_t buffer_depth = 0;
 };

@@ -11,13 +11,6 @@ namespace tactus {
 
 namespace {
 
-// Where a body has come to rest is said so many ticks longer: some of it is lost.
-constexpr std::uint64_t linger = 200;
-
-// Nobody sees such a difference in a body that moves (unit: meters, radians).
-constexpr double seen_position = 1e-3;
-constexpr double seen_angle = 0.02;
-
 // A hand that comes back no farther from where it was lost, in the frame of what it pressed, presses still
 // (unit: meters).
 constexpr double same_hand = 0.05;
@@ -28,41 +21,22 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
                                    std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint,
                                    const PointerShare& share)
     : channel_(settings, link, std::move(port), endpoint),
+      states_(session.most_bodies),
       share_(share),
-      seconds_(to_seconds(session.period)),
-      moved_at_(session.most_bodies),
-      told_(session.most_bodies) {
-    set_buffers();
-}
-
-void TeleoperatorSide::set_buffers() {
-    peer_period_ = channel_.link().statistics().peer_hello.period;
-    const JitterBufferSettings buffer = channel_.jitter_buffer(seconds_);
-    for (Pointer& pointer : pointers_) {
-        pointer.buffer.set_settings(buffer);
-    }
-}
+      hands_(channel_, share.most(), to_seconds(session.period)),
+      seconds_(to_seconds(session.period)) {}
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
-    if (channel_.begin_tick(now)) {
-        set_buffers();
-    }
+    const bool changed = channel_.begin_tick(now);
     take_orders();
-    ++tick_;
     receive();
-    if (const std::uint64_t missing = channel_.link().statistics().missing; missing != missing_) {
-        lost_at_ = missing > missing_ ? tick_ : lost_at_;
-        missing_ = missing;
-    }
-    if (channel_.link().statistics().peer_hello.period != peer_period_) {
-        set_buffers();
-    }
+    hands_.follow(channel_, changed);
     if (!channel_.link().hears_peer()) {
         release_hands();
     }
     for (std::size_t i = 0; i < share_.most(); ++i) {
         if (SessionLoop::ProxySlot& slot = slot_of(loop, i); slot.proxy) {
-            play(loop, pointers_[i], slot);
+            play(loop, i, slot);
         }
     }
 }
@@ -88,13 +62,11 @@ void TeleoperatorSide::receive() {
         start_over_if_peer_has();
         const Message& message = packet->message;
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
-            for (std::size_t i = 0; i < samples->count; ++i) {
-                if (samples->samples[i].pointer < share_.most()) {
-                    pointers_[samples->samples[i].pointer].buffer.insert(samples->samples[i]);
-                }
-            }
+            hands_.take(*samples);
         } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&message)) {
-            discovery_.take(*known);
+            if (discovery_.take(*known)) {
+                states_.described(known->object);
+            }
         }
     }
 }
@@ -103,16 +75,15 @@ void TeleoperatorSide::start_over_if_peer_has() {
     if (channel_.peer_has_started()) {
         release_hands();
         discovery_.restart();
+        states_.restart();
     }
 }
 
 // Nobody is there: the pointers touch nothing, and what comes next is a new beginning.
 void TeleoperatorSide::release_hands() {
     newest_applied_ = no_sample;
+    hands_.restart();
     for (Pointer& pointer : pointers_) {
-        if (pointer.buffer.counts().exact > 0) {
-            pointer.buffer.restart();
-        }
         pointer.holds = false;
     }
 }
@@ -131,8 +102,9 @@ void TeleoperatorSide::describe(Nanoseconds now) {
     }
 }
 
-void TeleoperatorSide::play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) {
-    const bool waits = pointer.buffer.play(pointer.played) == Playing::waiting;
+void TeleoperatorSide::play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot) {
+    Pointer& pointer = pointers_[index];
+    const bool waits = hands_.play(index, pointer.played) == Playing::waiting;
     if (!waits) {
         const Pose& frame = settings().frame;
         pointer.here = pointer.played;
@@ -232,9 +204,12 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
 }
 
 void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
-    send_states(loop, now);
+    states_.tell(loop, channel_, newest_applied_, now);
     if (settings().traditional) {
         send_forces(loop, now);
+    }
+    if (const Ghosts* const others = ghosts_.due(loop, share_, settings().frame, now)) {
+        channel_.send(*others);
     }
     for (std::size_t i = 0; i < share_.most(); ++i) {
         Pointer& pointer = pointers_[i];
@@ -250,79 +225,9 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     }
     describe(now);
     statistics_.sample = newest_applied_;
-    statistics_.buffer = pointers_[0].buffer.counts();
-    statistics_.buffer_depth = pointers_[0].buffer.depth();
+    hands_.tell(statistics_);
     statistics_.discovery = discovery_.counts();
     channel_.end_tick(statistics_);
-}
-
-// Whether packets have been lost lately. What the far side loses is known to it alone; links mostly lose both
-// ways.
-bool TeleoperatorSide::loses() const {
-    constexpr std::uint64_t lately = 1000;
-    return lost_at_ != 0 && tick_ - lost_at_ < lately;
-}
-
-// What moves is said often; with a deadband, when it goes on otherwise than was said.
-bool TeleoperatorSide::state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const {
-    const Told& told = told_[body];
-    if (moved_at_[body] == 0 || tick_ - moved_at_[body] >= linger) {
-        return false;
-    }
-    const auto handle = static_cast<SessionHandle>(body);
-    if (told.again && tick_ - told.tick >= settings().states_every) {
-        return true;  // what was said may have been lost
-    }
-    if (!settings().deadband.enabled || told.tick == 0 || loop.asleep(handle) != told.asleep ||
-        now - told.time >= settings().deadband.longest_silence) {
-        return true;
-    }
-    DerivationInput since;
-    since.received = told.motion;
-    since.seconds = static_cast<double>(tick_ - told.tick) * seconds_;
-    DeadbandSettings band = settings().deadband;
-    if (settings().traditional) {
-        // What is only seen may be off by more.
-        band.position = std::max(band.position, seen_position);
-        band.angle = std::max(band.angle, seen_angle);
-    }
-    return motion_needs_sending(band, derive(Derivation::velocity, since), loop.motion(handle));
-}
-
-// States by need: what moves often, everything now and then.
-void TeleoperatorSide::send_states(SessionLoop& loop, Nanoseconds now) {
-    for (std::size_t i = 0; i < moved_at_.size(); ++i) {
-        if (const auto handle = static_cast<SessionHandle>(i); loop.body(handle) && !loop.asleep(handle)) {
-            moved_at_[i] = tick_;
-        }
-    }
-    const bool everything = tick_ % std::max(1u, settings().refresh_every) == 0;
-    if (!everything && tick_ % std::max(1u, settings().states_every) != 0) {
-        return;
-    }
-    ObjectStates message;
-    message.true_at = channel_.link().local_time(now);
-    message.newest_operator_sample = newest_applied_;
-    for (std::size_t i = 0; i < moved_at_.size(); ++i) {
-        const auto handle = static_cast<SessionHandle>(i);
-        const SessionLoop::Body* const body = loop.body(handle);
-        if (!body || (!everything && !state_needs_sending(loop, i, now))) {
-            continue;
-        }
-        const BodyMotion motion = loop.motion(handle);
-        told_[i] = {motion, tick_, now, loop.asleep(handle),
-                    settings().deadband.enabled && loses() && !told_[i].again};
-        const BodyMotion said = to_local(settings().frame, motion);
-        message.states[message.count++] = {static_cast<ObjectId>(handle), loop.asleep(handle), said.pose,
-                                           said.linear_velocity, said.angular_velocity};
-        if (message.count == ObjectStates::most) {
-            channel_.link().send(message);
-            message.count = 0;
-        }
-    }
-    if (message.count > 0) {
-        channel_.link().send(message);
-    }
 }
 
 void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {

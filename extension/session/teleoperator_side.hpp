@@ -3,7 +3,9 @@
 #pragma once
 
 #include "session/channel.hpp"
-#include "session/session_loop.hpp"
+#include "session/ghosts.hpp"
+#include "session/played_hands.hpp"
+#include "session/state_teller.hpp"
 
 namespace tactus {
 
@@ -14,6 +16,7 @@ struct PointerShare {
 
     // That stands in for a pointer of the operator.
     std::size_t proxy_of(std::size_t pointer) const { return first + pointer * every; }
+    bool has(std::size_t proxy) const { return proxy >= first && (proxy - first) % every == 0; }
     // Pointers of the operator that can have one.
     std::size_t most() const { return first < most_proxies ? (most_proxies - first + every - 1) / every : 0; }
 };
@@ -31,7 +34,6 @@ public:
 
 private:
     struct Pointer {
-        JitterBuffer<OperatorSample> buffer;
         OperatorSample played;
         OperatorSample here;                   // the same in this side's scene
         bool holds = false;                    // a hand is there
@@ -44,15 +46,6 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
-    // What was said about a body last.
-    struct Told {
-        BodyMotion motion;
-        std::uint64_t tick = 0;  // 0: never
-        Nanoseconds time = 0;
-        bool asleep = false;
-        bool again = false;  // is to be said once more: the first may have been lost
-    };
-
     const TeleopSettings& settings() const { return channel_.settings(); }
     SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
         return loop.proxy(share_.proxy_of(pointer));
@@ -62,32 +55,25 @@ private:
     void start_over_if_peer_has();
     void release_hands();
     void describe(Nanoseconds now);
-    void play(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);
+    void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     Vec3 passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
-    void set_buffers();
-    bool loses() const;
-    bool state_needs_sending(SessionLoop& loop, std::size_t body, Nanoseconds now) const;
-    void send_states(SessionLoop& loop, Nanoseconds now);
     void send_forces(SessionLoop& loop, Nanoseconds now);
     bool force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
     ForceSample force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
 
     Channel channel_;
     DiscoverySender discovery_;
+    GhostTeller ghosts_;
+    StateTeller states_;
     PointerShare share_;
-    double seconds_;                       // of a tick
-    Nanoseconds peer_period_ = 0;          // of a tick of the operator, as the buffers have it
-    std::vector<std::uint64_t> moved_at_;  // by body: the tick in which it was awake last
-    std::vector<Told> told_;               // by body
+    PlayedHands hands_;
+    double seconds_;  // of a tick
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
-    std::uint64_t tick_ = 0;
-    std::uint64_t missing_ = 0;  // packets of the operator, so far
-    std::uint64_t lost_at_ = 0;  // the tick in which one more was
     TeleopStatistics statistics_;
 };
 

@@ -66,8 +66,14 @@ const BodyMirror* BodyMirrors::of(std::uint64_t body) const {
     return found != by_body_.end() ? found->second : nullptr;
 }
 
-const BodyMirror* BodyMirrors::of_handle(SessionHandle handle) const {
-    return handle < by_handle_.size() ? by_handle_[handle].mirror : nullptr;
+SessionHandle BodyMirrors::body_of(std::uint64_t node) const {
+    const BodyMirror* mirror = of(node);
+    return mirror != nullptr ? mirror->handle() : no_handle;
+}
+
+std::uint64_t BodyMirrors::node_of(SessionHandle body) const {
+    const BodyMirror* mirror = body < by_handle_.size() ? by_handle_[body].mirror : nullptr;
+    return mirror != nullptr ? mirror->id() : 0;
 }
 
 void BodyMirrors::take_handle(BodyMirror& mirror, SessionHandle before) {

@@ -54,8 +54,9 @@ public:
 
     const std::vector<std::unique_ptr<BodyMirror>>& bodies() const { return bodies_; }
     const std::vector<std::unique_ptr<JointMirror>>& joints() const { return joints_; }
-    const BodyMirror* of(std::uint64_t body) const;
-    const BodyMirror* of_handle(SessionHandle handle) const;
+    const BodyMirror* of(std::uint64_t body) const;  // null: there is none; likewise below
+    SessionHandle body_of(std::uint64_t node) const;
+    std::uint64_t node_of(SessionHandle body) const;
     SceneFacts facts() const;
     // What can be touched, of these layers; `index` is that in bodies().
     std::vector<QueriedBody> touchable(std::uint32_t mask) const;

@@ -1,5 +1,7 @@
 #include "world/recording.hpp"
 
+#include <utility>
+
 #include "platform/file.hpp"
 #include "session/record_csv.hpp"
 
@@ -41,11 +43,16 @@ Recording::File Recording::create(const std::string& path) const {
     return file;
 }
 
-Recording::~Recording() {
+void Recording::close() {
+    if (!std::exchange(is_open_, false)) {
+        return;
+    }
     const Nanoseconds origin = ticks_.empty() ? 0 : ticks_.front().start;
     if (trace_ != nullptr && !write_trace_events(trace_.get(), ticks_, origin, "haptic loop")) {
         say_(cut_short(files_.trace));
     }
+    csv_.reset();
+    trace_.reset();
 }
 
 void Recording::drain(Nanoseconds epoch) {

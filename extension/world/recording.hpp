@@ -30,13 +30,17 @@ public:
 
     // Makes the folders. Null where neither file can be written.
     static std::unique_ptr<Recording> open(const RecordingFiles& files, const Say& say);
-    ~Recording();  // the trace is written
+    ~Recording() { close(); }
     Recording(const Recording&) = delete;
     Recording& operator=(const Recording&) = delete;
 
     bool has_trace() const { return trace_ != nullptr; }
     // The loop may still be writing into it when the recording has ended.
     const std::shared_ptr<Ring>& ring() const { return ring_; }
+
+    // The trace is written, and files get nothing more.
+    void close();
+    bool is_open() const { return is_open_; }
 
     // `epoch`: the zero of the session's clock, on the clock whose microseconds the file shows.
     void drain(Nanoseconds epoch);
@@ -61,6 +65,7 @@ private:
     File trace_;
     std::string text_;
     std::vector<TickRecord> ticks_;
+    bool is_open_ = true;
     std::uint64_t rows_ = 0;
     std::uint64_t lost_ = 0;
 };

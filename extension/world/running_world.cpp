@@ -88,6 +88,14 @@ void RunningWorld::push_for(double seconds) {
     forces_.clear();
 }
 
+BodyState RunningWorld::state_of(SessionHandle body) {
+    const SessionSnapshot& snapshot = session_.snapshot();
+    const auto end = snapshot.bodies.begin() + static_cast<std::ptrdiff_t>(snapshot.body_count);
+    const auto found = std::find_if(snapshot.bodies.begin(), end,
+                                    [body](const BodyState& state) { return state.handle == body; });
+    return found != end ? *found : BodyState{};
+}
+
 // --- far sides
 
 bool RunningWorld::synchronise(WorldLink& link, const std::optional<LinkPlan>& plan, const Vec3& gravity) {

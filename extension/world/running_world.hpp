@@ -51,6 +51,8 @@ public:
     // In the next tick; `for_a_frame`: a force of that size, and its torque, for as long as the next frame
     // is.
     void push(SessionHandle body, const BodyPush& push, bool for_a_frame);
+    // Of one that can move, as of the snapshot; at rest where there is none.
+    BodyState state_of(SessionHandle body);
     // The next frame is so long.
     void push_for(double seconds);
 

@@ -82,4 +82,17 @@ std::string state_of_hand(const DeviceState& state, bool has_driver, const std::
     return too_stiff.empty() ? text : text + "; " + too_stiff;
 }
 
+std::string state_of_fingertip(const ProxyState& state) {
+    if (state.handle == no_handle) {
+        return "waiting for the first tick";
+    }
+    if ((state.status & proxy_absent) != 0) {
+        return "the hand began inside a body: move it out once";
+    }
+    if ((state.status & proxy_letting_out) != 0) {
+        return "a body has come to stand where the hand is, and is not felt until the hand is out of it";
+    }
+    return (state.status & proxy_touching) != 0 ? "touching" : "free";
+}
+
 }  // namespace tactus

@@ -82,4 +82,7 @@ private:
 // driver has to say.
 std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said);
 
+// What a fingertip does, or why it is not felt.
+std::string state_of_fingertip(const ProxyState& state);
+
 }  // namespace tactus

@@ -97,6 +97,7 @@ void attack_with_kind(Report& report, Totals& totals, std::size_t kind, std::uin
         report.set(key + "force_steps", static_cast<double>(figures.force_steps));
         report.set(key + "largest_force_step_N", figures.largest_force_step);
         report.set(key + "memory_growth_mb", figures.memory_growth_mb);
+        report.set(key + "model_changes", static_cast<double>(figures.model_changes));
         report.set(key + "not_recovered", static_cast<double>(figures.not_recovered));
     }
     totals.packets = std::min(totals.packets, static_cast<double>(thrown));

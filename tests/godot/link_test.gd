@@ -291,6 +291,31 @@ func test_several_operators_touch_one_environment() -> void:
 		check_near(_felt(world), Vector3(0, 8, 0), 1e-3, "force at " + world.name)
 	check_near((_far.get_node("Proxy") as ProxyPointer).get_force().y, 10.0, 1e-3, "the first one's hand")
 	check_near(second.get_force().y, 10.0, 1e-3, "the guest's hand")
+	await frames(1)
+	var others := {_here: second, at_guest: _far.get_node("Proxy")}
+	for link: MMTLink in others:
+		var ghosts := link.get_ghosts()
+		check_equal(ghosts.size(), 1, "ghosts at " + link.get_parent().name)
+		if ghosts.size() == 1:
+			var other: ProxyPointer = others[link]
+			check_near(ghosts[0].position, other.get_proxy_position(), 2e-4, "the other's fingertip")
+			check_near(ghosts[0].radius, other.radius, 1e-6, "its radius")
+			check(ghosts[0].touching, "it touches")
+	check_equal(_balls(_here), 1, "ghosts that are seen")
+	_here.show_ghosts = false
+	check_equal(_balls(_here), 0, "ghosts that are seen when none are asked for")
+	check_equal(_there.get_ghosts().size(), 0, "ghosts at the far side")
+
+
+func _balls(link: MMTLink) -> int:
+	return (
+		link
+		. get_children(true)
+		. filter(
+			func(child: Node) -> bool: return child is MeshInstance3D and (child as MeshInstance3D).visible
+		)
+		. size()
+	)
 
 
 func test_a_link_says_what_it_lacks() -> void:

@@ -84,6 +84,7 @@ inline std::vector<Message> one_of_each() {
         states,
         samples,
         forces,
+        Ghosts{2, {Ghost{1, true, {0.5, -1.25, 2.0}, 0.01}, Ghost{3, false, {0.0, 0.125, -3.0}, 0.0055}}},
     };
 }
 

@@ -102,6 +102,44 @@ TEST(ModelJoints, AMotorTurnsTheModelToo) {
     rig.expect_same(1e-3);
 }
 
+// A joint that does not fit takes the body to where it does, at once, and the far side's truth takes it back.
+TEST(ModelJoints, OneThatTakesAwayWhatIsPressedIsNoStep) {
+    ModelRig rig;
+    rig.far->add("Ground", body(BoxShape{{1.0, 0.05, 1.0}}, {0.0, -0.05, 0.0}, Motion::Static));
+    const SessionHandle box =
+        rig.far->add("Box", body(BoxShape{Vec3(0.05)}, {0.0, 0.05, 0.0}, Motion::Dynamic, 0.3));
+    rig.run(1000 * ms);
+    rig.near->device.position = {0.0, 0.2, 0.0};
+    rig.run(100 * ms);
+    while (glm::length(rig.near->device.force) < 2.0 && rig.near->device.position.y > 0.05) {
+        rig.near->device.position.y -= 1e-4;
+        rig.run(ms);
+    }
+    rig.run(200 * ms);
+    ASSERT_GT(glm::length(rig.near->device.force), 1.5);
+    JointDescription elsewhere;
+    elsewhere.kind = JointKind::Pin;
+    elsewhere.second_frame = Pose{{0.0, 0.2, 0.2}, {1.0, 0.0, 0.0, 0.0}};
+    double largest = 0.0, way = 0.0;
+    Vec3 before = rig.near->device.force;
+    const auto watch = [&](Nanoseconds span) {
+        for (const Nanoseconds end = rig.now + span; rig.now < end;) {
+            rig.run(ms);
+            const Vec3 now = rig.near->device.force;
+            largest = std::max(largest, glm::distance(now, std::exchange(before, now)));
+            way = std::max(way, glm::distance(rig.near->pose("Box").position, {0.0, 0.05, 0.0}));
+        }
+    };
+    for (int i = 0; i < 5; ++i) {
+        rig.far->teller.tell_joint(7, elsewhere, box, no_handle);
+        watch(20 * ms);
+        rig.far->teller.forget_joint(7);
+        watch(300 * ms);
+    }
+    EXPECT_GT(way, 0.05) << "it was taken away";
+    EXPECT_LT(largest, 0.5) << "N, from one tick to the next";
+}
+
 // Its limits count from where it was hung, not from where it stands when the operator comes.
 TEST(ModelJoints, WhoComesLaterFindsTheSameLimits) {
     Door rig(hinge(-0.6, 0.6));

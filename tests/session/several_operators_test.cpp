@@ -133,6 +133,31 @@ TEST(SeveralOperators, AreGhostsToEachOther) {
     EXPECT_EQ(rig.far.snapshot().proxies[2].contact_count, 0);
 }
 
+// Each is told where the others' fingertips are, and of none of its own.
+TEST(SeveralOperators, SeeWhereTheOthersAre) {
+    SharedRig rig;
+    rig.add("Slab", slab());
+    rig.run(500 * 1'000'000);
+    rig.move(0, {0.3, 0.2, 0.0});
+    rig.move(1, {-0.2, 0.0, 0.1});
+    rig.run(300 * 1'000'000);
+    const auto seen_by = [&](std::size_t which) { return rig.near[which]->port->statistics.front().ghosts; };
+    // Pointers 0 and 2 of the environment are the first one's, 1 and 3 the second one's, who has one hand.
+    ASSERT_EQ(seen_by(0).count, 1u);
+    EXPECT_EQ(seen_by(0).ghosts[0].pointer, 1);
+    EXPECT_TRUE(seen_by(0).ghosts[0].touches);
+    EXPECT_LT(glm::distance(seen_by(0).ghosts[0].position, rig.far.snapshot().proxies[1].position), 2e-4);
+    EXPECT_DOUBLE_EQ(seen_by(0).ghosts[0].radius, 0.01);
+    ASSERT_EQ(seen_by(1).count, 1u);
+    EXPECT_EQ(seen_by(1).ghosts[0].pointer, 0);
+    EXPECT_FALSE(seen_by(1).ghosts[0].touches);
+    EXPECT_LT(glm::distance(seen_by(1).ghosts[0].position, Vec3(0.3, 0.2, 0.0)), 2e-4);
+    // One that has gone is not seen any more, and one that is lost neither.
+    rig.near[1].reset();
+    rig.run(2'000'000'000);
+    EXPECT_EQ(seen_by(0).count, 0u);
+}
+
 TEST(SeveralOperators, WhatOneMovesTheOtherSees) {
     SharedRig rig;
     rig.add("Slab", slab());

@@ -9,8 +9,9 @@
 #include <limits>
 
 #include "network/plausibility.hpp"
+#include "shared/attack_descriptions.hpp"
 #include "shared/attack_rig.hpp"
-#include "shared/random_values.hpp"
+#include "shared/dice.hpp"
 #include "support/process.hpp"
 
 namespace tactus::shared {
@@ -19,47 +20,6 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 constexpr int thrown_a_tick = 96;
-
-// splitmix64: a hundred million draws should not take longer than what they test.
-class Dice {
-public:
-    explicit Dice(std::uint64_t seed) : state_(seed) {}
-    std::uint64_t bits() {
-        std::uint64_t z = state_ += 0x9e3779b97f4a7c15u;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-        return z ^ (z >> 31);
-    }
-    std::uint64_t below(std::uint64_t limit) { return bits() % limit; }
-    bool one_in(std::uint64_t n) { return below(n) == 0; }
-    double unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-
-    // Of all sizes, and the ones at which something ends.
-    std::uint64_t number() {
-        constexpr std::uint64_t ends[] = {0,
-                                          1,
-                                          2,
-                                          511,
-                                          512,
-                                          513,
-                                          1023,
-                                          1024,
-                                          1025,
-                                          0xffff'ffffu,
-                                          ~std::uint64_t{0},
-                                          plausible::max_sequence,
-                                          std::uint64_t{1} << 40};
-        return one_in(3) ? ends[below(std::size(ends))] : bits() >> below(64);
-    }
-    double real(double most) {
-        const double sign = one_in(2) ? -1.0 : 1.0;
-        return one_in(8) ? sign * most : sign * most * std::pow(10.0, -12.0 * unit());
-    }
-    Vec3 vector(double most) { return {real(most), real(most), real(most)}; }
-
-private:
-    std::uint64_t state_;
-};
 
 // --- what a side with the key may say
 
@@ -136,8 +96,7 @@ struct Says {
             state.object = state.object == no_object ? 0 : state.object;
             state.asleep = dice.one_in(2);
             state.pose.position = dice.vector(plausible::max_position);
-            state.pose.rotation =
-                glm::normalize(Quat(dice.real(1.0) + 1e-9, dice.real(1.0), dice.real(1.0), dice.real(1.0)));
+            state.pose.rotation = dice.rotation();
             state.linear_velocity = dice.vector(plausible::max_speed);
             state.angular_velocity = dice.vector(plausible::max_angular_speed);
         }
@@ -170,6 +129,13 @@ struct Says {
                             object()};
         }
     }
+    void operator()(Ghosts& m) {
+        m.count = static_cast<std::uint8_t>(1 + dice.below(Ghosts::max_count));
+        for (std::size_t i = 0; i < m.count; ++i) {
+            m.ghosts[i] = {static_cast<std::uint16_t>(dice.number()), dice.one_in(2),
+                           dice.vector(plausible::max_position), dice.size(max_ghost_radius)};
+        }
+    }
     std::uint64_t sample() {
         const std::uint64_t newest = rig.far->statistics().sample;
         const std::uint64_t some = dice.one_in(2)
@@ -182,6 +148,10 @@ private:
     std::uint32_t revision_ = 0;
 };
 
+// After the kinds of message: what pieces of descriptions say when they have been put together.
+constexpr std::size_t message_kinds = std::variant_size_v<Message>;
+constexpr std::size_t bodies_kind = message_kinds, joints_kind = message_kinds + 1;
+
 template <std::size_t... Kinds>
 void make_kind(std::size_t kind, Message& message, std::index_sequence<Kinds...>) {
     [[maybe_unused]] const bool made = ((kind == Kinds && (message.emplace<Kinds>(), true)) || ...);
@@ -192,7 +162,11 @@ void make_kind(std::size_t kind, Message& message, std::index_sequence<Kinds...>
 class Thrower {
 public:
     Thrower(AttackRig& rig, const AttackSettings& settings)
-        : rig_(rig), settings_(settings), dice_(settings.seed * 1000 + settings.kind), says_(dice_, rig) {}
+        : rig_(rig),
+          settings_(settings),
+          dice_(settings.seed * 1000 + settings.kind),
+          says_(dice_, rig),
+          descriptions_(dice_, settings.kind == joints_kind, AttackRig::untouchable) {}
 
     void throw_one() {
         const bool at_operator = aims_at_operator();
@@ -209,6 +183,9 @@ private:
             case 5:
             case 7:
             case 9:
+            case 10:
+            case bodies_kind:
+            case joints_kind:
                 return true;
             case 6:
             case 8:
@@ -223,8 +200,12 @@ private:
         if (settings_.attacker == Attacker::stranger && dice_.one_in(4)) {
             return noise();
         }
-        make_kind(settings_.kind, message_, std::make_index_sequence<std::variant_size_v<Message>>());
-        std::visit(says_, message_);
+        if (settings_.kind >= message_kinds) {
+            message_ = descriptions_.next();
+        } else {
+            make_kind(settings_.kind, message_, std::make_index_sequence<message_kinds>());
+            std::visit(says_, message_);
+        }
         const LinkStatistics& there = (at_operator ? rig_.far : rig_.near)->statistics().link;
         PacketHeader header;
         const bool knows = settings_.attacker != Attacker::stranger;
@@ -291,6 +272,7 @@ private:
     AttackSettings settings_;
     Dice dice_;
     Says says_;
+    FalseDescriptions descriptions_;
     Message message_;
     std::array<std::byte, most_datagram_bytes> bytes_{};
     std::array<Bytes, 64> kept_;
@@ -341,13 +323,14 @@ const char* name_of(Attacker attacker) {
 }
 
 std::size_t kind_count() {
-    return std::variant_size_v<Message>;
+    return message_kinds + 2;
 }
 
 std::string kind_name(std::size_t kind) {
     constexpr const char* names[] = {
         "hello",           "bye",           "clock_request",    "clock_answer", "discovery_piece", "removal",
-        "acknowledgement", "object_states", "operator_samples", "forces"};
+        "acknowledgement", "object_states", "operator_samples", "forces",       "ghosts",          "bodies",
+        "joints"};
     return names[kind];
 }
 
@@ -357,6 +340,7 @@ AttackFigures run_attack(const AttackSettings& settings) {
     AttackFigures figures;
     const auto thrower = std::make_unique<Thrower>(rig, settings);
     Watch watch(rig, settings.attacker);
+    const std::uint64_t built_before = rig.model_changes;
     const double memory_before = resident_mb();
     double memory = memory_before;
     while (figures.packets < settings.packets) {
@@ -373,6 +357,7 @@ AttackFigures run_attack(const AttackSettings& settings) {
     memory = std::max(memory, resident_mb());
     figures.memory_growth_mb = memory - memory_before;
     figures.moved_objects = watch.moved();
+    figures.model_changes = rig.model_changes - built_before;
     for (int i = 0; i < 7000 && !(i > 2000 && rig.both_connected()); ++i) {
         rig.tick();
         watch.look(figures);

@@ -15,7 +15,7 @@ enum class Attacker : std::uint8_t {
 const char* name_of(Attacker attacker);
 
 struct AttackSettings {
-    std::size_t kind = 0;  // of Message
+    std::size_t kind = 0;  // of Message, then whole descriptions of bodies and of joints
     Attacker attacker = Attacker::stranger;
     std::uint64_t packets = 0;
     std::uint64_t seed = 1;
@@ -28,6 +28,7 @@ struct AttackFigures {
     std::uint64_t moved_objects = 0;  // bodies that the attacker does not own and that moved
     std::uint64_t force_steps = 0;    // ticks in which the felt force changed by more than `max_force_step`
     double largest_force_step = 0.0;  // (unit: newtons)
+    std::uint64_t model_changes = 0;  // times that something was built of what was thrown
     double memory_growth_mb = 0.0;    // of the process, from when both were at work
     std::uint64_t not_recovered = 0;  // 1: the two do not talk seven seconds after the attack
 

@@ -1,5 +1,7 @@
 #include "shared/attack_rig.hpp"
 
+#include "shared/endpoints.hpp"
+
 namespace tactus::shared {
 namespace {
 
@@ -20,15 +22,6 @@ BodyAddition body(const Shape& shape, const Vec3& position, Motion motion, doubl
     return addition;
 }
 
-EndpointSettings endpoint(Side side, std::uint64_t epoch) {
-    EndpointSettings settings;
-    settings.side = side;
-    settings.epoch = epoch;
-    return settings;
-}
-
-constexpr std::uint32_t touchable = 1, untouchable = 2;
-
 }  // namespace
 
 AttackPlace::AttackPlace(bool far) : session(small_session()) {
@@ -36,12 +29,12 @@ AttackPlace::AttackPlace(bool far) : session(small_session()) {
     workspace.force_limit = 10.0;
     ProxyDescription pointer;
     pointer.device = session.add_device(device, workspace).handle;
-    pointer.settings.mask = touchable;
+    pointer.settings.mask = AttackRig::touchable;
     session.add_proxy(pointer);
     // A body of its own, on a layer that no pointer touches, apart from all others.
     BodyAddition apart = body(BoxShape{Vec3(0.05)}, {5.0, 1.0, 0.0}, Motion::Dynamic, 0.3);
     apart.description.gravity_scale = 0.0;
-    apart.description.collision = {untouchable, untouchable};
+    apart.description.collision = {AttackRig::untouchable, AttackRig::untouchable};
     own = session.add_body(apart).handle;
     if (far) {
         session.add_body(body(BoxShape{{1.0, 0.05, 1.0}}, {0.0, -0.05, 0.0}, Motion::Static));
@@ -90,7 +83,7 @@ void AttackRig::tick() {
     near->tick(now);
     far->tick(now);
     if (now / period % 16 == 0) {
-        builder_->update(now, near->statistics().link);
+        model_changes += builder_->update(now, near->statistics().link) ? 1 : 0;
         teller_->update(far->session.snapshot(), far->statistics().link.peer_epoch);
     }
 }

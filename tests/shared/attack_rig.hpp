@@ -73,6 +73,8 @@ struct AttackPlace {
 class AttackRig {
 public:
     static constexpr Nanoseconds period = 1'000'000;
+    // Layers: what pointers touch, and what nothing that is described meets.
+    static constexpr std::uint32_t touchable = 1, untouchable = 2;
 
     AttackRig(bool sealed, const LinkConditions& conditions = {});
 
@@ -95,6 +97,7 @@ public:
     void change(const LinkConditions& conditions) { far_way_.change(conditions); }
 
     Nanoseconds now = 0;
+    std::uint64_t model_changes = 0;  // times that the operator has built what was described
     std::unique_ptr<AttackPlace> near, far;
     static constexpr std::uint64_t near_epoch = 0x1f2e3d4c5b6a7988u, far_epoch = 0x123456789abcdef1u;
 

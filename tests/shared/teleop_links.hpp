@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <random>
 #include <span>
 
@@ -10,7 +11,8 @@
 
 namespace tactus::shared {
 
-// A far side that sees bodies only roughly: what it says of their places is off by chance.
+// A far side that sees bodies only roughly: what it says of their places is off by chance. Whoever sees so
+// sees what stands elsewhere each time, and says so five times a second.
 class RoughSight final : public Link {
 public:
     RoughSight(Link& inner, double deviation, std::uint64_t seed)
@@ -24,6 +26,7 @@ public:
         Packet packet;
         if (deviation_ > 0.0 && received && decode(into.first(received.bytes), packet) == Refusal::none) {
             if (auto* const states = std::get_if<ObjectStates>(&packet.message)) {
+                look_again(*states, now);
                 for (std::size_t i = 0; i < states->count; ++i) {
                     states->states[i].pose.position += off();
                 }
@@ -34,6 +37,24 @@ public:
     }
 
 private:
+    static constexpr Nanoseconds look_every = 200'000'000;
+    struct Seen {
+        ObjectState state;
+        Nanoseconds at = 0;
+    };
+
+    // What has not been told of for a while goes along with what is.
+    void look_again(ObjectStates& states, Nanoseconds now) {
+        for (std::size_t i = 0; i < states.count; ++i) {
+            seen_[states.states[i].object] = {states.states[i], now};
+        }
+        for (auto& [object, seen] : seen_) {
+            if (now - seen.at >= look_every && states.count < ObjectStates::most) {
+                seen.at = now;
+                states.states[states.count++] = seen.state;
+            }
+        }
+    }
     Vec3 off() {
         std::normal_distribution<double> normal(0.0, deviation_);
         return {normal(random_), normal(random_), normal(random_)};
@@ -42,6 +63,7 @@ private:
     Link& inner_;
     double deviation_;
     std::mt19937_64 random_;
+    std::map<ObjectId, Seen> seen_;
 };
 
 // A link that can be cut: from then on nothing arrives.

@@ -20,6 +20,9 @@ ALLOWED = [
     ("session", '"network/thing.hpp"'),
     ("world", '"session/thing.hpp"'),
     ("world", '"platform/thing.hpp"'),
+    ("sensing/image", '"core/thing.hpp"'),
+    ("sensing/image", '"platform/thing.hpp"'),
+    ("sensing/image", '"sensing/thing.hpp"'),
 ]
 FORBIDDEN = [
     ("core", '"realtime/thing.hpp"'),
@@ -38,8 +41,11 @@ FORBIDDEN = [
     ("world", '"nodes/thing.hpp"'),
     ("world", "<godot_cpp/classes/node.hpp>"),
     ("world", "<Jolt/Jolt.h>"),
+    ("world", '"sensing/thing.hpp"'),
+    ("sensing/image", '"session/thing.hpp"'),
+    ("sensing/image", '"realtime/thing.hpp"'),
 ]
-LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world"]
+LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world", "sensing"]
 
 
 def _object(number: int, layer: str) -> str:
@@ -57,7 +63,9 @@ def built(tmp_path_factory):
         (folder / "extension" / layer).mkdir(parents=True)
         (folder / "extension" / layer / "thing.hpp").write_text("#pragma once\n")
     for number, (layer, include) in enumerate(ALLOWED + FORBIDDEN):
-        (folder / "extension" / layer / f"case_{number}.cpp").write_text(f"#include {include}\n")
+        case = folder / "extension" / layer / f"case_{number}.cpp"
+        case.parent.mkdir(exist_ok=True)
+        case.write_text(f"#include {include}\n")
     command = [cache.venv_bin("scons"), "--keep-going", "--cache-disable", "libraries"]
     done = subprocess.run(command, cwd=folder, text=True, capture_output=True)
     return folder, done.stdout + done.stderr

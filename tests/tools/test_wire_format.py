@@ -66,6 +66,10 @@ EXPECTED = {
         {"pointer": 3, "true_at": -123456789, "newest_operator_sample": 0, "force": (0.0, -5.25, 0.0),
          "proxy": (-1.0, 0.0, 0.25), "object": wire.NOBODY},
     ]}),
+    "ghosts": ("ghosts", {"ghosts": [
+        {"pointer": 1, "touches": True, "position": (0.5, -1.25, 2.0), "radius": 0.01},
+        {"pointer": 3, "touches": False, "position": (0.0, 0.125, -3.0), "radius": 0.0055},
+    ]}),
 }  # fmt: skip
 
 

@@ -306,6 +306,17 @@ def _force(r: Reader, sent_at: int) -> Fields:
     }  # fmt: skip
 
 
+def _ghosts(r: Reader) -> Fields:
+    count = r.u8()
+    _require(1 <= count <= 16, "count out of range")
+    return {"ghosts": [_ghost(r) for _ in range(count)]}
+
+
+def _ghost(r: Reader) -> Fields:
+    ghost = {"pointer": r.varint(0xFFFF), "touches": r.flag(), "position": _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO)}
+    return ghost | {"radius": r.varint(10**9) / MICRO}
+
+
 KINDS = {
     1: ("hello", _hello),
     2: ("bye", _bye),
@@ -317,6 +328,7 @@ KINDS = {
     8: ("object states", _object_states),
     9: ("operator samples", _operator_samples),
     10: ("forces", _forces),
+    11: ("ghosts", _ghosts),
 }
 TOLD_FROM_SENDING = (8, 9, 10)
 

@@ -131,5 +131,18 @@ TEST(StateOfHand, SaysWhyThereIsNoForceAndWhatIsTooStiff) {
     EXPECT_NE(text.find("210"), std::string::npos) << text;
 }
 
+TEST(StateOfFingertip, SaysWhatItDoesOrWhyItIsNotFelt) {
+    ProxyState state;
+    EXPECT_EQ(state_of_fingertip(state), "waiting for the first tick");
+    state.handle = 1;
+    EXPECT_EQ(state_of_fingertip(state), "free");
+    state.status = proxy_touching;
+    EXPECT_EQ(state_of_fingertip(state), "touching");
+    state.status |= proxy_letting_out;
+    EXPECT_NE(state_of_fingertip(state).find("not felt until"), std::string::npos);
+    state.status |= proxy_absent;
+    EXPECT_NE(state_of_fingertip(state).find("began inside"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tactus

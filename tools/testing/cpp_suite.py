@@ -5,6 +5,7 @@ Programs for another platform run in an emulator of it.
 """
 
 import os
+import re
 import subprocess
 import tempfile
 import xml.etree.ElementTree as ElementTree
@@ -17,6 +18,7 @@ from testing.results import Result, matching
 
 TIME_LIMIT = 600  # (unit: seconds) a program
 SLOW_TIME_LIMIT = 3600  # what sanitizers watch, or an emulator runs, takes up to twenty times as long
+LEFT_OUT_WITHOUT = {"sensing_openni": "it needs OpenNI2: ./run setup --with-sensing"}
 SANITIZER_OPTIONS = {
     "ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_init_order=1",
     "UBSAN_OPTIONS": "print_stacktrace=1",
@@ -33,6 +35,17 @@ def run(wanted: str, sanitizers: str = "", platform: Platform | None = None) -> 
         if (cache.clone() / "tests" / _layer(program)).is_dir():
             time_limit = SLOW_TIME_LIMIT if sanitizers or platform.is_foreign else TIME_LIMIT
             results += _run_program(program, wanted, time_limit, platform)
+    return results + _left_out(folder, wanted)
+
+
+def _left_out(folder: Path, wanted: str) -> list[Result]:
+    """The tests of programs that are only made where the machine has what they need."""
+    results = []
+    for name, why in LEFT_OUT_WITHOUT.items():
+        if not (folder / f"test_{name}").is_file():
+            sources = "".join(path.read_text() for path in sorted((cache.clone() / "tests" / name).glob("*_test.cpp")))
+            tests = [f"cpp.{name}.{suite}.{test}" for suite, test in re.findall(r"^TEST(?:_F)?\((\w+), (\w+)\)", sources, re.M)]
+            results += [Result(test, skipped=why) for test in matching(tests, wanted)]
     return results
 
 

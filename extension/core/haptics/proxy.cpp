@@ -114,12 +114,13 @@ bool Proxy::fly(const Vec3& hand) {
 }
 
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
+    const Vec3 start = position_;
     Descent descent;
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
     for (tick.steps = 0; tick.steps < settings_.max_steps; ++tick.steps) {
-        const bool is_last = work.is_gone();
-        if (is_last) {
+        descent.is_last = work.is_gone();
+        if (descent.is_last) {
             work.open_reserve();
         }
         if (!contacts_hold_) {
@@ -132,16 +133,21 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         }
         const Vec3 pull = hand - position_;
         step = plan(pull, descent);
+        if (step.pressing_count > 0) {
+            keep_touching(step);
+            descent.touched = true;
+        }
         brake(step, descent.dropped);
         tick.residual = glm::length(step.motion);
-        if (tick.residual <= tolerances().step || is_last) {
+        if (tick.residual <= tolerances().step || descent.is_last) {
             break;
         }
         descent.slid = descent.slid || (step.pressing_count > 0 && step.motion != step.drop);
         const Vec3 before = position_;
         FeatureId stopped_by;
         const Hit hit = advance(step.motion, stopped_by);
-        contacts_hold_ = false;
+        // Where the work has ended before it moved, they are still those at its place.
+        contacts_hold_ = position_ == before && !hit.found;
         const bool stopped_at_once = hit.found && position_ == before;
         descent.strays = stopped_at_once && strays(tick.residual);
         if (hit.found) {
@@ -166,7 +172,13 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     }
     sliding_ = sliding_ && descent.slid;
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
-    keep_touching(step);
+    // Where the work has ended before what holds it was seen again, that still does; also what held it a tick
+    // ago, where it is not far from there.
+    const bool unseen = descent.is_last && tick.residual > tolerances().step;
+    const bool is_near = glm::distance(position_, start) <= 0.01 * settings_.radius;
+    if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near))) {
+        touching_.clear();
+    }
     tick.slide = step.pressing_count > 0 ? step.slide : Vec3(0.0);
     if (tick.residual > tolerances().step) {
         tick.status |= proxy_unfinished;
@@ -174,13 +186,17 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
 }
 
 // Up to the hand, or as near as the surfaces let it. `given_way`: of the hand and of what carries the proxy
-// since the last tick (unit: meters).
-void Proxy::follow(const Vec3& hand, double given_way, ProxyTick& tick) {
+// since the last tick (unit: meters). `changed`: what it touched then may not be there any more.
+void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& tick) {
     const Vec3 start = position_;
     const bool overlapped = std::exchange(overlaps_, false);
     const bool touched = touching_.count > 0;
-    touching_.clear();
-    if (!fly(hand)) {
+    if (changed) {
+        touching_.clear();
+    }
+    if (fly(hand)) {
+        touching_.clear();
+    } else {
         descend(hand, tick);
     }
     const bool touches = touching_.count > 0;
@@ -223,7 +239,7 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     }
     const bool appears = !present_ && appear();
     if (present_) {
-        follow(hand_, given_way, tick);
+        follow(hand_, given_way, changed, tick);
     }
     // The work may have ended before it was lifted out of what it begins too deep in: it begins later, then.
     if (appears && contacts_hold_ && contacts_.min_gap() < -tolerances().skin) {

@@ -112,12 +112,14 @@ private:
         Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there
         Vec3 pushed{0.0};
         bool slid = false;
-        bool strays = false;  // the last step was stopped at once, and would be so again: see lift
+        bool is_last = false;  // the work is gone: this step is planned, not taken
+        bool touched = false;  // something has held it in this tick
+        bool strays = false;   // the last step was stopped at once, and would be so again: see lift
     };
 
     void put(const Vec3& place);
     bool appear();
-    void follow(const Vec3& hand, double given_way, ProxyTick& tick);
+    void follow(const Vec3& hand, double given_way, bool changed, ProxyTick& tick);
     TouchingSphere sphere() const { return {position_, settings_.radius, settings_.mask, touching()}; }
     bool take_in_jumps();
     void let_go(bool every);

@@ -44,6 +44,7 @@ void DepthBuffer::clear(const DepthCamera& of) {
     camera = of;
     depth.assign(pixel_count(of), std::numeric_limits<float>::infinity());
     seen.assign(pixel_count(of), no_mesh);
+    face.assign(pixel_count(of), 0);
 }
 
 DepthImage to_image(const DepthBuffer& buffer, std::uint64_t time_us) {

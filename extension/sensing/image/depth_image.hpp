@@ -64,6 +64,7 @@ struct DepthBuffer {
     DepthCamera camera;
     std::vector<float> depth;         // (unit: meters)
     std::vector<std::uint16_t> seen;  // index of the mesh that is seen there; no_mesh: none
+    std::vector<std::uint32_t> face;  // and of its triangle
 
     static constexpr std::uint16_t no_mesh = 0xffff;
 

@@ -36,6 +36,12 @@ struct Corner {
     PixelPlace place;
 };
 
+// What is written beside the depth.
+struct Name {
+    std::uint16_t mesh;
+    std::uint32_t face;
+};
+
 // The first whole number not below, and not above, clamped to 0 … limit also where it is far away.
 int first_pixel(double from, int limit) {
     return static_cast<int>(std::ceil(std::clamp(from, 0.0, static_cast<double>(limit))));
@@ -80,8 +86,8 @@ void inner_span(const std::array<Linear, 3>& edges, double v, int& left, int& ri
 }
 
 // One triangle, all of it in front of the camera.
-void draw_triangle(const Corner& a, const Corner& b, const Corner& c, std::uint16_t index,
-                   DepthBuffer& buffer, PixelBox& touched) {
+void draw_triangle(const Corner& a, const Corner& b, const Corner& c, Name name, DepthBuffer& buffer,
+                   PixelBox& touched) {
     const PixelBox box = box_around(buffer.camera, a.place, b.place, c.place);
     if (box.is_empty()) {
         return;
@@ -109,7 +115,8 @@ void draw_triangle(const Corner& a, const Corner& b, const Corner& c, std::uint1
             // Rounding can put the inverse depth of a steep sliver beyond the horizon.
             if (depth > 0.0f && depth < buffer.depth[at]) {
                 buffer.depth[at] = depth;
-                buffer.seen[at] = index;
+                buffer.seen[at] = name.mesh;
+                buffer.face[at] = name.face;
             }
         }
     }
@@ -123,7 +130,7 @@ Corner cut_at_nearest(const DepthCamera& camera, const Vec3& inside, const Vec3&
 }
 
 // What is left of a triangle in front of the plane z = -nearest: a fan of at most two.
-void draw_cut_triangle(const std::array<Corner, 3>& corners, std::uint16_t index, DepthBuffer& buffer,
+void draw_cut_triangle(const std::array<Corner, 3>& corners, Name name, DepthBuffer& buffer,
                        PixelBox& touched) {
     std::array<Corner, 4> kept;
     std::size_t count = 0;
@@ -141,7 +148,7 @@ void draw_cut_triangle(const std::array<Corner, 3>& corners, std::uint16_t index
         }
     }
     for (std::size_t i = 2; i < count; ++i) {
-        draw_triangle(kept[0], kept[i - 1], kept[i], index, buffer, touched);
+        draw_triangle(kept[0], kept[i - 1], kept[i], name, buffer, touched);
     }
 }
 
@@ -157,14 +164,15 @@ PixelBox DepthRenderer::draw(const PosedMesh& posed, std::uint16_t index, DepthB
         seen_[i] = seen_at(buffer.camera, corners_[i]);
     }
     PixelBox touched;
-    for (const auto& [i, j, k] : mesh.triangles) {
+    for (std::uint32_t face = 0; face < mesh.triangles.size(); ++face) {
+        const auto& [i, j, k] = mesh.triangles[face];
         const std::array<Corner, 3> corners{Corner{corners_[i], seen_[i]}, Corner{corners_[j], seen_[j]},
                                             Corner{corners_[k], seen_[k]}};
         const double nearest_corner = std::min({seen_[i].depth, seen_[j].depth, seen_[k].depth});
         if (nearest_corner >= nearest) {
-            draw_triangle(corners[0], corners[1], corners[2], index, buffer, touched);
+            draw_triangle(corners[0], corners[1], corners[2], {index, face}, buffer, touched);
         } else {
-            draw_cut_triangle(corners, index, buffer, touched);
+            draw_cut_triangle(corners, {index, face}, buffer, touched);
         }
     }
     return touched;

@@ -102,6 +102,30 @@ TEST(ProxyBudget, InsideAFineBallItMovesAndStaysInside) {
     EXPECT_EQ(watch.frozen, 0);
 }
 
+// Whatever the work ends at, a hand that stays behind the surface feels it in every tick.
+TEST(ProxyBudget, WithLittleWorkTheForceDoesNotFlicker) {
+    constexpr double radius = 0.05;
+    const TriangleMesh mesh = rough_sphere(7, 0.5, 0.3);
+    int unfinished = 0;
+    for (const int work : {1'000, 1'400, 2'000, 2'800, 4'000}) {
+        TouchRig rig(radius);
+        rig.add(mesh);
+        ASSERT_TRUE(rig.draw({0.6, 0.0, 0.0}, {0.5, 0.0, 0.0}, 400).status & proxy_touching);
+        ProxySettings settings = rig.proxy.settings();
+        settings.max_work = work;
+        rig.proxy.set_settings(settings);
+        int lost = 0;
+        for (int i = 1; i <= 1'000; ++i) {
+            const Vec3 hand = 0.5 * Vec3(std::cos(0.004 * i), std::sin(0.004 * i), 0.0);
+            const ProxyTick tick = rig.tick(hand);
+            unfinished += (tick.status & proxy_unfinished) != 0;
+            lost += (tick.status & proxy_touching) == 0;
+        }
+        EXPECT_EQ(lost, 0) << work;
+    }
+    EXPECT_GT(unfinished, 100);
+}
+
 // More triangles touch the proxy than any list of contacts holds.
 TEST(ProxyBudget, AHeapOfTinyTrianglesLetsItGo) {
     constexpr double radius = 0.05;

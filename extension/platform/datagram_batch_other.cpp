@@ -1,7 +1,4 @@
-#include <winsock2.h>
-
-#include "platform/socket_error_windows.hpp"
-#include "platform/udp_socket.hpp"
+#include "platform/receive_datagram_other.hpp"
 
 namespace tactus {
 
@@ -16,16 +13,12 @@ struct DatagramBatch::System {
 DatagramBatch::DatagramBatch(std::size_t longest) : system_(std::make_unique<System>(longest)) {}
 DatagramBatch::~DatagramBatch() = default;
 
-// One that is longer than its room is an error here, of which the beginning has come.
 SocketError DatagramBatch::receive(SocketHandle socket) {
     for (size_ = 0; size_ < capacity; ++size_) {
-        auto* const into = reinterpret_cast<char*>(system_->bytes.data() + size_ * system_->room);
-        const int came = recv(static_cast<SOCKET>(socket), into, static_cast<int>(system_->room), 0);
-        const int code = came < 0 ? WSAGetLastError() : 0;
-        if (came < 0 && code != WSAEMSGSIZE) {
-            return size_ == 0 ? windows::socket_error(code) : SocketError{};
+        const std::span into = std::span(system_->bytes).subspan(size_ * system_->room, system_->room);
+        if (const SocketError error = receive_datagram(socket, into, system_->sizes[size_])) {
+            return size_ == 0 ? error : SocketError{};
         }
-        system_->sizes[size_] = came < 0 ? system_->room : static_cast<std::size_t>(came);
     }
     return {};
 }

@@ -1,0 +1,386 @@
+#include "nodes/depth_sensor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <godot_cpp/classes/file_access.hpp>
+#include <godot_cpp/classes/project_settings.hpp>
+#include <godot_cpp/classes/scene_tree.hpp>
+#include <godot_cpp/classes/window.hpp>
+
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/mesh_library.hpp"
+#include "nodes/messages.hpp"
+#include "nodes/scene_warnings.hpp"
+#include "nodes/signals.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+constexpr double never = -1.0;
+
+const char* word_of(SightState state) {
+    return state == SightState::found ? "found" : state == SightState::tracked ? "tracked" : "lost";
+}
+
+// Standard deviation along the axis that is known least well, of the first three or the last three rows
+// (squared units of the covariance).
+double deviation(const SightedObject& object, std::size_t first) {
+    double most = 0.0;
+    for (std::size_t i = first; i < first + 3; ++i) {
+        most = std::max(most, object.covariance[7 * i]);
+    }
+    return std::sqrt(std::max(0.0, most));
+}
+
+// The least turn that takes one unit vector to the other.
+Quat turn_between(const Vec3& from, const Vec3& to) {
+    const double cosine = glm::dot(from, to);
+    if (cosine < -0.999999) {
+        return {0.0, 1.0, 0.0, 0.0};  // half a turn, about any axis across: x, where both lie along y
+    }
+    const Vec3 axis = glm::cross(from, to);
+    return glm::normalize(Quat(1.0 + cosine, axis.x, axis.y, axis.z));
+}
+
+}  // namespace
+
+// --- properties
+
+void DepthSensor::source_changed() {
+    notify_property_list_changed();
+    update_configuration_warnings();
+    if (sensor_ != nullptr || (active_ && is_inside_tree())) {
+        end();
+        begin();
+    }
+}
+
+void DepthSensor::library_changed() {
+    update_configuration_warnings();
+    if (sensor_ != nullptr) {
+        pass_on_library();
+    }
+}
+
+void DepthSensor::pictures_changed() {
+    if (sensor_ != nullptr) {
+        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_});
+    }
+}
+
+PackedStringArray DepthSensor::library_names() const {
+    return meshes_.is_empty() ? mesh_library_names() : meshes_;
+}
+
+String DepthSensor::problem() const {
+    if (source_ == SOURCE_RECORDING && recording_.is_empty()) {
+        return "it plays a recording and there is none: set 'recording' to an .oni file, or choose a camera";
+    }
+    if (source_ == SOURCE_RECORDING && !FileAccess::file_exists(recording_)) {
+        return "there is no file '" + recording_ + "': set 'recording' to an .oni file";
+    }
+    if (source_ == SOURCE_SYNTHETIC && is_inside_tree() && !synthetic_scene_.is_empty() &&
+        get_node_or_null(synthetic_scene_) == nullptr) {
+        return wrong_path("synthetic_scene", synthetic_scene_, "a node");
+    }
+    if (bodies_ != BODIES_NONE && is_inside_tree() && HapticWorld::above(this) == nullptr) {
+        return "what it finds cannot be touched outside of a HapticWorld: put it below one, or set 'bodies' "
+               "to "
+               "none";
+    }
+    return to_godot(library_error_);
+}
+
+// --- looking
+
+const Sight& DepthSensor::sight() const {
+    static const Sight nothing;
+    return sensor_ != nullptr ? sensor_->sight() : nothing;
+}
+
+void DepthSensor::begin() {
+    set_process_internal(false);
+    if (!active_ || is_edited() || !is_inside_tree()) {
+        return;
+    }
+    set_process_internal(true);
+    const DepthSensing* const sensing = depth_sensing(load_error_);
+    if (sensing != nullptr) {
+        sensor_.reset(sensing->make_sensor());
+        load_error_ = sensor_ != nullptr ? "" : "there is no memory or thread for the sensor";
+    }
+    if (sensor_ == nullptr) {
+        return;
+    }
+    pass_on_settings();
+    pass_on_library();
+    open();
+}
+
+void DepthSensor::open() {
+    if (!problem().is_empty()) {
+        sensor_->close();
+        return;
+    }
+    CameraChoice choice;
+    choice.width = width_;
+    choice.repeats = repeats_;
+    std::string uri = from_godot(camera_id_);
+    if (source_ == SOURCE_RECORDING) {
+        uri = from_godot(ProjectSettings::get_singleton()->globalize_path(recording_));
+    } else if (source_ == SOURCE_SYNTHETIC) {
+        SyntheticCamera camera;
+        camera.width = width_;
+        camera.height = width_ * 3 / 4;
+        camera.rate = rate_;
+        camera.depth_error = 0.01 * synthetic_error_percent_;
+        camera.noise = synthetic_noise_;
+        camera.seed = static_cast<std::uint64_t>(synthetic_seed_);
+        std::string ignored;
+        Node* const root =
+            synthetic_scene_.is_empty() ? get_tree()->get_root() : get_node_or_null(synthetic_scene_);
+        load_error_ = view_.begin(*depth_sensing(ignored), camera, *root, *this);
+        view_.show(pose_of(get_global_transform()));
+        uri = view_.uri();
+        if (uri.empty()) {
+            sensor_->close();
+            return;
+        }
+    }
+    choice.uri = uri.c_str();
+    sensor_->open(choice);
+}
+
+void DepthSensor::pass_on_library() {
+    library_.clear();
+    library_error_.clear();
+    std::vector<KnownMesh> known;
+    const PackedStringArray names = library_names();
+    for (int64_t i = 0; i < names.size(); ++i) {
+        const TriangleSource::Checked loaded = load_library_mesh(names[i])->triangles();
+        if (loaded.mesh == nullptr) {
+            library_error_ = loaded.error;
+            continue;
+        }
+        library_.push_back({names[i], loaded.mesh, mesh_library_entry(names[i]).mass});
+        known.push_back({{loaded.mesh->vertices, loaded.mesh->triangles}, library_.back().mass});
+    }
+    sensor_->set_library(known);
+}
+
+void DepthSensor::pass_on_settings() {
+    if (sensor_ == nullptr) {
+        return;
+    }
+    SensorSettings settings;
+    settings.camera = pose_of(get_global_transform());
+    settings.min_confidence = min_confidence_;
+    settings.max_rate = rate_;
+    sensor_->set_settings(settings);
+}
+
+void DepthSensor::end() {
+    sensor_.reset();
+    view_.end();
+    seen_.clear();
+    known_.clear();
+    told_state_ = SensorState::closed;
+    told_text_.clear();
+    set_process_internal(false);
+}
+
+void DepthSensor::look() {
+    if (sensor_ == nullptr) {
+        return;
+    }
+    pass_on_settings();
+    if (view_.is_there() && view_.show(pose_of(get_global_transform()))) {
+        open();  // something is drawn no longer, or as another mesh
+    }
+    const bool is_new = sensor_->take();
+    if (is_new) {
+        pictures_changed();
+    }
+    tell(is_new);
+}
+
+// Signals for what has changed since the last frame.
+void DepthSensor::tell(bool is_new) {
+    const Sight& now = sight();
+    if (told_state_ != now.state || told_text_ != now.text) {
+        told_state_ = now.state;
+        told_text_ = now.text;
+        post_signal(*this, "state_changed", {static_cast<int64_t>(now.state), get_state_text()});
+    }
+    if (!is_new) {
+        return;
+    }
+    for (const SightedObject& object : now.objects) {
+        const auto id = static_cast<int64_t>(object.id);
+        const auto before = known_.find(object.id);
+        const bool was_there = before != known_.end() && before->second != SightState::lost;
+        const bool is_there = object.state != SightState::lost;
+        if (is_there) {
+            was_there ? post_signal(*this, "object_updated", {id, to_godot(object.pose)})
+                      : post_signal(*this, "object_found", {id, name_of_mesh(object, library_)});
+        } else if (was_there) {
+            post_signal(*this, "object_lost", {id, name_of_mesh(object, library_)});
+        }
+        known_[object.id] = object.state;
+    }
+    std::erase_if(known_, [&](const auto& one) {
+        const bool is_gone = std::ranges::none_of(
+            now.objects, [&](const SightedObject& object) { return object.id == one.first; });
+        if (is_gone && one.second != SightState::lost) {
+            post_signal(*this, "object_lost", {static_cast<int64_t>(one.first), String()});
+        }
+        return is_gone;
+    });
+}
+
+// --- what it says
+
+DepthSensor::State DepthSensor::get_state() const {
+    return static_cast<State>(sight().state);
+}
+
+String DepthSensor::get_state_text() const {
+    if (const String wrong = problem(); !wrong.is_empty()) {
+        return wrong;
+    }
+    if (!active_) {
+        return "it is switched off: set 'active'";
+    }
+    return to_godot(load_error_.empty() ? std::string(sight().text) : load_error_);
+}
+
+Dictionary DepthSensor::describe(const SightedObject& object) const {
+    Dictionary d;
+    d["id"] = static_cast<int64_t>(object.id);
+    d["name"] = name_of_mesh(object, library_);
+    d["is_known"] = object.mesh >= 0;
+    d["state"] = word_of(object.state);
+    d["transform"] = to_godot(object.pose);
+    d["confidence"] = object.confidence;
+    d["position_deviation"] = deviation(object, 0);
+    d["rotation_deviation"] = deviation(object, 3);
+    d["linear_velocity"] = to_godot(object.linear_velocity);
+    d["angular_velocity"] = to_godot(object.angular_velocity);
+    d["node"] = seen_.node_of(object.id);
+    return d;
+}
+
+TypedArray<Dictionary> DepthSensor::get_objects() const {
+    TypedArray<Dictionary> objects;
+    for (const SightedObject& object : sight().objects) {
+        objects.push_back(describe(object));
+    }
+    return objects;
+}
+
+double DepthSensor::get_lowest_confidence() const {
+    double lowest = sight().objects.empty() ? 0.0 : 1.0;
+    for (const SightedObject& object : sight().objects) {
+        lowest = std::min(lowest, object.confidence);
+    }
+    return lowest;
+}
+
+Dictionary DepthSensor::get_plane() const {
+    Dictionary d;
+    if (const SupportPlane& plane = sight().plane; plane.is_found) {
+        d["normal"] = to_godot(plane.normal);
+        d["offset"] = plane.offset;
+        d["residual"] = plane.residual;
+    }
+    return d;
+}
+
+Dictionary DepthSensor::find_cameras() {
+    Dictionary cameras;
+    std::string error;
+    const DepthSensing* const sensing = depth_sensing(error);
+    std::array<FoundCamera, 16> found;
+    std::array<char, 512> why{};
+    const int count = sensing != nullptr ? sensing->scan(found, why) : never;
+    if (count < 0) {
+        UtilityFunctions::push_warning(
+            "DepthSensor: ", to_godot(sensing != nullptr ? std::string(why.data()) : error), ".");
+    }
+    for (int i = 0; i < std::min(count, static_cast<int>(found.size())); ++i) {
+        const FoundCamera& one = found[static_cast<std::size_t>(i)];
+        cameras[String::utf8(one.uri.data())] = String::utf8(one.name.data());
+    }
+    return cameras;
+}
+
+void DepthSensor::set_plugged(bool is_plugged) {
+    view_.set_plugged(is_plugged);
+}
+
+// --- where the camera is
+
+// The plane is to be horizontal: the camera is turned about itself by as little as that needs, and lifted.
+double DepthSensor::calibrate_from_plane(double height) {
+    const Sight& now = sight();
+    if (!std::isfinite(height) || !now.plane.is_found) {
+        UtilityFunctions::push_warning(name_of(*this),
+                                       ": no plane is seen that could be calibrated by: let the camera see "
+                                       "the table, and little else, and try again.");
+        return never;
+    }
+    const double above = glm::dot(now.plane.normal, now.camera.position) - now.plane.offset;
+    Pose camera = now.camera;
+    camera.rotation = glm::normalize(turn_between(now.plane.normal, {0.0, 1.0, 0.0}) * camera.rotation);
+    camera.position.y = height + above;
+    set_global_transform(to_godot(camera));
+    pass_on_settings();
+    calibration_residual_ = now.plane.residual;
+    return calibration_residual_;
+}
+
+double DepthSensor::calibrate_from_object(int64_t id, const Transform3D& place) {
+    const Sight& now = sight();
+    const auto found = std::ranges::find_if(
+        now.objects, [id](const SightedObject& object) { return static_cast<int64_t>(object.id) == id; });
+    if (found == now.objects.end() || found->state == SightState::lost || found->mesh < 0 ||
+        !place.is_finite()) {
+        UtilityFunctions::push_warning(name_of(*this), ": object ", id,
+                                       " is not one that is seen and known: take an id of get_objects().");
+        return never;
+    }
+    const Pose in_camera = compose(inverse(now.camera), found->pose);
+    set_global_transform(to_godot(compose(pose_of(place), inverse(in_camera))));
+    pass_on_settings();
+    calibration_residual_ = deviation(*found, 0);
+    return calibration_residual_;
+}
+
+// --- Godot
+
+PackedStringArray DepthSensor::_get_configuration_warnings() const {
+    PackedStringArray warnings;
+    warn(warnings, "This DepthSensor sees nothing", problem());
+    return warnings;
+}
+
+void DepthSensor::_notification(int what) {
+    if (what == NOTIFICATION_ENTER_TREE) {
+        // Only what is to be touched needs a world.
+        if (is_edited() || bodies_ != BODIES_NONE) {
+            watch_warnings(*this);
+        }
+        begin();
+    } else if (what == NOTIFICATION_EXIT_TREE) {
+        end();
+    } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
+        look();
+    }
+}
+
+}  // namespace tactus

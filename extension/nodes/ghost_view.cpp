@@ -1,0 +1,46 @@
+#include "nodes/ghost_view.hpp"
+
+#include <godot_cpp/classes/sphere_mesh.hpp>
+
+#include "nodes/conversions.hpp"
+#include "nodes/mesh_drawing.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+const Color ghost_color(0.55f, 0.75f, 0.55f, 0.6f);
+
+MeshInstance3D* make_picture(Node& parent) {
+    Ref<SphereMesh> ball;
+    ball.instantiate();
+    ball->set_radius(1.0f);
+    ball->set_height(2.0f);
+    MeshInstance3D* const picture = memnew(MeshInstance3D);
+    picture->set_mesh(ball);
+    picture->set_material_override(see_through_material(ghost_color));
+    picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
+    parent.add_child(picture, false, Node::INTERNAL_MODE_BACK);
+    return picture;
+}
+
+}  // namespace
+
+void GhostView::show(Node& parent, const SeenGhosts& ghosts) {
+    while (pictures_.size() < ghosts.count) {
+        pictures_.push_back(make_picture(parent));
+    }
+    for (std::size_t i = 0; i < pictures_.size(); ++i) {
+        const bool is_there = i < ghosts.count;
+        pictures_[i]->set_visible(is_there);
+        if (is_there) {
+            const auto size = static_cast<real_t>(ghosts.ghosts[i].radius);
+            pictures_[i]->set_global_transform(Transform3D(Basis::from_scale(Vector3(size, size, size)),
+                                                           to_godot(ghosts.ghosts[i].position)));
+        }
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,213 @@
+#include "nodes/seen_bodies.hpp"
+
+#include <algorithm>
+#include <godot_cpp/classes/collision_shape3d.hpp>
+#include <godot_cpp/classes/convex_polygon_shape3d.hpp>
+#include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/core/object.hpp>
+#include <unordered_set>
+
+#include "nodes/conversions.hpp"
+#include "nodes/haptic_mesh.hpp"
+#include "nodes/mesh_drawing.hpp"
+
+namespace tactus {
+
+using namespace godot;
+
+namespace {
+
+const Color known_color(0.25f, 0.65f, 0.35f, 1.0f);
+const Color unknown_color(0.85f, 0.6f, 0.2f, 1.0f);
+const Color cloud_color(0.2f, 0.75f, 0.9f, 1.0f);
+
+// Of what nobody knows the mass of: that of water (unit: kilograms per cubic meter).
+constexpr double unknown_density = 1000.0;
+
+TriangleMesh copy_of(const MeshView& view) {
+    return {{view.vertices.begin(), view.vertices.end()}, {view.triangles.begin(), view.triangles.end()}};
+}
+
+// Of a closed mesh, by the tetrahedra between its triangles and the origin.
+double volume_of(const TriangleMesh& mesh) {
+    double volume = 0.0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        volume += glm::dot(mesh.vertices[a], glm::cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
+    }
+    return std::abs(volume);
+}
+
+bool is_known(const SightedObject& object, std::span<const SeenMesh> library) {
+    return object.mesh >= 0 && static_cast<std::size_t>(object.mesh) < library.size();
+}
+
+Ref<ConvexPolygonShape3D> hull_shape(const TriangleMesh& mesh) {
+    PackedVector3Array corners;
+    for (const Vec3& vertex : mesh.vertices) {
+        corners.push_back(to_godot(vertex));
+    }
+    Ref<ConvexPolygonShape3D> shape;
+    shape.instantiate();
+    shape->set_points(corners);
+    return shape;
+}
+
+MeshInstance3D* picture(const TriangleMesh& mesh, const Color& color) {
+    auto* const drawn = memnew(MeshInstance3D);
+    drawn->set_mesh(drawn_mesh({mesh}));
+    drawn->set_material_override(lit_material(color));
+    return drawn;
+}
+
+}  // namespace
+
+String name_of_mesh(const SightedObject& object, std::span<const SeenMesh> library) {
+    return is_known(object, library) ? library[static_cast<std::size_t>(object.mesh)].name
+                                     : String("unknown");
+}
+
+// A body's name goes over the network with it: it must stay.
+Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> library,
+                         const Looks& looks) const {
+    const bool knows = is_known(object, library);
+    const TriangleMesh mesh =
+        knows ? *library[static_cast<std::size_t>(object.mesh)].mesh : copy_of(object.hull);
+    MeshInstance3D* const drawn =
+        looks.show_objects ? picture(mesh, knows ? known_color : unknown_color) : nullptr;
+    Node3D* made = drawn;
+    if (looks.objects != SeenAs::pictures) {
+        auto* const body = memnew(RigidBody3D);
+        const double mass = knows ? library[static_cast<std::size_t>(object.mesh)].mass : 0.0;
+        body->set_mass(std::max(1e-3, mass > 0.0 ? mass : unknown_density * volume_of(mesh)));
+        body->set_freeze_mode(RigidBody3D::FREEZE_MODE_KINEMATIC);
+        body->set_freeze_enabled(looks.objects == SeenAs::held_bodies);
+        if (drawn != nullptr) {
+            body->add_child(drawn);
+        }
+        if (knows) {
+            auto* const touched = memnew(HapticMesh);
+            touched->set("library_mesh", library[static_cast<std::size_t>(object.mesh)].name);
+            body->add_child(touched);
+        } else {
+            auto* const shape = memnew(CollisionShape3D);
+            shape->set_shape(hull_shape(mesh));
+            body->add_child(shape);
+        }
+        made = body;
+    }
+    if (made != nullptr) {
+        made->set_name(name_of_mesh(object, library) + "_" +
+                       String::num_int64(static_cast<int64_t>(object.id)));
+        made->set_as_top_level(true);
+    }
+    return made;
+}
+
+void SeenBodies::place(Made& made, const SightedObject& object) const {
+    made.pose = object.pose;
+    auto* const node = Object::cast_to<Node3D>(ObjectDB::get_instance(made.node));
+    if (node == nullptr) {
+        return;
+    }
+    node->set_global_transform(to_godot(object.pose));
+    auto* const body = Object::cast_to<RigidBody3D>(node);
+    if (body != nullptr && !body->is_freeze_enabled()) {
+        body->set_linear_velocity(to_godot(object.linear_velocity));
+        body->set_angular_velocity(to_godot(object.angular_velocity));
+    }
+}
+
+void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
+                        const Looks& looks) {
+    if (std::exchange(made_as_, looks.objects) != looks.objects ||
+        std::exchange(are_shown_, looks.show_objects) != looks.show_objects) {
+        clear();
+    }
+    std::unordered_set<std::uint64_t> there;
+    for (const SightedObject& object : sight.objects) {
+        if (object.state == SightState::lost) {
+            continue;
+        }
+        there.insert(object.id);
+        Made& made = made_[object.id];
+        const bool is_other = made.mesh != object.mesh || made.hull_corners != object.hull.vertices.size();
+        if (made.node != 0 && is_other) {
+            if (auto* const old = Object::cast_to<Node>(ObjectDB::get_instance(made.node))) {
+                old->queue_free();
+            }
+            made.node = 0;
+        }
+        if (made.node == 0) {
+            made.mesh = object.mesh;
+            made.hull_corners = object.hull.vertices.size();
+            if (Node3D* const node = make(object, library, looks)) {
+                node->set_transform(to_godot(object.pose));
+                sensor.add_child(node, true);
+                made.node = node->get_instance_id();
+            }
+        }
+        place(made, object);
+    }
+    std::erase_if(made_, [&](const auto& one) {
+        if (there.contains(one.first)) {
+            return false;
+        }
+        if (auto* const node = Object::cast_to<Node>(ObjectDB::get_instance(one.second.node))) {
+            node->queue_free();
+        }
+        return true;
+    });
+    draw_cloud(sensor, sight, looks.show_cloud);
+}
+
+void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) {
+    auto* drawn = Object::cast_to<MeshInstance3D>(ObjectDB::get_instance(cloud_));
+    if (!is_wanted) {
+        if (drawn != nullptr) {
+            drawn->queue_free();
+            cloud_ = 0;
+        }
+        return;
+    }
+    if (drawn == nullptr) {
+        drawn = memnew(MeshInstance3D);
+        drawn->set_material_override(see_through_material(cloud_color));
+        sensor.add_child(drawn, false, Node::INTERNAL_MODE_BACK);
+        cloud_ = drawn->get_instance_id();
+    }
+    PackedVector3Array points;
+    points.resize(static_cast<int64_t>(sight.cloud.size()));
+    for (std::size_t i = 0; i < sight.cloud.size(); ++i) {
+        points[static_cast<int64_t>(i)] = to_godot(Vec3(sight.cloud[i]));
+    }
+    Ref<ArrayMesh> mesh;
+    mesh.instantiate();
+    if (!points.is_empty()) {
+        Array arrays;
+        arrays.resize(Mesh::ARRAY_MAX);
+        arrays[Mesh::ARRAY_VERTEX] = points;
+        mesh->add_surface_from_arrays(Mesh::PRIMITIVE_POINTS, arrays);
+    }
+    drawn->set_mesh(mesh);
+}
+
+Node3D* SeenBodies::node_of(std::uint64_t object) const {
+    const auto found = made_.find(object);
+    return found != made_.end() ? Object::cast_to<Node3D>(ObjectDB::get_instance(found->second.node))
+                                : nullptr;
+}
+
+void SeenBodies::clear() {
+    for (const auto& [id, made] : made_) {
+        if (auto* const node = Object::cast_to<Node>(ObjectDB::get_instance(made.node))) {
+            node->queue_free();
+        }
+    }
+    made_.clear();
+    if (auto* const cloud = Object::cast_to<Node>(ObjectDB::get_instance(cloud_))) {
+        cloud->queue_free();
+    }
+    cloud_ = 0;
+}
+
+}  // namespace tactus

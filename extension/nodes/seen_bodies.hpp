@@ -1,0 +1,69 @@
+// What a sensor has seen, put into the scene: each object as a body that can be touched, or as a picture, and
+// the cloud of points. Main thread only.
+#pragma once
+
+#include <godot_cpp/classes/array_mesh.hpp>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/variant/string.hpp>
+#include <map>
+#include <memory>
+#include <span>
+
+#include "core/geometry/triangle_mesh.hpp"
+#include "core/ports/depth_sensing.hpp"
+
+namespace tactus {
+
+struct SeenMesh {
+    godot::String name;  // in the mesh library
+    std::shared_ptr<const TriangleMesh> mesh;
+    double mass = 0.0;  // (unit: kilograms); 0: unknown
+};
+
+// "cube", or what an object is called that nobody knows.
+godot::String name_of_mesh(const SightedObject& object, std::span<const SeenMesh> library);
+
+enum class SeenAs : std::uint8_t {
+    pictures,     // shown, not touched
+    held_bodies,  // touched; only what the camera sees moves them
+    free_bodies   // touched and pushed; what the camera sees corrects them
+};
+
+class SeenBodies {
+public:
+    struct Looks {
+        SeenAs objects = SeenAs::pictures;
+        bool show_objects = true;
+        bool show_cloud = false;
+    };
+
+    // Below `sensor`, which outlives this.
+    void update(godot::Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
+                const Looks& looks);
+    // Takes everything away.
+    void clear();
+
+    // The node of an object; null: none.
+    godot::Node3D* node_of(std::uint64_t object) const;
+
+private:
+    struct Made {
+        std::uint64_t node = 0;
+        std::int32_t mesh = -1;
+        std::size_t hull_corners = 0;
+        Pose pose;  // as it was put there last
+    };
+
+    godot::Node3D* make(const SightedObject& object, std::span<const SeenMesh> library,
+                        const Looks& looks) const;
+    void place(Made& made, const SightedObject& object) const;
+    void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
+
+    SeenAs made_as_ = SeenAs::pictures;
+    bool are_shown_ = true;
+    std::map<std::uint64_t, Made> made_;  // by the object
+    std::uint64_t cloud_ = 0;
+};
+
+}  // namespace tactus

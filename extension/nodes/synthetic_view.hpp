@@ -1,0 +1,45 @@
+// What a synthetic camera is shown of a scene: every mesh that is drawn below a node, where it is now. Main
+// thread only.
+#pragma once
+
+#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/variant/string.hpp>
+#include <string>
+#include <vector>
+
+#include "core/geometry/triangle_mesh.hpp"
+#include "world/sensing_library.hpp"
+
+namespace tactus {
+
+class SyntheticView {
+public:
+    // Of all that is drawn at or below `root`, but not at or below `without`. Empty, or why there is nothing
+    // to see.
+    std::string begin(const DepthSensing& sensing, const SyntheticCamera& camera, godot::Node& root,
+                      const godot::Node& without);
+    void end();
+
+    // Where all of it is now. True where what is drawn is no longer what it was: begin anew.
+    bool show(const Pose& camera);
+
+    const char* uri() const { return scene_ != nullptr ? scene_->uri() : ""; }
+    bool is_there() const { return scene_ != nullptr; }
+    void set_plugged(bool is_plugged);
+
+private:
+    struct Shown {
+        std::uint64_t node = 0;
+        std::uint64_t mesh = 0;  // id of the resource
+    };
+
+    void collect(godot::Node& root, const godot::Node& without,
+                 std::vector<godot::MeshInstance3D*>& found) const;
+
+    OwnedScene scene_;
+    std::vector<Shown> shown_;
+    std::vector<ShownBody> bodies_;
+};
+
+}  // namespace tactus

@@ -1,0 +1,83 @@
+// One sensor: a thread that opens its camera, again and again while it is not there, looks at what comes, and
+// keeps what it has seen for its owner.
+//
+// Threads: the owner's calls and the sensor's own thread meet in `mutex_`, which nobody holds for longer than
+// it takes to copy a few words or to swap two pictures.
+#pragma once
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/ports/depth_sensing.hpp"
+#include "sensing/image/depth_image.hpp"
+#include "sensing/observer.hpp"
+#include "sensing/openni/camera.hpp"
+
+namespace tactus {
+
+class Sensor final : public SensorPort {
+public:
+    // Throws std::system_error where there is no thread for it. `own_driver`: see OpenNi::get().
+    explicit Sensor(std::string own_driver);
+    ~Sensor();
+
+    void open(const CameraChoice& choice) noexcept override;
+    void close() noexcept override;
+    void set_library(std::span<const KnownMesh> meshes) noexcept override;
+    void set_settings(const SensorSettings& settings) noexcept override;
+    bool take() noexcept override;
+    const Sight& sight() const noexcept override { return front_.sight; }
+    void destroy() noexcept override { delete this; }
+
+private:
+    // What the owner wants, as the thread finds it.
+    struct Wanted {
+        std::optional<Camera::Choice> camera;  // none: closed
+        std::uint64_t camera_change = 0;
+        std::shared_ptr<const MeshLibrary> library;
+        std::uint64_t library_change = 0;
+        SensorSettings settings;
+    };
+
+    template <class Change>
+    void want(const Change& change) noexcept;
+
+    void run();
+    void look_once();
+    void follow(const Wanted& wanted);
+    bool try_to_open();
+    void read_frame();
+    void see(const DepthImage& image, Nanoseconds arrived);
+    void say(SensorState state, const std::string& text);
+    void fade();
+    void publish(bool is_new_frame);
+    void wait(int milliseconds);
+
+    const std::string own_driver_;
+
+    std::mutex mutex_;
+    std::condition_variable wakes_;
+    Wanted wanted_;
+    bool ends_ = false;
+    Picture middle_;
+    bool has_new_ = false;        // middle_ is later than front_
+    bool has_new_frame_ = false;  // by another frame
+
+    Picture front_;  // the owner's
+
+    // The thread's own.
+    Wanted now_;
+    std::unique_ptr<Camera> camera_;
+    Observer observer_;
+    DepthImage image_;
+    Picture seen_;
+    Nanoseconds last_frame_ = 0, last_fade_ = 0;
+
+    std::thread thread_;
+};
+
+}  // namespace tactus

@@ -1,0 +1,212 @@
+#include "session/state_teller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/teleop/deadband.hpp"
+#include "core/teleop/derivation.hpp"
+
+namespace tactus {
+
+namespace {
+
+// Where a body has come to rest is said so many ticks longer.
+constexpr std::uint64_t linger = 200;
+
+// Nobody sees such a difference in a body that moves (unit: meters, radians).
+constexpr double seen_position = 1e-3;
+constexpr double seen_angle = 0.02;
+
+// A body that has just been acknowledged is in the operator's loop by then.
+constexpr Nanoseconds settling = 200'000'000;
+// From one time that something is said of what stands to the next: as long as word of losses takes to come.
+constexpr Nanoseconds again_after = 100'000'000;
+constexpr double hardly = 1e-3;  // a doubt that is none
+
+// What stands is said once more after that, as many bodies in one turn as a packet holds.
+constexpr Nanoseconds healed_after = 4 * nanoseconds_per_second;
+constexpr std::size_t max_looked_at = 1024;  // in a turn
+
+}  // namespace
+
+StateTeller::StateTeller(std::size_t max_bodies) : told_(max_bodies) {
+    due_.reserve(max_bodies);
+}
+
+void StateTeller::restart() {
+    for (std::size_t body = 0; body < told_.size(); ++body) {
+        described(static_cast<SessionHandle>(body));
+    }
+}
+
+void StateTeller::described(SessionHandle body) {
+    if (body < told_.size()) {
+        told_[body].times = 0;
+        told_[body].due = tick_ + ticks(settling);
+    }
+}
+
+void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
+    ++tick_;
+    seconds_ = loop.seconds();
+    losing_ = loses(channel.link().statistics());
+    const TeleopSettings& settings = channel.settings();
+    const std::uint64_t every = std::max(1u, std::min(settings.states_every, settings.refresh_every));
+    if (said_ >= due_.size() && tick_ % every == 0) {
+        round_ = every;
+        begin_round(loop, channel, now);
+    }
+    constexpr std::size_t room = ObjectStates::most;
+    const std::uint64_t packets = (due_.size() + room - 1) / room;
+    while (said_ < due_.size() && (tick_ - round_began_) * packets >= said_ / room * round_) {
+        const std::size_t count = std::min(room, due_.size() - said_);
+        send(loop, channel, newest, now, std::span(due_).subspan(said_, count));
+        said_ += count;
+    }
+}
+
+void StateTeller::begin_round(SessionLoop& loop, const Channel& channel, Nanoseconds now) {
+    const TeleopSettings& settings = channel.settings();
+    round_began_ = tick_;
+    due_.clear();
+    said_ = 0;
+    std::size_t room_for_standing = ObjectStates::most;
+    for (std::size_t i = 0; i < told_.size(); ++i) {
+        const auto body = static_cast<SessionHandle>(i);
+        const SessionLoop::Body* const there = loop.body(body);
+        Told& told = told_[i];
+        if (there == nullptr) {
+            if (told.tick != 0) {
+                told = {};
+            }
+            continue;
+        }
+        bool due = false;
+        if (there->motion == Motion::Static) {
+            note_where_it_stands(loop, body);
+            due = told.due != 0 && told.due <= tick_ && room_for_standing > 0;
+            room_for_standing -= due ? 1 : 0;
+        } else {
+            told.moved_at = loop.asleep(body) ? told.moved_at : tick_;
+            due = has_its_turn(settings, body) || moves_otherwise(loop, settings, body, now);
+        }
+        if (due) {
+            due_.push_back(body);
+        }
+    }
+    if (tick_ >= next_turn_) {
+        next_turn_ = tick_ + std::max(1u, settings.refresh_every);
+        take_slow_turn(loop);
+    }
+}
+
+void StateTeller::note_where_it_stands(SessionLoop& loop, SessionHandle body) {
+    const Pose& pose = loop.scene().body(loop.body(body)->slot).pose;
+    Told& told = told_[body];
+    if (pose.position != told.stands.position || pose.rotation != told.stands.rotation) {
+        told.stands = pose;
+        told.times = 0;
+        told.due = told.tick == 0 ? tick_ : std::max(tick_, told.tick + ticks(again_after));
+    }
+}
+
+// Those that have been said long ago, from where the last turn has ended.
+void StateTeller::take_slow_turn(const SessionLoop& loop) {
+    std::size_t room = ObjectStates::most;
+    const std::size_t looked_at = std::min(told_.size(), max_looked_at);
+    for (std::size_t looked = 0; looked < looked_at && room > 0; ++looked) {
+        const auto body = static_cast<SessionHandle>(turn_at_);
+        turn_at_ = (turn_at_ + 1) % told_.size();
+        const SessionLoop::Body* const there = loop.body(body);
+        const Told& told = told_[body];
+        if (there != nullptr && there->motion == Motion::Static && told.due == 0 &&
+            tick_ - told.tick >= ticks(healed_after)) {
+            due_.push_back(body);
+            --room;
+        }
+    }
+}
+
+// As many as a packet holds have their turn together, one packet after the other.
+bool StateTeller::has_its_turn(const TeleopSettings& settings, SessionHandle body) const {
+    const std::uint64_t turns = std::max<std::uint64_t>(1, std::max(1u, settings.refresh_every) / round_);
+    return tick_ / round_ % turns == body / ObjectStates::most % turns;
+}
+
+bool StateTeller::moves_otherwise(SessionLoop& loop, const TeleopSettings& settings, SessionHandle body,
+                                  Nanoseconds now) const {
+    const Told& told = told_[body];
+    if (told.moved_at == 0 || tick_ - told.moved_at >= linger) {
+        return false;
+    }
+    if (told.again) {
+        return true;  // what was said may have been lost
+    }
+    if (!settings.deadband.enabled || told.tick == 0 || loop.asleep(body) != told.asleep ||
+        now - told.time >= settings.deadband.longest_silence) {
+        return true;
+    }
+    DerivationInput since;
+    since.received = told.motion;
+    since.seconds = static_cast<double>(tick_ - told.tick) * seconds_;
+    DeadbandSettings band = settings.deadband;
+    if (settings.traditional) {
+        // What is only seen may be off by more.
+        band.position = std::max(band.position, seen_position);
+        band.angle = std::max(band.angle, seen_angle);
+    }
+    return motion_needs_sending(band, derive(Derivation::velocity, since), loop.motion(body));
+}
+
+// Whether packets have been lost lately. What the far side loses is known to it alone; links mostly lose both
+// ways.
+bool StateTeller::loses(const LinkStatistics& link) {
+    constexpr std::uint64_t lately = 1000;
+    if (link.missing != missing_) {
+        lost_at_ = link.missing > missing_ ? tick_ : lost_at_;
+        missing_ = link.missing;
+    }
+    return lost_at_ != 0 && tick_ - lost_at_ < lately;
+}
+
+void StateTeller::send(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now,
+                       std::span<const SessionHandle> bodies) {
+    ObjectStates message;
+    message.true_at = channel.link().local_time(now);
+    message.newest_operator_sample = newest;
+    for (const SessionHandle body : bodies) {
+        if (loop.body(body) != nullptr) {
+            const BodyMotion said = to_local(channel.settings().frame, loop.motion(body));
+            message.states[message.count++] = {static_cast<ObjectId>(body), loop.asleep(body), said.pose,
+                                               said.linear_velocity, said.angular_velocity};
+        }
+    }
+    if (message.count == 0 || !channel.try_send(message)) {
+        return;
+    }
+    for (const SessionHandle body : bodies) {
+        if (loop.body(body) != nullptr) {
+            note_told(loop, channel, body, now);
+        }
+    }
+}
+
+void StateTeller::note_told(SessionLoop& loop, const Channel& channel, SessionHandle body, Nanoseconds now) {
+    Told& told = told_[body];
+    told.motion = loop.motion(body);
+    told.tick = tick_;
+    told.time = now;
+    told.asleep = loop.asleep(body);
+    told.again = channel.settings().deadband.enabled && losing_ && !told.again;
+    if (told.due != 0) {
+        ++told.times;
+        const double doubt = std::pow(channel.link().statistics().lost_there, told.times);
+        told.due = doubt > hardly ? tick_ + ticks(again_after) : 0;
+    }
+}
+
+std::uint64_t StateTeller::ticks(Nanoseconds span) const {
+    return static_cast<std::uint64_t>(to_seconds(span) / seconds_);
+}
+
+}  // namespace tactus

@@ -1,0 +1,74 @@
+// What the far side says of where its bodies are.
+//
+//     moves                     often; with a deadband, when it goes on otherwise than was said
+//     has come to rest          a while longer: some of it is lost
+//     rests, could be moved     now and then: nobody here knows what the model has made of it
+//     stands                    once: when it has been described, and when it has been put elsewhere; again
+//                               until hardly a doubt is left that it has come, and, so that nothing false
+//                               stays for ever, in a slow turn
+//
+// What is due is gathered once in a round of `states_every` ticks, and its packets are spread over the round.
+// Belongs to whoever ticks.
+#pragma once
+
+#include <vector>
+
+#include "session/channel.hpp"
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+class StateTeller {
+public:
+    explicit StateTeller(std::size_t max_bodies);
+
+    // Another start of the operator: it knows nothing.
+    void restart();
+    // The operator has built the body anew.
+    void described(SessionHandle body);
+
+    // Once a tick. `newest`: the newest sample of the operator that has been applied.
+    void tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now);
+
+private:
+    // What was said about a body last.
+    struct Told {
+        BodyMotion motion;
+        std::uint64_t tick = 0;  // 0: never
+        Nanoseconds time = 0;
+        bool asleep = false;
+        bool again = false;          // is to be said once more: the first may have been lost
+        std::uint64_t moved_at = 0;  // the tick of the last round in which it was awake
+        // Of what stands:
+        Pose stands;
+        std::uint32_t times = 0;  // said since it was described, or put there
+        std::uint64_t due = 1;    // the tick from which on it is to be said; 0: all is said
+    };
+
+    void begin_round(SessionLoop& loop, const Channel& channel, Nanoseconds now);
+    void note_where_it_stands(SessionLoop& loop, SessionHandle body);
+    void take_slow_turn(const SessionLoop& loop);
+    bool has_its_turn(const TeleopSettings& settings, SessionHandle body) const;
+    bool moves_otherwise(SessionLoop& loop, const TeleopSettings& settings, SessionHandle body,
+                         Nanoseconds now) const;
+    bool loses(const LinkStatistics& link);
+    void send(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now,
+              std::span<const SessionHandle> bodies);
+    void note_told(SessionLoop& loop, const Channel& channel, SessionHandle body, Nanoseconds now);
+    std::uint64_t ticks(Nanoseconds span) const;
+
+    std::vector<Told> told_;          // by body
+    std::vector<SessionHandle> due_;  // in this round
+    std::size_t said_ = 0;            // of them
+    std::uint64_t round_began_ = 0;
+    std::uint64_t round_ = 1;      // ticks of this one
+    std::uint64_t next_turn_ = 0;  // the tick of the next slow turn
+    std::size_t turn_at_ = 0;      // the body with which it begins
+    double seconds_ = 0.001;       // of a tick
+    bool losing_ = false;          // some of what is said, as of this round
+    std::uint64_t tick_ = 0;
+    std::uint64_t missing_ = 0;  // packets of the operator, so far
+    std::uint64_t lost_at_ = 0;  // the tick in which one more was
+};
+
+}  // namespace tactus

@@ -1,0 +1,132 @@
+extends "nodes_case.gd"
+## A depth camera in a scene, through the real OpenNI2: the synthetic camera is one of its devices.
+
+
+## The file has no length: it is read as far as it goes.
+func _is_loaded(library: String) -> bool:
+	var maps := (
+		FileAccess.open("/proc/self/maps", FileAccess.READ).get_buffer(1 << 22).get_string_from_ascii()
+	)
+	check(maps.contains("libtactus"), "the list of what is loaded lacks this extension")
+	return maps.contains(library)
+
+
+func _drawn(mesh: Mesh, at: Vector3, parent: Node = self) -> MeshInstance3D:
+	var drawn := MeshInstance3D.new()
+	drawn.mesh = mesh
+	drawn.position = at
+	parent.add_child(drawn)
+	return drawn
+
+
+func _slab(size: Vector3) -> BoxMesh:
+	var mesh := BoxMesh.new()
+	mesh.size = size
+	return mesh
+
+
+## A table with the named meshes on it, seen from 0.85 m above and before it. Not yet in the tree.
+func _sensor(parent: Node) -> DepthSensor:
+	var sensor := DepthSensor.new()
+	sensor.name = "DepthSensor"
+	sensor.source = DepthSensor.SOURCE_SYNTHETIC
+	sensor.synthetic_scene = NodePath("../Table")
+	sensor.position = Vector3(0, 0.7, 0.48)
+	sensor.rotation.x = -0.97
+	var table := _drawn(_slab(Vector3(1, 0.02, 0.8)), Vector3(0, -0.01, 0), parent)
+	table.name = "Table"
+	return sensor
+
+
+func _sees(sensor: DepthSensor) -> bool:
+	return await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_SEEING, 20.0)
+
+
+func test_nothing_of_it_is_loaded_until_a_sensor_looks() -> void:
+	for library: String in ["OpenNI2", "pcl_", "libtactus_sensing"]:
+		check(not _is_loaded(library), "%s is there without a DepthSensor" % library)
+	var sensor := _sensor(self)
+	sensor.active = false
+	add_child(sensor)
+	await frames(2)
+	check(not _is_loaded("OpenNI2"), "OpenNI2 is there though the sensor is switched off")
+	sensor.active = true
+	check(await _sees(sensor), "it says: %s" % sensor.get_state_text())
+	check(_is_loaded("OpenNI2"), "nothing of OpenNI2 is there, and yet it sees")
+
+
+func test_it_sees_points_where_the_table_is() -> void:
+	var sensor := _sensor(self)
+	sensor.synthetic_error_percent = 0.0
+	sensor.show_cloud = true
+	add_child(sensor)
+	check(await _sees(sensor), "it says: %s" % sensor.get_state_text())
+	var statistics := sensor.get_statistics()
+	check(statistics.points > 10000, "points: %d" % statistics.points)
+	check(statistics.frames > 0, "no frames")
+	check(sensor.frame_ms > 0.0, "it takes no time")
+	var cloud: MeshInstance3D = sensor.get_child(-1, true)
+	var points: PackedVector3Array = cloud.mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX]
+	check_equal(points.size(), statistics.points, "points drawn")
+	var middle := 0.0
+	for point in points:
+		middle += (sensor.global_transform * point).y
+	check_near(middle / points.size(), 0.0, 0.002, "height of the table")
+
+
+func test_an_unplugged_camera_is_a_state_and_comes_back() -> void:
+	var sensor := _sensor(self)
+	add_child(sensor)
+	check(await _sees(sensor), "it says: %s" % sensor.get_state_text())
+	var said: Array[String] = []
+	sensor.state_changed.connect(func(_state: int, text: String) -> void: said.append(text))
+	sensor.set_plugged(false)
+	check(
+		await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_OPENING, 20.0),
+		"without a plug it says: %s" % sensor.get_state_text()
+	)
+	check(sensor.get_statistics().points > 0, "the last good image is gone")
+	sensor.set_plugged(true)
+	check(await _sees(sensor), "plugged in again it says: %s" % sensor.get_state_text())
+	check(said.any(func(text: String) -> bool: return "plug it in again" in text), "it said: %s" % [said])
+
+
+func test_every_source_that_is_not_there_says_what_to_do() -> void:
+	var sensor := DepthSensor.new()
+	add_child(sensor)
+	check(
+		await until(func() -> bool: return "plug one in" in sensor.get_state_text(), 20.0),
+		"without a camera it says: %s" % sensor.get_state_text()
+	)
+	sensor.camera_id = "1d27/0601@9/9"
+	check(
+		await until(func() -> bool: return "there is no camera '1d27" in sensor.get_state_text(), 20.0),
+		"without that camera it says: %s" % sensor.get_state_text()
+	)
+	sensor.source = DepthSensor.SOURCE_RECORDING
+	check("set 'recording'" in sensor.get_state_text(), "it says: %s" % sensor.get_state_text())
+	check(sensor.get_warnings().size() > 0, "no warning")
+	sensor.recording = "user://nowhere.oni"
+	check("nowhere.oni" in sensor.get_state_text(), "it says: %s" % sensor.get_state_text())
+	var file := "user://damaged.oni"
+	FileAccess.open(file, FileAccess.WRITE).store_string("no recording")
+	sensor.recording = file
+	check(
+		await until(func() -> bool: return "not a recording" in sensor.get_state_text(), 20.0),
+		"of a damaged file it says: %s" % sensor.get_state_text()
+	)
+	DirAccess.remove_absolute(file)
+
+
+func test_an_empty_scene_is_said_to_be_empty() -> void:
+	var sensor := _sensor(self)
+	get_node("Table").visible = false
+	add_child(sensor)
+	check(
+		await until(func() -> bool: return "nothing is drawn" in sensor.get_state_text(), 20.0),
+		"it says: %s" % sensor.get_state_text()
+	)
+
+
+func test_cameras_are_found_by_name() -> void:
+	check_equal(DepthSensor.find_cameras(), {}, "cameras on a machine without any")

@@ -1,0 +1,143 @@
+// OpenNI2 itself runs in all of these, with the synthetic camera as one of its devices.
+#include "sensing/openni/camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "scene.hpp"
+
+namespace tactus {
+namespace {
+
+using testing::Scene;
+
+namespace fs = std::filesystem;
+
+TEST(OpenNi, LeavesNoFolderBehind) {
+    testing::openni();
+    for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path())) {
+        EXPECT_FALSE(entry.path().filename().string().starts_with("tactus_openni_")) << entry.path();
+    }
+}
+
+TEST(OpenNi, ShowsNoCameraWhereNoneIs) {
+    Camera camera(testing::openni());
+    EXPECT_NE(camera.open({}).find("no depth camera is there: plug one in"), std::string::npos);
+    DepthImage image;
+    EXPECT_EQ(camera.read(image, 0), Camera::Reading::lost);
+}
+
+TEST(Camera, SeesThroughOpenNiWhatIsThere) {
+    Scene scene;
+    Camera camera(testing::openni());
+    ASSERT_EQ(camera.open({scene.uri()}), "");
+    const DepthImage seen = testing::frame_of(camera, scene, 12345);
+    const DepthImage expected = scene.image(12345);
+    EXPECT_EQ(seen.depth_mm, expected.depth_mm);
+    EXPECT_EQ(seen.time_us, 12345u);
+    EXPECT_EQ(seen.camera.width, expected.camera.width);
+    EXPECT_EQ(seen.camera.height, expected.camera.height);
+    // OpenNI2 tells angles in single precision.
+    EXPECT_NEAR(seen.camera.focal_x, expected.camera.focal_x, 1e-4);
+    EXPECT_NEAR(seen.camera.focal_y, expected.camera.focal_y, 1e-4);
+    EXPECT_EQ(seen.camera.center_x, expected.camera.center_x);
+    EXPECT_EQ(check_image(seen), "");
+}
+
+TEST(Camera, SeesWhatMoves) {
+    Scene scene;
+    Camera camera(testing::openni());
+    ASSERT_EQ(camera.open({scene.uri()}), "");
+    const DepthImage before = testing::frame_of(camera, scene, 1);
+    scene.move(0.05);
+    const DepthImage after = testing::frame_of(camera, scene, 2);
+    EXPECT_NE(before.depth_mm, after.depth_mm);
+    EXPECT_EQ(after.depth_mm, scene.image().depth_mm);
+}
+
+TEST(Camera, ShowsNoiseThatIsTheSameForTheSameSeed) {
+    SyntheticCamera settings;
+    settings.rate = 0.0;
+    const auto seen = [&](std::uint64_t seed) {
+        settings.seed = seed;
+        Scene scene(settings);
+        Camera camera(testing::openni());
+        EXPECT_EQ(camera.open({scene.uri()}), "");
+        return testing::frame_of(camera, scene, 1).depth_mm;
+    };
+    const std::vector<std::uint16_t> first = seen(3);
+    EXPECT_EQ(first, seen(3));
+    EXPECT_NE(first, seen(4));
+}
+
+TEST(Camera, KeepsItsRate) {
+    SyntheticCamera settings = testing::exact_camera();
+    settings.rate = 60.0;
+    Scene scene(settings);
+    scene.show(1);
+    Camera camera(testing::openni());
+    ASSERT_EQ(camera.open({scene.uri()}), "");
+    DepthImage image;
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(camera.read(image, 2000), Camera::Reading::frame);
+    }
+}
+
+TEST(Camera, IsLostWhenItsPlugIsPulledAndFoundAgain) {
+    Scene scene;
+    Camera camera(testing::openni());
+    ASSERT_EQ(camera.open({scene.uri()}), "");
+    testing::frame_of(camera, scene, 1);
+    scene.writer().set_plug(Plug::out);
+    DepthImage image;
+    Camera::Reading last = Camera::Reading::nothing;
+    for (int i = 0; i < 50 && last != Camera::Reading::lost; ++i) {
+        last = camera.read(image, 20);
+    }
+    EXPECT_EQ(last, Camera::Reading::lost);
+    EXPECT_NE(camera.open({scene.uri()}).find("there is no camera"), std::string::npos);
+    scene.writer().set_plug(Plug::in);
+    // OpenNI2 hears of it a little later.
+    std::string error = "never tried";
+    for (int i = 0; i < 100 && !error.empty(); ++i) {
+        error = camera.open({scene.uri()});
+        std::this_thread::sleep_for(std::chrono::milliseconds(error.empty() ? 0 : 10));
+    }
+    ASSERT_EQ(error, "");
+    EXPECT_EQ(testing::frame_of(camera, scene, 2).depth_mm, scene.image().depth_mm);
+}
+
+TEST(Camera, TwoSeeTheirOwnScenes) {
+    Scene one;
+    Scene other;
+    other.move(0.05);
+    Camera first(testing::openni());
+    Camera second(testing::openni());
+    ASSERT_EQ(first.open({one.uri()}), "");
+    ASSERT_EQ(second.open({other.uri()}), "");
+    EXPECT_EQ(testing::frame_of(first, one, 1).depth_mm, one.image().depth_mm);
+    EXPECT_EQ(testing::frame_of(second, other, 1).depth_mm, other.image().depth_mm);
+}
+
+TEST(Camera, RefusesASceneThatIsDamaged) {
+    const fs::path damaged = fs::temp_directory_path() / "tactus_damaged_scene";
+    const std::string path = Scene().uri().substr(std::string(synthetic_scheme).size());
+    Scene scene;
+    const std::string whole = scene.uri().substr(std::string(synthetic_scheme).size());
+    for (const std::uintmax_t bytes : {0u, 7u, 100u, 6000u}) {
+        fs::copy_file(whole, damaged, fs::copy_options::overwrite_existing);
+        fs::resize_file(damaged, std::min(bytes, fs::file_size(whole) - 1));
+        Camera camera(testing::openni());
+        const std::string error = camera.open({synthetic_scheme + damaged.string()});
+        EXPECT_NE(error.find("there is no camera"), std::string::npos) << bytes << ": " << error;
+    }
+    fs::remove(damaged);
+    Camera camera(testing::openni());
+    EXPECT_NE(camera.open({synthetic_scheme + path}).find("No such file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,121 @@
+#include "sensing/sensor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+#include "scene.hpp"
+
+namespace tactus {
+namespace {
+
+using testing::Scene;
+
+struct Destroy {
+    void operator()(Sensor* sensor) const { sensor->destroy(); }
+};
+using OwnedSensor = std::unique_ptr<Sensor, Destroy>;
+
+OwnedSensor sensor() {
+    return OwnedSensor(new Sensor(testing::driver_path()));
+}
+
+// Takes until it holds, at most for seconds.
+bool until(Sensor& sensor, const std::function<bool(const Sight&)>& holds) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (std::chrono::steady_clock::now() < deadline) {
+        sensor.take();
+        if (holds(sensor.sight())) {
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    ADD_FAILURE() << "not reached; it says: " << sensor.sight().text;
+    return false;
+}
+
+TEST(Sensor, IsClosedUntilItIsOpened) {
+    const OwnedSensor eyes = sensor();
+    EXPECT_FALSE(eyes->take());
+    EXPECT_EQ(eyes->sight().state, SensorState::closed);
+}
+
+TEST(Sensor, SaysWhatItWaitsFor) {
+    const OwnedSensor eyes = sensor();
+    eyes->open({});
+    EXPECT_TRUE(until(*eyes, [](const Sight& sight) {
+        return sight.state == SensorState::opening &&
+               std::string(sight.text).find("plug one in") != std::string::npos;
+    }));
+}
+
+TEST(Sensor, SeesACloudWhereTheTableIs) {
+    Scene scene;
+    scene.show(7);
+    const OwnedSensor eyes = sensor();
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::seeing; }));
+    const Sight& sight = eyes->sight();
+    EXPECT_EQ(sight.camera_time, 7u);
+    EXPECT_GT(sight.arrived, 0);
+    EXPECT_EQ(sight.cloud.size(),
+              static_cast<std::size_t>(std::ranges::count_if(
+                  scene.image().depth_mm, [](std::uint16_t depth) { return depth != 0; })));
+    // In front of the camera.
+    for (const glm::vec3& point : sight.cloud) {
+        ASSERT_LT(point.z, -0.3f);
+    }
+}
+
+TEST(Sensor, FindsACameraThatIsPluggedInAgain) {
+    SyntheticCamera settings = testing::exact_camera();
+    settings.rate = 60.0;
+    Scene scene(settings);
+    scene.show(1);
+    const OwnedSensor eyes = sensor();
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    const auto sees = [](const Sight& sight) { return sight.state == SensorState::seeing; };
+    ASSERT_TRUE(until(*eyes, sees));
+    scene.writer().set_plug(Plug::out);
+    ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::opening; }));
+    const std::size_t cloud = eyes->sight().cloud.size();
+    EXPECT_GT(cloud, 0u) << "the last good sight stays";
+    scene.writer().set_plug(Plug::in);
+    EXPECT_TRUE(until(*eyes, sees));
+}
+
+TEST(Sensor, TakesAnotherCameraAtOnce) {
+    Scene one;
+    Scene other;
+    one.show(1);
+    other.show(2);
+    const OwnedSensor eyes = sensor();
+    const std::string first = one.uri();
+    const std::string second = other.uri();
+    eyes->open({first.c_str()});
+    ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.camera_time == 1; }));
+    eyes->open({second.c_str()});
+    ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.camera_time == 2; }));
+    eyes->close();
+    EXPECT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::closed; }));
+}
+
+TEST(Sensor, RefusesAnImageInWhichNothingCanBeSeen) {
+    Scene scene;
+    scene.writer().show({{0.0, 100.0, 0.0}}, {}, 1);
+    const OwnedSensor eyes = sensor();
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    EXPECT_TRUE(until(*eyes, [](const Sight& sight) {
+        return std::string(sight.text).find("holds no depth") != std::string::npos;
+    }));
+    EXPECT_EQ(eyes->sight().frames, 0u);
+    EXPECT_GT(eyes->sight().dropped, 0u);
+}
+
+}  // namespace
+}  // namespace tactus
