@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <godot_cpp/classes/character_body3d.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
+#include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/static_body3d.hpp>
 
 #include "nodes/haptic_mesh.hpp"
@@ -12,6 +13,16 @@ namespace tactus {
 using namespace godot;
 
 namespace {
+
+PhysicsServer3D::BodyMode own_mode(const RigidBody3D& body) {
+    if (body.is_freeze_enabled()) {
+        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC
+                   ? PhysicsServer3D::BODY_MODE_KINEMATIC
+                   : PhysicsServer3D::BODY_MODE_STATIC;
+    }
+    return body.is_lock_rotation_enabled() ? PhysicsServer3D::BODY_MODE_RIGID_LINEAR
+                                           : PhysicsServer3D::BODY_MODE_RIGID;
+}
 
 // Takes over what was read, and says whose it is.
 void take(ShapeReading reading, const Object* owner, BodyForm& form, std::vector<MeshDraft>& meshes) {
@@ -45,14 +56,12 @@ bool is_solid_body(const Object* object) {
            Object::cast_to<CharacterBody3D>(object) != nullptr;
 }
 
-PhysicsServer3D::BodyMode own_mode(const RigidBody3D& body) {
-    if (body.is_freeze_enabled()) {
-        return body.get_freeze_mode() == RigidBody3D::FREEZE_MODE_KINEMATIC
-                   ? PhysicsServer3D::BODY_MODE_KINEMATIC
-                   : PhysicsServer3D::BODY_MODE_STATIC;
+void hold_still(const RigidBody3D& body, bool held) {
+    PhysicsServer3D* server = PhysicsServer3D::get_singleton();
+    const PhysicsServer3D::BodyMode mode = held ? PhysicsServer3D::BODY_MODE_STATIC : own_mode(body);
+    if (server->body_get_mode(body.get_rid()) != mode) {
+        server->body_set_mode(body.get_rid(), mode);
     }
-    return body.is_lock_rotation_enabled() ? PhysicsServer3D::BODY_MODE_RIGID_LINEAR
-                                           : PhysicsServer3D::BODY_MODE_RIGID;
 }
 
 HapticMesh* haptic_mesh_of(const CollisionObject3D& body) {

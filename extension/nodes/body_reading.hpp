@@ -3,7 +3,6 @@
 
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/physics_material.hpp>
-#include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 
 #include "nodes/conversions.hpp"
@@ -17,8 +16,9 @@ class HapticMesh;
 // Whether a world mirrors this object at all: areas are not solid.
 bool is_solid_body(const godot::Object* object);
 
-// As Godot's own physics would have it.
-godot::PhysicsServer3D::BodyMode own_mode(const godot::RigidBody3D& body);
+// Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its
+// own, and what is outside the world still finds the body where it is. Or as it would have it by itself.
+void hold_still(const godot::RigidBody3D& body, bool held);
 
 HapticMesh* haptic_mesh_of(const godot::CollisionObject3D& body);
 

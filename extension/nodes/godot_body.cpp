@@ -148,12 +148,9 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
     return values;
 }
 
-// Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its
-// own, and what is outside the world still finds the body where it is.
 void GodotBody::hold_still() {
-    PhysicsServer3D* server = PhysicsServer3D::get_singleton();
-    if (rigid_ != nullptr && server->body_get_mode(rigid_->get_rid()) != PhysicsServer3D::BODY_MODE_STATIC) {
-        server->body_set_mode(rigid_->get_rid(), PhysicsServer3D::BODY_MODE_STATIC);
+    if (rigid_ != nullptr) {
+        tactus::hold_still(*rigid_, true);
     }
 }
 
@@ -187,7 +184,7 @@ void GodotBody::let_go() {
         std::exchange(watch_, nullptr)->take_out();
     }
     if (rigid_ != nullptr && is_there()) {
-        PhysicsServer3D::get_singleton()->body_set_mode(rigid_->get_rid(), own_mode(*rigid_));
+        tactus::hold_still(*rigid_, false);
     }
 }
 

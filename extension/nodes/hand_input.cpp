@@ -12,6 +12,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
+#include "world/scene_hand.hpp"
 
 namespace tactus {
 
@@ -113,18 +114,12 @@ String problem_of_mouse(const Node& node) {
 String problem_of_gamepad(int gamepad) {
     Input& input = *Input::get_singleton();
     const TypedArray<int> connected = input.get_connected_joypads();
-    if (connected.has(gamepad)) {
-        return String();
-    }
-    if (connected.is_empty()) {
-        return "no gamepad is connected: plug one in, or choose another driver";
-    }
-    String all;
+    std::vector<Gamepad> there;
     for (int64_t i = 0; i < connected.size(); ++i) {
-        const int one = static_cast<int>(connected[i]);
-        all += (i > 0 ? ", " : "") + String::num_int64(one) + " (" + input.get_joy_name(one) + ")";
+        const int number = static_cast<int>(connected[i]);
+        there.push_back({number, from_godot(input.get_joy_name(number))});
     }
-    return "there is no gamepad " + String::num_int64(gamepad) + ": set 'gamepad' to one of " + all;
+    return to_godot(problem_of_gamepad(gamepad, there));
 }
 
 }  // namespace tactus

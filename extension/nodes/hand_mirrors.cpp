@@ -135,12 +135,8 @@ void HandMirrors::release() {
 
 void HandMirrors::show_devices(const SessionSnapshot& snapshot) {
     for_each_node<HapticDevice>(devices_, [&](HapticDevice& node, const DeviceTwin& twin) {
-        const auto end = snapshot.devices.begin() + snapshot.device_count;
-        const auto found = std::find_if(snapshot.devices.begin(), end, [&twin](const DeviceState& state) {
-            return state.handle == twin.handle();
-        });
-        if (found != end) {
-            node.take_state(*found);
+        if (const DeviceState* state = state_of(snapshot.devices, snapshot.device_count, twin.handle())) {
+            node.take_state(*state);
         }
     });
 }
@@ -153,12 +149,9 @@ void HandMirrors::show_proxies(const SessionSnapshot& snapshot, const NodeOf& no
         ProxyPointer::BodyIds bodies;
     };
     std::vector<News> all;
-    for (std::size_t i = 0; i < snapshot.proxy_count; ++i) {
-        const ProxyState& state = snapshot.proxies[i];
-        for (const ProxyMirror& proxy : proxies_) {
-            if (proxy.twin.handle() == state.handle) {
-                all.push_back({proxy.id, state, body_ids(state, node_of)});
-            }
+    for (const auto& [id, twin] : proxies_) {
+        if (const ProxyState* state = state_of(snapshot.proxies, snapshot.proxy_count, twin.handle())) {
+            all.push_back({id, *state, body_ids(*state, node_of)});
         }
     }
     touched_.clear();

@@ -10,6 +10,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/hand_input.hpp"
 #include "nodes/haptic_world.hpp"
+#include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -22,8 +23,8 @@ using namespace godot;
 
 namespace {
 
-// How far the three factors of a scale may differ and still count as one: single precision leaves about 1e-6.
-constexpr double even_scale = 1e-3;
+constexpr double box_line = 0.01;  // as thick, of half a side of the box
+const Color box_color(0.1f, 0.4f, 0.9f, 0.5f);
 
 }  // namespace
 
@@ -31,7 +32,20 @@ void HapticDevice::changed() {
     path_problem_ = path_.is_valid() ? path_->get_problem() : String();
     hand_ = {};
     set_process_internal(!is_edited() && (is_steered(kind()) || kind() == HandKind::node));
+    draw_box();
     update_configuration_warnings();
+}
+
+void HapticDevice::draw_box() {
+    const double radius = state_.radius > 0.0 ? state_.radius : usual_radius(kind(), steering_);
+    const bool is_seen = is_inside_tree() && radius > 0.0 && (show_workspace_ || is_edited());
+    if (is_seen && box_ == nullptr) {
+        box_ = add_picture(*this, drawn_cube_edges(1.0, box_line), see_through_material(box_color));
+    }
+    if (box_ != nullptr) {
+        box_->set_visible(is_seen);
+        box_->set_scale(to_godot(Vec3(radius > 0.0 ? radius : 1.0)));
+    }
 }
 
 HandKind HapticDevice::kind() const {
@@ -102,9 +116,7 @@ PackedStringArray HapticDevice::_get_configuration_warnings() const {
     }
     warn(warnings, "The hand of this HapticDevice will not move", hindrance());
     warn(warnings, "This HapticDevice does nothing", problem_without_world(*this));
-    const Vector3 scale = get_global_transform().basis.get_scale().abs();
-    if (std::abs(scale.x - scale.y) > even_scale * scale.x ||
-        std::abs(scale.x - scale.z) > even_scale * scale.x) {
+    if (!is_even(frame_of(get_global_transform()))) {
         warnings.push_back(
             "This HapticDevice is scaled differently along its axes; the mean is used. Scale it "
             "evenly.");
@@ -146,6 +158,9 @@ String HapticDevice::get_open_device_id() const {
 
 void HapticDevice::take_state(const DeviceState& state) {
     const DeviceState before = std::exchange(state_, state);
+    if (before.radius != state.radius) {
+        draw_box();
+    }
     if (before.connected != state.connected) {
         post_signal(*this, state.connected ? "connected" : "disconnected");
     }
@@ -162,10 +177,9 @@ void HapticDevice::take_state(const DeviceState& state) {
 }
 
 Workspace HapticDevice::workspace() const {
-    const Transform3D transform = get_global_transform();
-    const double volume = std::abs(static_cast<double>(transform.basis.determinant()));
-    return {pose_of(transform),
-            std::cbrt(volume),
+    const SceneFrame frame = frame_of(get_global_transform());
+    return {pose_of(frame),
+            mean_scale(frame),
             force_limit_,
             clutch_,
             static_cast<std::uint32_t>(dead_man_buttons_),
@@ -221,7 +235,9 @@ void HapticDevice::_unhandled_input(const Ref<InputEvent>& event) {
 
 void HapticDevice::_notification(int what) {
     keep_roll(*this, what);
-    if (what == NOTIFICATION_EXIT_TREE) {
+    if (what == NOTIFICATION_ENTER_TREE) {
+        draw_box();
+    } else if (what == NOTIFICATION_EXIT_TREE) {
         changed();
         clear_state();
     } else if (what == NOTIFICATION_INTERNAL_PROCESS) {

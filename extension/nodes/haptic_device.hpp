@@ -2,6 +2,7 @@
 
 #include <godot_cpp/classes/camera3d.hpp>
 #include <godot_cpp/classes/input_event.hpp>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/node_path.hpp>
@@ -80,6 +81,8 @@ private:
     HandKind kind() const;
     HandPlan plan() const;
     godot::Node3D* target_node() const;
+    // Around the workspace, where it is to be seen.
+    void draw_box();
     // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
     void lead_hand();
 
@@ -98,11 +101,13 @@ private:
     double force_limit_ = 8.0;
     double force_scale_ = 1.0;
     double edge_speed_ = 0.0;
+    bool show_workspace_ = false;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;
 
     SceneHand hand_;
     DeviceState state_;
+    godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen
 };
 
 }  // namespace tactus

@@ -1,7 +1,5 @@
 #include "nodes/haptic_material.hpp"
 
-#include <algorithm>
-#include <cstring>
 #include <godot_cpp/classes/image.hpp>
 
 #include "nodes/messages.hpp"
@@ -23,19 +21,10 @@ std::shared_ptr<const HeightImage> heights_of(const Ref<Texture2D>& texture) {
     }
     image->clear_mipmaps();
     image->convert(Image::FORMAT_RF);
-    auto made = std::make_shared<HeightImage>();
-    made->columns = static_cast<std::uint32_t>(image->get_width());
-    made->rows = static_cast<std::uint32_t>(image->get_height());
-    made->heights.resize(std::size_t{made->columns} * made->rows);
     const PackedByteArray bytes = image->get_data();
-    if (bytes.size() != static_cast<int64_t>(made->heights.size() * sizeof(float))) {
-        return nullptr;
-    }
-    std::memcpy(made->heights.data(), bytes.ptr(), static_cast<std::size_t>(bytes.size()));
-    for (float& height : made->heights) {
-        height = height >= 0.0f ? std::min(height, 1.0f) : 0.0f;  // what is not a number is 0, too
-    }
-    return made;
+    return height_image(static_cast<std::uint32_t>(image->get_width()),
+                        static_cast<std::uint32_t>(image->get_height()),
+                        {bytes.ptr(), static_cast<std::size_t>(bytes.size())});
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "nodes/haptic_world.hpp"
 
-#include <cmath>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/core/error_macros.hpp>

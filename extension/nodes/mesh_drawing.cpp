@@ -48,4 +48,13 @@ Ref<StandardMaterial3D> see_through_material(const Color& color) {
     return material;
 }
 
+MeshInstance3D* add_picture(Node& to, const Drawing& drawing, const Ref<Material>& look) {
+    MeshInstance3D* picture = memnew(MeshInstance3D);
+    picture->set_mesh(drawn_mesh(drawing));
+    picture->set_material_override(look);
+    picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
+    to.add_child(picture, false, Node::INTERNAL_MODE_BACK);
+    return picture;
+}
+
 }  // namespace tactus

@@ -17,4 +17,8 @@ godot::Ref<godot::ArrayMesh> drawn_mesh(const Drawing& drawing);
 godot::Ref<godot::StandardMaterial3D> lit_material(const godot::Color& color);
 godot::Ref<godot::StandardMaterial3D> see_through_material(const godot::Color& color);
 
+// A child that the scene does not see and that throws no shadow.
+godot::MeshInstance3D* add_picture(godot::Node& to, const Drawing& drawing,
+                                   const godot::Ref<godot::Material>& look);
+
 }  // namespace tactus

@@ -20,23 +20,19 @@ using namespace godot;
 namespace {
 
 // { "turn": [1, 0, 0, 10], "mass": 1.2 }: the axis and its angle in degrees; factors.
-Vec3 read_vector(const Array& numbers) {
-    Vec3 v(0.0);
-    for (int i = 0; i < 3 && i < numbers.size(); ++i) {
-        v[i] = static_cast<double>(numbers[i]);
-    }
-    return v;
-}
-
 ModelError read_error(const Dictionary& from) {
     ModelError error;
+    const auto vector = [](const Array& list) {
+        const auto at = [&](int i) { return i < list.size() ? static_cast<double>(list[i]) : 0.0; };
+        return Vec3(at(0), at(1), at(2));
+    };
     const auto read_factor = [&from](const char* what) {
         const double value = from.get(what, 1.0);
         return is_at_least_zero(value) ? value : 1.0;
     };
-    error.move = read_vector(from.get("move", Array()));
+    error.move = vector(from.get("move", Array()));
     const Array turn = from.get("turn", Array());
-    if (const Vec3 axis = read_vector(turn); turn.size() == 4 && glm::length(axis) > 0.0) {
+    if (const Vec3 axis = vector(turn); turn.size() == 4 && glm::length(axis) > 0.0) {
         error.turn = glm::angleAxis(glm::radians(static_cast<double>(turn[3])), glm::normalize(axis));
     }
     error.mass = read_factor("mass");
@@ -327,8 +323,7 @@ PackedStringArray MMTLink::_get_configuration_warnings() const {
         warn(warnings, "The conditions of this MMTLink emulate no trace", conditions_->trace_problem());
     }
     const HapticWorld* world = HapticWorld::above(this);
-    if (world != nullptr &&
-        !world->get_global_transform().basis.get_scale().is_equal_approx(Vector3(1, 1, 1))) {
+    if (world != nullptr && scaling_of(frame_of(world->get_global_transform())) != Mat3(1.0)) {
         warnings.push_back(
             "The HapticWorld of this MMTLink is scaled, and lengths travel as they are: take the scale away, "
             "on both sides.");

@@ -1,9 +1,7 @@
 #include "nodes/model_view.hpp"
 
 #include <godot_cpp/classes/mesh_instance3d.hpp>
-#include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
-#include <godot_cpp/core/object.hpp>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -43,8 +41,7 @@ void ModelView::hold_still() {
     }
     for_each_below(world_, [this](const Node& node) {
         if (const auto* body = Object::cast_to<RigidBody3D>(&node)) {
-            PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(),
-                                                            PhysicsServer3D::BODY_MODE_STATIC);
+            tactus::hold_still(*body, true);
             held_.insert(body->get_instance_id());
         }
     });
@@ -112,7 +109,7 @@ void ModelView::release(Session&) {
     roll_.hide_all(hide);
     for (const std::uint64_t id : held_) {
         if (const auto* body = node_of_id<RigidBody3D>(id)) {
-            PhysicsServer3D::get_singleton()->body_set_mode(body->get_rid(), own_mode(*body));
+            tactus::hold_still(*body, false);
         }
     }
     held_.clear();

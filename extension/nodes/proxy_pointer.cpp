@@ -193,26 +193,22 @@ void ProxyPointer::clear_state() {
     emit_changes({});
 }
 
-MeshInstance3D* ProxyPointer::add_picture(const Shape& shape, const Ref<Material>& look) {
-    MeshInstance3D* picture = memnew(MeshInstance3D);
-    picture->set_mesh(drawn_mesh(drawn_shape(shape)));
-    picture->set_material_override(look);
-    picture->set_as_top_level(true);
-    picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
-    add_child(picture, false, INTERNAL_MODE_BACK);
-    return picture;
-}
-
 void ProxyPointer::make_pictures() {
     if (!is_inside_tree()) {
         return;
     }
     if (show_proxy_ && proxy_picture_ == nullptr) {
-        proxy_picture_ = add_picture(SphereShape{1.0}, lit_material(proxy_color));
+        proxy_picture_ = add_picture(*this, drawn_shape(SphereShape{1.0}), lit_material(proxy_color));
     }
     if (show_hand_ && hand_picture_ == nullptr) {
-        hand_picture_ = add_picture(SphereShape{1.0}, see_through_material(hand_color));
-        line_picture_ = add_picture(CylinderShape{0.5, 0.5}, see_through_material(hand_color));
+        hand_picture_ = add_picture(*this, drawn_shape(SphereShape{1.0}), see_through_material(hand_color));
+        line_picture_ =
+            add_picture(*this, drawn_shape(CylinderShape{0.5, 0.5}), see_through_material(hand_color));
+    }
+    for (MeshInstance3D* picture : {proxy_picture_, hand_picture_, line_picture_}) {
+        if (picture != nullptr) {
+            picture->set_as_top_level(true);
+        }
     }
     place_pictures();
 }

@@ -79,7 +79,6 @@ private:
     void emit_changes(std::set<std::uint64_t> touched);
     void make_pictures();
     void place_pictures();
-    godot::MeshInstance3D* add_picture(const Shape& shape, const godot::Ref<godot::Material>& look);
 
     HapticDevice* nearest_device() const;
     bool has(ProxyStatus bit) const { return (state_.status & bit) != 0; }

@@ -105,11 +105,9 @@ const Node* body_outside(const Node& top, Outside which) {
     };
     const Node* found = is_one(top) ? &top : nullptr;
     const auto look = [&](const Node& node) {
-        if (Object::cast_to<HapticWorld>(&node) != nullptr) {
-            return Walk::past;
-        }
-        found = is_one(node) ? &node : nullptr;
-        return found != nullptr ? Walk::end : Walk::on;
+        const bool is_world = Object::cast_to<HapticWorld>(&node) != nullptr;
+        found = !is_world && is_one(node) ? &node : nullptr;
+        return found != nullptr ? Walk::end : is_world ? Walk::past : Walk::on;
     };
     if (found == nullptr) {
         walk_below(top, look);

@@ -1,7 +1,6 @@
 #include "nodes/world_run.hpp"
 
 #include <algorithm>
-#include <godot_cpp/core/object.hpp>
 
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"

@@ -523,7 +523,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.safe.limited,
                                                slot.wanted.stiffness,
                                                slot.used.stiffness,
-                                               {seconds_, slot.capabilities.delay}};
+                                               {seconds_, slot.capabilities.delay},
+                                               slot.capabilities.radius};
         }
     }
     snapshots_.publish();

@@ -114,7 +114,8 @@ struct DeviceState {
     // What was touched last that the device cannot render safely, and what it was given instead.
     double stiffness_wanted = 0.0;  // (unit: newtons per meter); 0: all of it was safe
     double stiffness_used = 0.0;
-    LoopLag lag;  // of the device, for which that holds
+    LoopLag lag;          // of the device, for which that holds
+    double radius = 0.0;  // of its workspace, in its own frame (unit: meters); 0: it has none
 };
 
 // Everything Godot shows of one tick. Bodies: those that can move, each with where it is now.
@@ -131,6 +132,17 @@ struct SessionSnapshot {
     std::size_t slowed_bodies = 0;    // of those awake: far from every hand, at a sixteenth of the tick rate
     std::uint64_t physics_steps = 0;  // that physics has taken so far; a scene at rest takes none
 };
+
+// That of one body, proxy or device among the first `count` of a snapshot; null: there is none.
+template <class States>
+const typename States::value_type* state_of(const States& states, std::size_t count, SessionHandle handle) {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (states[i].handle == handle) {
+            return &states[i];
+        }
+    }
+    return nullptr;
+}
 
 // One row of a recording: a proxy and, where a body is followed, that body (thesis 4.5).
 struct SessionRecord {

@@ -1,7 +1,9 @@
 #include "world/drawn_shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 
 #include "core/geometry/smooth_normals.hpp"
@@ -174,6 +176,28 @@ Drawing tube(const std::vector<Vec3>& points, double thickness, bool closed) {
         join_rings(mesh, (ring + 1) % rings * tube_sides, ring * tube_sides, tube_sides);
     }
     return drawing;
+}
+
+Drawing drawn_cube_edges(double half_side, double thickness) {
+    const double h = half_side;
+    const std::vector<Vec3> floor = {{-h, -h, -h}, {h, -h, -h}, {h, -h, h}, {-h, -h, h}};
+    Drawing edges{{}, crease_of_tube};
+    const auto add = [&](const Vec3& from, const Vec3& to) {
+        const TriangleMesh edge = tube({from, to}, thickness, false).mesh;
+        const auto first = static_cast<std::uint32_t>(edges.mesh.vertices.size());
+        std::ranges::copy(edge.vertices, std::back_inserter(edges.mesh.vertices));
+        for (const auto& [a, b, c] : edge.triangles) {
+            edges.mesh.triangles.push_back({first + a, first + b, first + c});
+        }
+    };
+    const Vec3 up(0.0, 2.0 * h, 0.0);
+    for (std::size_t i = 0; i < floor.size(); ++i) {
+        const Vec3& next = floor[(i + 1) % floor.size()];
+        add(floor[i], next);
+        add(floor[i] + up, next + up);
+        add(floor[i], floor[i] + up);
+    }
+    return edges;
 }
 
 Drawing drawn_path(const HandPath& path, double thickness) {

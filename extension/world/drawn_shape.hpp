@@ -28,6 +28,9 @@ Drawing drawn_shape(const Shape& shape);
 // two points are no line.
 Drawing tube(const std::vector<Vec3>& points, double thickness, bool closed);
 
+// The edges of a cube about the origin, as tubes.
+Drawing drawn_cube_edges(double half_side, double thickness);
+
 // The same along a hand's path; nothing of one that cannot be followed.
 Drawing drawn_path(const HandPath& path, double thickness);
 

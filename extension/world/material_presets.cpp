@@ -1,5 +1,8 @@
 #include "world/material_presets.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 #include "core/haptics/touch_values.hpp"
 
 namespace tactus {
@@ -70,6 +73,22 @@ std::shared_ptr<const HeightImage> grain() {
         return made;
     }();
     return image;
+}
+
+std::shared_ptr<const HeightImage> height_image(std::uint32_t columns, std::uint32_t rows,
+                                                std::span<const std::uint8_t> bytes) {
+    auto made = std::make_shared<HeightImage>();
+    made->columns = columns;
+    made->rows = rows;
+    made->heights.resize(std::size_t{columns} * rows);
+    if (bytes.size() != made->heights.size() * sizeof(float)) {
+        return nullptr;
+    }
+    std::memcpy(made->heights.data(), bytes.data(), bytes.size());
+    for (float& height : made->heights) {
+        height = height >= 0.0f ? std::min(height, 1.0f) : 0.0f;
+    }
+    return made;
 }
 
 MaterialPreset PresetChoice::preset(const MaterialValues& now) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "core/haptics/touch_material.hpp"
 
@@ -23,6 +24,11 @@ MaterialValues values_of(MaterialPreset preset);
 
 // Grains of random height, the same everywhere: for roughness without an image.
 std::shared_ptr<const HeightImage> grain();
+
+// Of floats, row by row, as an engine's image packs them. What is no height from 0 to 1 becomes the nearest
+// one, what is no number 0. Null where there are more or fewer.
+std::shared_ptr<const HeightImage> height_image(std::uint32_t columns, std::uint32_t rows,
+                                                std::span<const std::uint8_t> bytes);
 
 // Nothing is forgotten: what the material had before comes back with the preset that it had before.
 class PresetChoice {

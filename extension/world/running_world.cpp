@@ -1,7 +1,5 @@
 #include "world/running_world.hpp"
 
-#include <algorithm>
-
 namespace tactus {
 
 RunningWorld::RunningWorld(const SessionSettings& settings, bool real_time, const Pose& frame,
@@ -90,10 +88,8 @@ void RunningWorld::push_for(double seconds) {
 
 BodyState RunningWorld::state_of(SessionHandle body) {
     const SessionSnapshot& snapshot = session_.snapshot();
-    const auto end = snapshot.bodies.begin() + static_cast<std::ptrdiff_t>(snapshot.body_count);
-    const auto found = std::find_if(snapshot.bodies.begin(), end,
-                                    [body](const BodyState& state) { return state.handle == body; });
-    return found != end ? *found : BodyState{};
+    const BodyState* state = tactus::state_of(snapshot.bodies, snapshot.body_count, body);
+    return state != nullptr ? *state : BodyState{};
 }
 
 // --- far sides

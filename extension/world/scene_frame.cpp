@@ -65,6 +65,17 @@ bool same_scaling(const Mat3& a, const Mat3& b) {
     return true;
 }
 
+double mean_scale(const SceneFrame& frame) {
+    return std::cbrt(std::abs(glm::determinant(frame.axes)));
+}
+
+bool is_even(const SceneFrame& frame) {
+    constexpr double differ = 1e-3;
+    const double x = glm::length(frame.axes[0]);
+    return std::abs(glm::length(frame.axes[1]) - x) <= differ * x &&
+           std::abs(glm::length(frame.axes[2]) - x) <= differ * x;
+}
+
 std::string problem_of_place(const SceneFrame& frame) {
     if (!is_finite(frame)) {
         return not_finite;

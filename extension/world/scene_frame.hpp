@@ -28,6 +28,11 @@ Mat3 scaling_of(const SceneFrame& frame);
 // But for what single precision rounds: the scaling of a frame that turns is another one each time.
 bool same_scaling(const Mat3& a, const Mat3& b);
 
+// By how much lengths are larger in it, on the average of its axes; whether that is the same along each, but
+// for a thousandth.
+double mean_scale(const SceneFrame& frame);
+bool is_even(const SceneFrame& frame);
+
 // What keeps something from being touched there, in the world, and what to do; empty where nothing does.
 std::string problem_of_place(const SceneFrame& frame);
 

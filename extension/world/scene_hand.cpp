@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "devices/falcon/falcon_arm.hpp"
 #include "devices/path_device.hpp"
 #include "devices/robot_table.hpp"
 
@@ -65,6 +66,30 @@ void SceneHand::steer(const Vec3& deflection, const SteeringSettings& steering, 
         steered_to_ = steered(steered_to_, direction_to_local(mapping.pose, deflection), steering, seconds);
         follower_->aim({steered_to_, buttons});
     }
+}
+
+double usual_radius(HandKind kind, const SteeringSettings& steering) {
+    if (has_driver(kind)) {
+        return make_driver(driver_of(kind), {})->capabilities().radius;
+    }
+    if (kind == HandKind::emulated_robot) {
+        return falcon_capabilities().radius;
+    }
+    return is_steered(kind) ? steering.reach : 0.0;
+}
+
+std::string problem_of_gamepad(int wanted, const std::vector<Gamepad>& there) {
+    if (there.empty()) {
+        return "no gamepad is connected: plug one in, or choose another driver";
+    }
+    std::string all;
+    for (const Gamepad& gamepad : there) {
+        if (gamepad.number == wanted) {
+            return {};
+        }
+        all += (all.empty() ? "" : ", ") + std::to_string(gamepad.number) + " (" + gamepad.name + ")";
+    }
+    return "there is no gamepad " + std::to_string(wanted) + ": set 'gamepad' to one of " + all;
 }
 
 std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said) {

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "devices/driver_device.hpp"
 #include "devices/drivers.hpp"
@@ -77,6 +78,17 @@ private:
     Vec3 pointed_at_{0.0};  // in the scene (unit: meters)
     Vec3 steered_to_{0.0};  // in the device's own frame (unit: meters)
 };
+
+// Of a hand's workspace in its own frame, as far as it is known before the device is there (unit: meters); 0:
+// it has none, or only the device knows.
+double usual_radius(HandKind kind, const SteeringSettings& steering);
+
+// Why there is no such gamepad, and what to do; empty where it is among those that are there.
+struct Gamepad {
+    int number = 0;
+    std::string name;
+};
+std::string problem_of_gamepad(int wanted, const std::vector<Gamepad>& there);
 
 // What a hand does, or why it gives no force, and what of the scene is too stiff for it. `said`: what its
 // driver has to say.

@@ -126,6 +126,32 @@ func test_what_another_driver_needs_is_not_shown() -> void:
 	device.free()
 
 
+func _box_of(device: HapticDevice) -> MeshInstance3D:
+	var pictures := device.get_children(true)
+	return pictures[0] if pictures.size() == 1 else null
+
+
+func test_the_workspace_is_drawn_where_that_is_asked_for() -> void:
+	var world := add_world()
+	var device := _device(world, HapticDevice.DRIVER_KEYBOARD)
+	device.steering_reach = 0.3
+	check_equal(_box_of(device), null, "nobody asked for it")
+	device.show_workspace = true
+	var box := _box_of(device)
+	check(box.visible, "it is not seen")
+	check_near(box.scale, Vector3.ONE * 0.3, 1e-6, "as large as it reaches")
+	check_near(box.mesh.get_aabb().size, Vector3.ONE * 2.01, 0.01, "a cube")
+	device.steering_reach = 0.1
+	check_near(box.scale, Vector3.ONE * 0.1, 1e-6, "as large as it reaches now")
+	device.driver = HapticDevice.DRIVER_MOUSE
+	check(not box.visible, "a mouse has no workspace")
+	device.driver = HapticDevice.DRIVER_EMULATED_ROBOT
+	await _play(world, 2)
+	check(box.visible and box.scale.x > 0.01, "the robot has one: %s" % box.scale)
+	device.show_workspace = false
+	check(not box.visible, "nobody asks for it any more")
+
+
 ## A hand that goes 5 mm into the floor at 0.2 m/s.
 func _tapping_world(floor_stiffness: float) -> HapticFeedback:
 	var world := add_world()

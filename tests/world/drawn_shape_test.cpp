@@ -59,6 +59,16 @@ TEST(Tube, AClosedOneComesBackAndAPointIsNone) {
     EXPECT_TRUE(tube({{0, 0, 0}}, 0.1, true).mesh.triangles.empty());
 }
 
+TEST(DrawnCubeEdges, AreTwelveTubesAlongTheEdges) {
+    const TriangleMesh mesh = drawn_cube_edges(2.0, 0.1).mesh;
+    EXPECT_EQ(mesh.triangles.size(), 12 * tube({{0, 0, 0}, {1, 0, 0}}, 0.1, false).mesh.triangles.size());
+    for (const Vec3& vertex : mesh.vertices) {
+        const Vec3 beside = glm::abs(glm::abs(vertex) - Vec3(2.0));
+        EXPECT_LE((beside.x < 0.06) + (beside.y < 0.06) + (beside.z < 0.06), 3);
+        EXPECT_GE((beside.x < 0.06) + (beside.y < 0.06) + (beside.z < 0.06), 2) << "on no edge";
+    }
+}
+
 TEST(DrawnPath, IsATubeAlongThePathAndClosedWhereItIs) {
     const Drawing circle = drawn_path(CircleWave{}, 0.01);
     ASSERT_FALSE(circle.mesh.triangles.empty());

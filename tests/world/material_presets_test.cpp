@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "core/haptics/touch_values.hpp"
 
 namespace tactus {
@@ -63,6 +65,16 @@ TEST(Grain, IsBetweenZeroAndOneAndTheSameAlways) {
     }
     EXPECT_NEAR(sum / static_cast<double>(image->heights.size()), 0.5, 0.02);
     EXPECT_EQ(grain(), image);
+}
+
+TEST(HeightImage, IsMadeOfPackedFloatsBetweenZeroAndOne) {
+    const float packed[] = {0.25f, -1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f, 0.5f};
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(packed);
+    const auto image = height_image(3, 2, {bytes, sizeof(packed)});
+    ASSERT_NE(image, nullptr);
+    EXPECT_EQ(image->columns, 3u);
+    EXPECT_EQ(image->heights, (std::vector<float>{0.25f, 0.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
+    EXPECT_EQ(height_image(3, 2, {bytes, sizeof(packed) - 1}), nullptr);
 }
 
 }  // namespace

@@ -74,6 +74,14 @@ TEST(SceneFrame, AFrameInAFrame) {
     EXPECT_NEAR(glm::distance(both.axes * point + both.origin, step_by_step), 0.0, 1e-12);
 }
 
+TEST(SceneFrame, AnEvenScaleIsItsMean) {
+    EXPECT_TRUE(is_even({turn(1.0, {1, 2, 3}) * 3.0}));
+    EXPECT_NEAR(mean_scale({turn(1.0, {1, 2, 3}) * 3.0}), 3.0, 1e-12);
+    EXPECT_TRUE(is_even({scale(1, 1.0005, -1)}));
+    EXPECT_FALSE(is_even({scale(1, 1, 1.002)}));
+    EXPECT_NEAR(mean_scale({scale(1, -2, 4)}), 2.0, 1e-12);
+}
+
 TEST(SceneFrame, CanBeTouchedAlmostAnywhere) {
     EXPECT_EQ(problem_of_place({}), "");
     EXPECT_EQ(problem_of_place({Mat3(-1e-6), Vec3(9e6)}), "") << "mirrored, small and far";

@@ -144,5 +144,24 @@ TEST(StateOfFingertip, SaysWhatItDoesOrWhyItIsNotFelt) {
     EXPECT_NE(state_of_fingertip(state).find("began inside"), std::string::npos);
 }
 
+TEST(UsualRadius, IsKnownBeforeTheDeviceIsThere) {
+    SteeringSettings steering;
+    steering.reach = 0.3;
+    EXPECT_EQ(usual_radius(HandKind::keyboard, steering), 0.3);
+    EXPECT_EQ(usual_radius(HandKind::mouse, steering), 0.0);
+    EXPECT_EQ(usual_radius(HandKind::path, steering), 0.0);
+    EXPECT_GT(usual_radius(HandKind::falcon, steering), 0.01);
+    EXPECT_GT(usual_radius(HandKind::inverse3, steering), 0.01);
+    EXPECT_EQ(usual_radius(HandKind::emulated_robot, steering), usual_radius(HandKind::falcon, steering));
+    EXPECT_EQ(usual_radius(HandKind::openhaptics, steering), 0.0) << "the device itself says it";
+}
+
+TEST(ProblemOfGamepad, NamesThoseThatAreThere) {
+    EXPECT_NE(problem_of_gamepad(0, {}).find("plug one in"), std::string::npos);
+    EXPECT_EQ(problem_of_gamepad(2, {{0, "One"}, {2, "Other"}}), "");
+    EXPECT_EQ(problem_of_gamepad(1, {{0, "One"}, {2, "Other"}}),
+              "there is no gamepad 1: set 'gamepad' to one of 0 (One), 2 (Other)");
+}
+
 }  // namespace
 }  // namespace tactus
