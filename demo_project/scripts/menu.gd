@@ -12,6 +12,7 @@ const SCENES := {
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
 	"Over a network: the box, far away": "res://networked_testbed.tscn",
 	"Over a network: a robot at a table": "res://robot_testbed.tscn",
+	"Over a network: what a camera sees, and a robot there": "res://camera_testbed.tscn",
 	"Check a device": "res://device_check.tscn",
 }
 

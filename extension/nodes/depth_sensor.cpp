@@ -8,12 +8,14 @@
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/window.hpp>
 
+#include "core/math/least_turn.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -23,8 +25,21 @@ namespace {
 
 constexpr double never = -1.0;
 
+// What moves is guessed to go on as it did for three images, and no longer (unit: seconds).
+constexpr double longest_guess = 0.1;
+
 const char* word_of(SightState state) {
-    return state == SightState::found ? "found" : state == SightState::tracked ? "tracked" : "lost";
+    switch (state) {
+        case SightState::found:
+            return "found";
+        case SightState::tracked:
+            return "tracked";
+        case SightState::hidden:
+            return "hidden";
+        case SightState::lost:
+            break;
+    }
+    return "lost";
 }
 
 // Standard deviation along the axis that is known least well, of the first three or the last three rows
@@ -37,16 +52,6 @@ double deviation(const SightedObject& object, std::size_t first) {
     return std::sqrt(std::max(0.0, most));
 }
 
-// The least turn that takes one unit vector to the other.
-Quat turn_between(const Vec3& from, const Vec3& to) {
-    const double cosine = glm::dot(from, to);
-    if (cosine < -0.999999) {
-        return {0.0, 1.0, 0.0, 0.0};  // half a turn, about any axis across: x, where both lie along y
-    }
-    const Vec3 axis = glm::cross(from, to);
-    return glm::normalize(Quat(1.0 + cosine, axis.x, axis.y, axis.z));
-}
-
 }  // namespace
 
 // --- properties
@@ -54,10 +59,8 @@ Quat turn_between(const Vec3& from, const Vec3& to) {
 void DepthSensor::source_changed() {
     notify_property_list_changed();
     update_configuration_warnings();
-    if (sensor_ != nullptr || (active_ && is_inside_tree())) {
-        end();
-        begin();
-    }
+    end();
+    begin();
 }
 
 void DepthSensor::library_changed() {
@@ -68,8 +71,14 @@ void DepthSensor::library_changed() {
 }
 
 void DepthSensor::pictures_changed() {
+    pass_on_settings();
+    show();
+}
+
+void DepthSensor::show() {
     if (sensor_ != nullptr) {
-        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_});
+        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_},
+                     age());
     }
 }
 
@@ -103,12 +112,16 @@ const Sight& DepthSensor::sight() const {
     return sensor_ != nullptr ? sensor_->sight() : nothing;
 }
 
+double DepthSensor::age() const {
+    return std::clamp(to_seconds(monotonic_now() - sight().arrived), 0.0, longest_guess);
+}
+
+// The rest of the scene, which a synthetic camera looks at, may not be there yet.
 void DepthSensor::begin() {
-    set_process_internal(false);
-    if (!active_ || is_edited() || !is_inside_tree()) {
-        return;
-    }
-    set_process_internal(true);
+    set_process_internal(active_ && !is_edited() && is_inside_tree());
+}
+
+void DepthSensor::make_sensor() {
     const DepthSensing* const sensing = depth_sensing(load_error_);
     if (sensing != nullptr) {
         sensor_.reset(sensing->make_sensor());
@@ -160,6 +173,8 @@ void DepthSensor::pass_on_library() {
     library_.clear();
     library_error_.clear();
     std::vector<KnownMesh> known;
+    std::vector<std::string> known_names;
+    known_names.reserve(static_cast<std::size_t>(library_names().size()));
     const PackedStringArray names = library_names();
     for (int64_t i = 0; i < names.size(); ++i) {
         const TriangleSource::Checked loaded = load_library_mesh(names[i])->triangles();
@@ -168,7 +183,10 @@ void DepthSensor::pass_on_library() {
             continue;
         }
         library_.push_back({names[i], loaded.mesh, mesh_library_entry(names[i]).mass});
-        known.push_back({{loaded.mesh->vertices, loaded.mesh->triangles}, library_.back().mass});
+        known_names.push_back(from_godot(names[i]));
+        known.push_back({known_names.back().c_str(),
+                         {loaded.mesh->vertices, loaded.mesh->triangles},
+                         library_.back().mass});
     }
     sensor_->set_library(known);
 }
@@ -181,11 +199,15 @@ void DepthSensor::pass_on_settings() {
     settings.camera = pose_of(get_global_transform());
     settings.min_confidence = min_confidence_;
     settings.max_rate = rate_;
+    settings.wants_cloud = show_cloud_;
+    settings.knows_support = knows_support_;
+    settings.support_height = support_height_;
     sensor_->set_settings(settings);
 }
 
 void DepthSensor::end() {
     sensor_.reset();
+    load_error_.clear();
     view_.end();
     seen_.clear();
     known_.clear();
@@ -195,6 +217,9 @@ void DepthSensor::end() {
 }
 
 void DepthSensor::look() {
+    if (sensor_ == nullptr && load_error_.empty()) {
+        make_sensor();
+    }
     if (sensor_ == nullptr) {
         return;
     }
@@ -204,7 +229,9 @@ void DepthSensor::look() {
     }
     const bool is_new = sensor_->take();
     if (is_new) {
-        pictures_changed();
+        show();
+    } else {
+        seen_.go_on(sight(), age());
     }
     tell(is_new);
 }
@@ -256,7 +283,11 @@ String DepthSensor::get_state_text() const {
     if (!active_) {
         return "it is switched off: set 'active'";
     }
-    return to_godot(load_error_.empty() ? std::string(sight().text) : load_error_);
+    if (!load_error_.empty()) {
+        return to_godot(load_error_);
+    }
+    return sensor_ != nullptr ? to_godot(std::string(sight().text))
+                              : String("it begins with the next frame of the scene");
 }
 
 Dictionary DepthSensor::describe(const SightedObject& object) const {
@@ -267,6 +298,7 @@ Dictionary DepthSensor::describe(const SightedObject& object) const {
     d["state"] = word_of(object.state);
     d["transform"] = to_godot(object.pose);
     d["confidence"] = object.confidence;
+    d["rests"] = object.rests;
     d["position_deviation"] = deviation(object, 0);
     d["rotation_deviation"] = deviation(object, 3);
     d["linear_velocity"] = to_godot(object.linear_velocity);
@@ -336,7 +368,7 @@ double DepthSensor::calibrate_from_plane(double height) {
     }
     const double above = glm::dot(now.plane.normal, now.camera.position) - now.plane.offset;
     Pose camera = now.camera;
-    camera.rotation = glm::normalize(turn_between(now.plane.normal, {0.0, 1.0, 0.0}) * camera.rotation);
+    camera.rotation = glm::normalize(least_turn(now.plane.normal, {0.0, 1.0, 0.0}) * camera.rotation);
     camera.position.y = height + above;
     set_global_transform(to_godot(camera));
     pass_on_settings();

@@ -64,10 +64,13 @@ private:
     void source_changed();
     void library_changed();
     void pictures_changed();
+    void show();
     const Sight& sight() const;
+    double age() const;  // of what was seen last (unit: seconds)
     godot::String problem() const;
     godot::PackedStringArray library_names() const;
     void begin();
+    void make_sensor();
     void end();
     void open();
     void pass_on_library();
@@ -89,6 +92,8 @@ private:
     godot::PackedStringArray meshes_;
     double min_confidence_ = 0.5;
     double rate_ = 30.0;
+    bool knows_support_ = false;
+    double support_height_ = 0.0;
     Bodies bodies_ = BODIES_NONE;
     bool show_objects_ = true;
     bool show_cloud_ = false;

@@ -64,6 +64,11 @@ Node3D* HapticDevice::target_node() const {
     return node_at<Node3D>(*this, target_);
 }
 
+HapticDevice* HapticDevice::robot_node() const {
+    auto* const robot = Object::cast_to<HapticDevice>(target_node());
+    return robot != nullptr && robot->kind() == HandKind::emulated_robot ? robot : nullptr;
+}
+
 String HapticDevice::problem() const {
     const bool needs_path = follows_path(kind());
     if (needs_path && path_.is_null()) {
@@ -86,6 +91,9 @@ String HapticDevice::problem() const {
     }
     if (kind() == HandKind::node && target_node() == nullptr) {
         return wrong_path("target", target_, "a Node3D");
+    }
+    if (kind() == HandKind::robot_tip && robot_node() == nullptr) {
+        return wrong_path("target", target_, "a HapticDevice with the driver of an emulated robot");
     }
     return is_inside_tree() ? to_godot(problem_of_place(frame_of(get_global_transform()))) : String();
 }
@@ -140,6 +148,7 @@ HandPlan HapticDevice::plan() const {
     plan.start = start();
     plan.arm = arm_settings_;
     plan.table_height = table_height_;
+    plan.tip = kind() == HandKind::robot_tip ? robot_node()->tip_ : tip_;
     plan.driver.id = from_godot(device_id_);
     plan.driver.weight = gravity_compensation_;
     if (path_.is_valid()) {

@@ -33,6 +33,7 @@ public:
         DRIVER_OPENHAPTICS = static_cast<int64_t>(HandKind::openhaptics),
         DRIVER_INVERSE3 = static_cast<int64_t>(HandKind::inverse3),
         DRIVER_EMULATED_ROBOT = static_cast<int64_t>(HandKind::emulated_robot),
+        DRIVER_ROBOT_TIP = static_cast<int64_t>(HandKind::robot_tip),
     };
     enum Steering : int64_t {
         STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
@@ -81,6 +82,7 @@ private:
     HandKind kind() const;
     HandPlan plan() const;
     godot::Node3D* target_node() const;
+    HapticDevice* robot_node() const;  // whose tip this one is; null: none
     // Around the workspace, where it is to be seen.
     void draw_box();
     // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
@@ -106,6 +108,7 @@ private:
     int dead_man_buttons_ = 0;
 
     SceneHand hand_;
+    std::shared_ptr<TipExchange> tip_ = std::make_shared<TipExchange>();  // as an emulated robot
     DeviceState state_;
     godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen
 };

@@ -122,7 +122,7 @@ LinkPlan MMTLink::plan() {
     plan.revision = revision_;
     plan.teleop = tuning_.is_valid() ? tuning_->settings() : TeleopSettings{};
     plan.teleop.traditional = scenario_ == SCENARIO_TRADITIONAL || scenario_ == SCENARIO_ROBOT;
-    plan.teleop.robot = scenario_ == SCENARIO_ROBOT;
+    plan.teleop.robot = has_robots();
     plan.teleop.correction = correction_;
     plan.teleop.control = control_;
     plan.network = network_settings();

@@ -33,7 +33,8 @@ public:
         SCENARIO_SINGLE = 1,
         SCENARIO_TRADITIONAL = 2,
         SCENARIO_ROBOT = 3,
-        SCENARIO_MMT = 4
+        SCENARIO_MMT = 4,
+        SCENARIO_MMT_ROBOT = 5
     };
     enum Side : int64_t { SIDE_OPERATOR, SIDE_TELEOPERATOR };
     enum State : int64_t {
@@ -67,7 +68,7 @@ public:
     static std::vector<MMTLink*> of(const HapticWorld& world);
     bool is_networked() const { return scenario_ != SCENARIO_SINGLE; }
     // The devices of its far side are robots.
-    bool has_robots() const { return scenario_ == SCENARIO_ROBOT; }
+    bool has_robots() const { return scenario_ == SCENARIO_ROBOT || scenario_ == SCENARIO_MMT_ROBOT; }
     bool is_operator() const { return side_ == SIDE_OPERATOR; }
     LinkPlan plan();
     // By the name of the object.

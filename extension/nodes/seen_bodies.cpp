@@ -1,12 +1,16 @@
 #include "nodes/seen_bodies.hpp"
 
 #include <algorithm>
+#include <godot_cpp/classes/box_shape3d.hpp>
 #include <godot_cpp/classes/collision_shape3d.hpp>
 #include <godot_cpp/classes/convex_polygon_shape3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
+#include <godot_cpp/classes/static_body3d.hpp>
 #include <godot_cpp/core/object.hpp>
 #include <unordered_set>
 
+#include "core/math/least_turn.hpp"
+#include "core/teleop/body_motion.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/mesh_drawing.hpp"
@@ -24,6 +28,14 @@ const Color cloud_color(0.2f, 0.75f, 0.9f, 1.0f);
 // Of what nobody knows the mass of: that of water (unit: kilograms per cubic meter).
 constexpr double unknown_density = 1000.0;
 
+// Of the support (unit: meters).
+constexpr float support_size = 2.0f;
+constexpr float support_thickness = 0.04f;
+
+// Less is noise of the camera (unit: meters; cosine of 0.5 degrees).
+constexpr double support_shift = 0.002;
+constexpr double support_cosine = 0.99996;
+
 TriangleMesh copy_of(const MeshView& view) {
     return {{view.vertices.begin(), view.vertices.end()}, {view.triangles.begin(), view.triangles.end()}};
 }
@@ -35,6 +47,19 @@ double volume_of(const TriangleMesh& mesh) {
         volume += glm::dot(mesh.vertices[a], glm::cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
     }
     return std::abs(volume);
+}
+
+bool moves(const SightedObject& object) {
+    return object.linear_velocity != Vec3(0.0) || object.angular_velocity != Vec3(0.0);
+}
+
+// Where it is after `seconds` if it goes on as it moves.
+Pose pose_after(const SightedObject& object, double seconds) {
+    if (!moves(object)) {
+        return object.pose;
+    }
+    return {object.pose.position + seconds * object.linear_velocity,
+            glm::normalize(turn_by(object.angular_velocity, seconds) * object.pose.rotation)};
 }
 
 bool is_known(const SightedObject& object, std::span<const SeenMesh> library) {
@@ -103,13 +128,13 @@ Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> 
     return made;
 }
 
-void SeenBodies::place(Made& made, const SightedObject& object) const {
-    made.pose = object.pose;
+void SeenBodies::place(Made& made, const SightedObject& object, double age) const {
+    made.pose = pose_after(object, age);
     auto* const node = Object::cast_to<Node3D>(ObjectDB::get_instance(made.node));
     if (node == nullptr) {
         return;
     }
-    node->set_global_transform(to_godot(object.pose));
+    node->set_global_transform(to_godot(made.pose));
     auto* const body = Object::cast_to<RigidBody3D>(node);
     if (body != nullptr && !body->is_freeze_enabled()) {
         body->set_linear_velocity(to_godot(object.linear_velocity));
@@ -117,8 +142,17 @@ void SeenBodies::place(Made& made, const SightedObject& object) const {
     }
 }
 
+void SeenBodies::go_on(const Sight& sight, double age) {
+    for (const SightedObject& object : sight.objects) {
+        const auto made = made_.find(object.id);
+        if (made != made_.end() && moves(object)) {
+            place(made->second, object, age);
+        }
+    }
+}
+
 void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
-                        const Looks& looks) {
+                        const Looks& looks, double age) {
     if (std::exchange(made_as_, looks.objects) != looks.objects ||
         std::exchange(are_shown_, looks.show_objects) != looks.show_objects) {
         clear();
@@ -146,7 +180,7 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
                 made.node = node->get_instance_id();
             }
         }
-        place(made, object);
+        place(made, object, age);
     }
     std::erase_if(made_, [&](const auto& one) {
         if (there.contains(one.first)) {
@@ -157,7 +191,42 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
         }
         return true;
     });
+    hold_support(sensor, sight.plane, looks.objects != SeenAs::pictures);
     draw_cloud(sensor, sight, looks.show_cloud);
+}
+
+// What the objects stand on is a slab, and is put elsewhere only where it is seen to be: its noise would
+// shake all that stands on it.
+void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is_wanted) {
+    auto* slab = Object::cast_to<Node3D>(ObjectDB::get_instance(support_));
+    if (!is_wanted || !plane.is_found) {
+        if (slab != nullptr && !is_wanted) {
+            slab->queue_free();
+            support_ = 0;
+        }
+        return;
+    }
+    const bool is_new = slab == nullptr;
+    if (is_new) {
+        Ref<BoxShape3D> box;
+        box.instantiate();
+        box->set_size(Vector3(support_size, support_thickness, support_size));
+        auto* const shape = memnew(CollisionShape3D);
+        shape->set_shape(box);
+        slab = memnew(StaticBody3D);
+        slab->set_name("support");
+        slab->set_as_top_level(true);
+        slab->add_child(shape);
+        sensor.add_child(slab, true);
+        support_ = slab->get_instance_id();
+    }
+    const double shift = std::abs(plane.offset - support_plane_.offset);
+    if (!is_new && shift < support_shift && glm::dot(plane.normal, support_plane_.normal) > support_cosine) {
+        return;
+    }
+    support_plane_ = plane;
+    const Vec3 under = (plane.offset - 0.5 * support_thickness) * plane.normal;
+    slab->set_global_transform(to_godot(Pose{under, least_turn({0.0, 1.0, 0.0}, plane.normal)}));
 }
 
 void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) {
@@ -208,6 +277,10 @@ void SeenBodies::clear() {
         cloud->queue_free();
     }
     cloud_ = 0;
+    if (auto* const slab = Object::cast_to<Node>(ObjectDB::get_instance(support_))) {
+        slab->queue_free();
+    }
+    support_ = 0;
 }
 
 }  // namespace tactus

@@ -38,9 +38,12 @@ public:
         bool show_cloud = false;
     };
 
-    // Below `sensor`, which outlives this.
+    // Below `sensor`, which outlives this. `age`: of the sight; what moves is where it must be by now (unit:
+    // seconds).
     void update(godot::Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
-                const Looks& looks);
+                const Looks& looks, double age);
+    // The same sight, older by now: what moves has gone on.
+    void go_on(const Sight& sight, double age);
     // Takes everything away.
     void clear();
 
@@ -57,13 +60,16 @@ private:
 
     godot::Node3D* make(const SightedObject& object, std::span<const SeenMesh> library,
                         const Looks& looks) const;
-    void place(Made& made, const SightedObject& object) const;
+    void place(Made& made, const SightedObject& object, double age) const;
     void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
+    void hold_support(godot::Node3D& sensor, const SupportPlane& plane, bool is_wanted);
 
     SeenAs made_as_ = SeenAs::pictures;
     bool are_shown_ = true;
     std::map<std::uint64_t, Made> made_;  // by the object
     std::uint64_t cloud_ = 0;
+    std::uint64_t support_ = 0;
+    SupportPlane support_plane_;  // as it was put there last
 };
 
 }  // namespace tactus

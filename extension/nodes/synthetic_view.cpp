@@ -1,5 +1,6 @@
 #include "nodes/synthetic_view.hpp"
 
+#include <algorithm>
 #include <godot_cpp/classes/time.hpp>
 #include <godot_cpp/core/object.hpp>
 
@@ -13,6 +14,9 @@ using namespace godot;
 
 namespace {
 
+// A walk through the scene is not for every frame.
+constexpr int looks_for_others = 30;
+
 // Of the mesh as it is drawn, in a frame that neither scales nor shears.
 TriangleMesh scaled_triangles(MeshInstance3D& drawn) {
     const std::shared_ptr<const TriangleMesh> mesh = source_of(drawn.get_mesh())->triangles().mesh;
@@ -23,9 +27,9 @@ TriangleMesh scaled_triangles(MeshInstance3D& drawn) {
 }  // namespace
 
 // With `root` itself, as far as there is room.
-void SyntheticView::collect(Node& root, const Node& without, std::vector<MeshInstance3D*>& found) const {
+void SyntheticView::collect(Node& root, const Node* without, std::vector<MeshInstance3D*>& found) {
     const auto visit = [&](Node& node) {
-        if (&node == &without) {
+        if (&node == without) {
             return Walk::past;
         }
         auto* const drawn = Object::cast_to<MeshInstance3D>(&node);
@@ -44,7 +48,9 @@ std::string SyntheticView::begin(const DepthSensing& sensing, const SyntheticCam
                                  const Node& without) {
     end();
     std::vector<MeshInstance3D*> drawn;
-    collect(root, without, drawn);
+    collect(root, &without, drawn);
+    root_ = root.get_instance_id();
+    without_ = without.get_instance_id();
     std::vector<TriangleMesh> meshes;
     for (MeshInstance3D* const one : drawn) {
         meshes.push_back(scaled_triangles(*one));
@@ -68,12 +74,23 @@ void SyntheticView::end() {
     shown_.clear();
 }
 
+bool SyntheticView::has_others() const {
+    auto* const root = Object::cast_to<Node>(ObjectDB::get_instance(root_));
+    std::vector<MeshInstance3D*> drawn;
+    if (root != nullptr && root->is_inside_tree()) {
+        collect(*root, Object::cast_to<Node>(ObjectDB::get_instance(without_)), drawn);
+    }
+    return std::ranges::any_of(drawn, [this](const MeshInstance3D* one) {
+        return std::ranges::find(shown_, one->get_instance_id(), &Shown::node) == shown_.end();
+    });
+}
+
 bool SyntheticView::show(const Pose& camera) {
     if (scene_ == nullptr) {
         return false;
     }
     bodies_.clear();
-    bool is_another = false;
+    bool is_another = ++shows_ % looks_for_others == 0 && has_others();
     for (std::size_t i = 0; i < shown_.size(); ++i) {
         auto* const drawn = Object::cast_to<MeshInstance3D>(ObjectDB::get_instance(shown_[i].node));
         if (drawn == nullptr || !drawn->is_inside_tree() || drawn->get_mesh().is_null() ||

@@ -21,7 +21,8 @@ public:
                       const godot::Node& without);
     void end();
 
-    // Where all of it is now. True where what is drawn is no longer what it was: begin anew.
+    // Where all of it is now. True where something else is drawn by now: begin anew. What is gone shows at
+    // once, what has come within a second.
     bool show(const Pose& camera);
 
     const char* uri() const { return scene_ != nullptr ? scene_->uri() : ""; }
@@ -34,10 +35,14 @@ private:
         std::uint64_t mesh = 0;  // id of the resource
     };
 
-    void collect(godot::Node& root, const godot::Node& without,
-                 std::vector<godot::MeshInstance3D*>& found) const;
+    static void collect(godot::Node& root, const godot::Node* without,
+                        std::vector<godot::MeshInstance3D*>& found);
+
+    bool has_others() const;
 
     OwnedScene scene_;
+    std::uint64_t root_ = 0, without_ = 0;  // nodes
+    int shows_ = 0;
     std::vector<Shown> shown_;
     std::vector<ShownBody> bodies_;
 };

@@ -1,8 +1,14 @@
 #include "sensing/observer.hpp"
 
+#include "platform/clock.hpp"
+
 namespace tactus {
 
 namespace {
+
+double seconds_now() {
+    return to_seconds(monotonic_now());
+}
 
 void deproject(const DepthImage& image, std::vector<glm::vec3>& cloud) {
     cloud.clear();
@@ -16,6 +22,20 @@ void deproject(const DepthImage& image, std::vector<glm::vec3>& cloud) {
     }
 }
 
+SightState state_of(SeenState state) {
+    switch (state) {
+        case SeenState::found:
+            return SightState::found;
+        case SeenState::tracked:
+            return SightState::tracked;
+        case SeenState::hidden:
+            return SightState::hidden;
+        case SeenState::lost:
+            break;
+    }
+    return SightState::lost;
+}
+
 }  // namespace
 
 void Picture::point() {
@@ -27,13 +47,95 @@ void Picture::point() {
     sight.text = text.c_str();
 }
 
-void Observer::set_library(std::shared_ptr<const MeshLibrary> library) {
-    library_ = std::move(library);
+void Observer::set_library(const MeshLibrary& library) {
+    const LearningSettings learning;
+    auto learnt = std::make_shared<std::vector<LearntMesh>>();
+    indices_.clear();
+    for (std::size_t i = 0; i < library.size(); ++i) {
+        if (check_library_mesh(library[i], learning).empty()) {
+            learnt->push_back(learn_mesh(library[i], learning));
+            indices_.push_back(static_cast<std::int32_t>(i));
+        }
+    }
+    meshes_ = std::move(learnt);
+    forget();
 }
 
-void Observer::look(const DepthImage& image, const SensorSettings& settings, Picture& picture) {
+void Observer::begin(const SensorSettings& settings) {
+    DiscoverySettings discovery;
+    support_height_ = settings.knows_support ? std::optional(settings.support_height) : std::nullopt;
+    if (support_height_) {
+        discovery.support = WorldPlane{{0.0, 1.0, 0.0}, *support_height_};
+    }
+    if (meshes_ == nullptr) {
+        meshes_ = std::make_shared<const std::vector<LearntMesh>>();
+    }
+    discovery_.emplace(meshes_, discovery);
+    discovery_->time_with(seconds_now);
+    told_.clear();
+}
+
+std::string Observer::look(const DepthImage& image, const SensorSettings& settings, Picture& picture) {
+    const std::optional<double> height =
+        settings.knows_support ? std::optional(settings.support_height) : std::nullopt;
+    if (!discovery_ || height != support_height_) {
+        begin(settings);
+    }
+    discovery_->update(image, settings.camera);
+    if (!discovery_->problem().empty()) {
+        for (SightedObject& object : picture.objects) {
+            object.confidence *= 0.9;
+        }
+        return discovery_->problem();
+    }
+    if (settings.wants_cloud) {
+        deproject(image, picture.cloud);
+    } else {
+        picture.cloud.clear();
+    }
+    tell(settings, picture);
+    return "";
+}
+
+void Observer::tell(const SensorSettings& settings, Picture& picture) {
     picture.sight.camera = settings.camera;
-    deproject(image, picture.cloud);
+    picture.objects.clear();
+    picture.hulls.clear();
+    for (const SeenObject& seen : discovery_->objects()) {
+        // Once told of, it is followed also where it is believed less. Of a hull nothing is claimed.
+        const bool is_doubted = seen.mesh != SeenObject::no_mesh && seen.confidence < settings.min_confidence;
+        if (is_doubted && !told_.contains(seen.id)) {
+            continue;
+        }
+        told_.insert(seen.id);
+        SightedObject object;
+        object.id = seen.id;
+        object.mesh = seen.mesh != SeenObject::no_mesh ? indices_[seen.mesh] : -1;
+        object.state = state_of(seen.state);
+        object.pose = seen.pose;
+        for (std::size_t row = 0; row < 6; ++row) {
+            for (std::size_t column = 0; column < 6; ++column) {
+                object.covariance[6 * row + column] = seen.covariance[row][column];
+            }
+        }
+        object.linear_velocity = seen.linear_velocity;
+        object.angular_velocity = seen.angular_velocity;
+        object.rests = seen.rests;
+        object.confidence = seen.confidence;
+        picture.objects.push_back(object);
+        picture.hulls.push_back(seen.mesh != SeenObject::no_mesh ? TriangleMesh{} : seen.hull);
+    }
+    SupportPlane& plane = picture.sight.plane;
+    plane.is_found = discovery_->support().has_value();
+    if (plane.is_found) {
+        plane.normal = discovery_->support()->normal;
+        plane.offset = discovery_->support()->offset;
+        plane.residual = discovery_->support_residual();
+    }
+    picture.sight.depth_scale = discovery_->depth_scale();
+    const DiscoveryTimes& times = discovery_->times();
+    picture.sight.times.segmentation = times.plane + times.segmentation;
+    picture.sight.times.objects = times.tracking + times.recognition;
 }
 
 }  // namespace tactus

@@ -4,12 +4,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/ports/depth_sensing.hpp"
-#include "sensing/image/depth_image.hpp"
+#include "sensing/discovery/discovery.hpp"
 
 namespace tactus {
 
@@ -25,22 +26,28 @@ struct Picture {
     void point();
 };
 
-struct LibraryMesh {
-    TriangleMesh mesh;
-    double mass = 0.0;  // (unit: kilograms)
-};
 using MeshLibrary = std::vector<LibraryMesh>;
 
 class Observer {
 public:
-    // What has been seen is forgotten.
-    void set_library(std::shared_ptr<const MeshLibrary> library);
+    // Learns the meshes, which takes about a tenth of a second for each; what has been seen is forgotten.
+    void set_library(const MeshLibrary& library);
+    // What has been seen is forgotten; the meshes stay.
+    void forget() { discovery_.reset(); }
 
-    // All of the picture but its state, text and times of arrival.
-    void look(const DepthImage& image, const SensorSettings& settings, Picture& picture);
+    // All of the picture but its state, text and times of arrival. Empty, or why nothing can be found in the
+    // image: all places stay as they were, and are believed less.
+    std::string look(const DepthImage& image, const SensorSettings& settings, Picture& picture);
 
 private:
-    std::shared_ptr<const MeshLibrary> library_;
+    void begin(const SensorSettings& settings);
+    void tell(const SensorSettings& settings, Picture& picture);
+
+    std::shared_ptr<const std::vector<LearntMesh>> meshes_;
+    std::vector<std::int32_t> indices_;  // of meshes_, in the library: what cannot be recognised is left out
+    std::optional<Discovery> discovery_;
+    std::optional<double> support_height_;  // that it was begun with
+    std::unordered_set<std::uint32_t> told_;
 };
 
 }  // namespace tactus

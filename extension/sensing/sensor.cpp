@@ -63,7 +63,8 @@ void Sensor::set_library(std::span<const KnownMesh> meshes) noexcept {
     want([&] {
         auto library = std::make_shared<MeshLibrary>();
         for (const KnownMesh& known : meshes) {
-            library->push_back({{{known.mesh.vertices.begin(), known.mesh.vertices.end()},
+            library->push_back({known.name,
+                                {{known.mesh.vertices.begin(), known.mesh.vertices.end()},
                                  {known.mesh.triangles.begin(), known.mesh.triangles.end()}},
                                 known.mass});
         }
@@ -126,16 +127,18 @@ void Sensor::look_once() {
 }
 
 void Sensor::follow(const Wanted& wanted) {
-    if (wanted.library_change != now_.library_change) {
-        observer_.set_library(wanted.library);
-    }
+    const bool is_other_library = wanted.library_change != now_.library_change;
     const bool is_other_camera = wanted.camera_change != now_.camera_change;
     now_ = wanted;
+    if (is_other_library) {
+        say(seen_.sight.state, "learning the meshes of the library");
+        observer_.set_library(*now_.library);
+    }
     if (is_other_camera) {
         camera_.reset();
         seen_ = {};
         last_frame_ = 0;
-        observer_.set_library(now_.library);
+        observer_.forget();
         say(now_.camera ? SensorState::opening : SensorState::closed,
             now_.camera ? "opening the camera" : "closed");
     }
@@ -194,12 +197,12 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
         return;
     }
     last_frame_ = last_fade_ = arrived;
-    if (const std::string wrong = check_image(image); !wrong.empty()) {
+    if (const std::string wrong = observer_.look(image, now_.settings, seen_); !wrong.empty()) {
         ++seen_.sight.dropped;
         say(SensorState::waiting, wrong);
+        publish(false);
         return;
     }
-    observer_.look(image, now_.settings, seen_);
     seen_.sight.state = SensorState::seeing;
     seen_.text = "seeing through " + camera_->name();
     ++seen_.sight.frames;

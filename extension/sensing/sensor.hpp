@@ -38,7 +38,7 @@ private:
     struct Wanted {
         std::optional<Camera::Choice> camera;  // none: closed
         std::uint64_t camera_change = 0;
-        std::shared_ptr<const MeshLibrary> library;
+        std::shared_ptr<const MeshLibrary> library = std::make_shared<MeshLibrary>();
         std::uint64_t library_change = 0;
         SensorSettings settings;
     };

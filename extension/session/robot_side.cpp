@@ -28,11 +28,13 @@ RobotBody body_of(const DeviceCapabilities& robot) {
 RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                      std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
     : channel_(settings, link, std::move(port), endpoint),
+      telling_(session.most_bodies),
       hands_(channel_, most_proxies, to_seconds(session.period)),
       seconds_(to_seconds(session.period)) {}
 
 void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
+    telling_.take_orders(channel_.port());
     receive();
     hands_.follow(channel_, changed);
     for (std::size_t i = 0; i < most_proxies; ++i) {
@@ -47,12 +49,15 @@ void RobotSide::receive() {
         if (channel_.peer_has_started()) {
             statistics_.sample = no_sample;
             hands_.restart();
+            telling_.restart();
             for (Pointer& pointer : pointers_) {
                 pointer.holds = false;
             }
         }
         if (const auto* const samples = std::get_if<OperatorSamples>(&packet->message)) {
             hands_.take(*samples);
+        } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&packet->message)) {
+            telling_.take(*known);
         }
     }
 }
@@ -125,7 +130,13 @@ void RobotSide::set_forces(SessionLoop& loop, Nanoseconds) {
 }
 
 void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
-    send_forces(loop, now);
+    if (settings().traditional) {
+        send_forces(loop, now);
+    } else {
+        telling_.tell_states(loop, channel_, statistics_.sample, now);
+        telling_.describe(channel_, now);
+        statistics_.discovery = telling_.counts();
+    }
     for (std::size_t i = 0; i < most_proxies; ++i) {
         Pointer& pointer = pointers_[i];
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {

@@ -1,14 +1,15 @@
-// The far side of scenario 3: the environment is a real one, and a robot goes there where the operator's hand
-// is. The devices of this side's session are the robots, one for each pointer; bodies of the session are only
-// shown.
+// The far side of scenarios 3 and 5: the environment is a real one, and a robot goes there where the
+// operator's hand is. The devices of this side's session are the robots, one for each pointer. Bodies of the
+// session are what is known of the environment, by a camera: nothing touches them here. In scenario 5 they
+// are told to the operator, whose model they make, in place of forces.
 //
 //     operator's place -> stand-in (C') -> target within the workspace -> drive -> HandSafety -> robot
 //     robot's place, force of its motors -> momentum observer -> contact force -> operator
 #pragma once
 
 #include "core/teleop/robot_drive.hpp"
+#include "session/body_telling.hpp"
 #include "session/played_hands.hpp"
-#include "session/session_loop.hpp"
 
 namespace tactus {
 
@@ -46,6 +47,7 @@ private:
     void send_forces(SessionLoop& loop, Nanoseconds now);
 
     Channel channel_;
+    BodyTelling telling_;
     PlayedHands hands_;
     double seconds_;  // of a tick
     std::array<Pointer, most_proxies> pointers_;

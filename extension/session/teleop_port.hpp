@@ -34,7 +34,7 @@ namespace tactus {
 // All of it may change while the loop runs.
 struct TeleopSettings {
     bool traditional = false;  // scenarios 2 and 3: positions one way, forces back
-    bool robot = false;        // scenario 3: the environment is real, and a robot is there
+    bool robot = false;        // scenarios 3 and 5: the environment is real, and a robot is there
     Derivation derivation = Derivation::resimulate;
     Correction correction = Correction::stealthy_direction;
     ControlScheme control = ControlScheme::spring;
@@ -61,7 +61,7 @@ struct TeleopSettings {
 
 // As the two sides tell each other.
 inline std::uint8_t scenario_of(const TeleopSettings& settings) {
-    return settings.traditional ? (settings.robot ? 3 : 2) : 4;
+    return settings.traditional ? (settings.robot ? 3 : 2) : (settings.robot ? 5 : 4);
 }
 
 // What a pointer feels besides its model.

@@ -21,14 +21,14 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
                                    std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint,
                                    const PointerShare& share)
     : channel_(settings, link, std::move(port), endpoint),
-      states_(session.most_bodies),
+      telling_(session.most_bodies),
       share_(share),
       hands_(channel_, share.most(), to_seconds(session.period)),
       seconds_(to_seconds(session.period)) {}
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
-    take_orders();
+    telling_.take_orders(channel_.port());
     receive();
     hands_.follow(channel_, changed);
     if (!channel_.link().hears_peer()) {
@@ -41,21 +41,6 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
-void TeleoperatorSide::take_orders() {
-    TeleopPort& port = channel_.port();
-    while (PreparedDiscovery* const announced = port.announced.front()) {
-        discovery_.announce(*announced);
-        port.released.try_push(std::move(announced->content));
-        port.announced.pop();
-    }
-    ObjectId gone = no_object;
-    while (port.withdrawn.try_pop(gone)) {
-        std::shared_ptr<const std::vector<std::byte>> content;
-        discovery_.withdraw(gone, content);
-        port.released.try_push(std::move(content));
-    }
-}
-
 void TeleoperatorSide::receive() {
     start_over_if_peer_has();
     while (const Packet* const packet = channel_.receive()) {
@@ -64,9 +49,7 @@ void TeleoperatorSide::receive() {
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
             hands_.take(*samples);
         } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&message)) {
-            if (discovery_.take(*known)) {
-                states_.described(known->object);
-            }
+            telling_.take(*known);
         }
     }
 }
@@ -74,8 +57,7 @@ void TeleoperatorSide::receive() {
 void TeleoperatorSide::start_over_if_peer_has() {
     if (channel_.peer_has_started()) {
         release_hands();
-        discovery_.restart();
-        states_.restart();
+        telling_.restart();
     }
 }
 
@@ -85,20 +67,6 @@ void TeleoperatorSide::release_hands() {
     hands_.restart();
     for (Pointer& pointer : pointers_) {
         pointer.holds = false;
-    }
-}
-
-void TeleoperatorSide::describe(Nanoseconds now) {
-    constexpr int most_a_tick = 2;
-    constexpr Nanoseconds soonest = 200'000'000;
-    discovery_.set_repeat_after(
-        std::max(soonest, static_cast<Nanoseconds>(1.5 * channel_.link().clock().figures().mean_delay)));
-    const DiscoveryCounts& counts = discovery_.counts();
-    channel_.link().set_world(counts.waiting + counts.known + counts.refused + counts.no_room,
-                              direction_to_local(settings().frame, settings().gravity));
-    Message message;
-    for (int i = 0; i < most_a_tick && channel_.link().hears_peer() && discovery_.next(now, message); ++i) {
-        channel_.link().send(message);
     }
 }
 
@@ -204,7 +172,7 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
 }
 
 void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
-    states_.tell(loop, channel_, newest_applied_, now);
+    telling_.tell_states(loop, channel_, newest_applied_, now);
     if (settings().traditional) {
         send_forces(loop, now);
     }
@@ -223,10 +191,10 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
         pointer.had_force = slot.state.force;
         pointer.had_hand = slot.hand;
     }
-    describe(now);
+    telling_.describe(channel_, now);
     statistics_.sample = newest_applied_;
     hands_.tell(statistics_);
-    statistics_.discovery = discovery_.counts();
+    statistics_.discovery = telling_.counts();
     channel_.end_tick(statistics_);
 }
 

@@ -2,10 +2,9 @@
 // and tells what became of the bodies, or what the hand would feel.
 #pragma once
 
-#include "session/channel.hpp"
+#include "session/body_telling.hpp"
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
-#include "session/state_teller.hpp"
 
 namespace tactus {
 
@@ -50,11 +49,9 @@ private:
     SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
         return loop.proxy(share_.proxy_of(pointer));
     }
-    void take_orders();
     void receive();
     void start_over_if_peer_has();
     void release_hands();
-    void describe(Nanoseconds now);
     void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     Vec3 passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
@@ -66,9 +63,8 @@ private:
     ForceSample force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
 
     Channel channel_;
-    DiscoverySender discovery_;
     GhostTeller ghosts_;
-    StateTeller states_;
+    BodyTelling telling_;
     PointerShare share_;
     PlayedHands hands_;
     double seconds_;  // of a tick

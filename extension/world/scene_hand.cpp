@@ -5,7 +5,6 @@
 
 #include "devices/falcon/falcon_arm.hpp"
 #include "devices/path_device.hpp"
-#include "devices/robot_table.hpp"
 
 namespace tactus {
 
@@ -33,7 +32,10 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
     } else if (plan.kind == HandKind::emulated_robot) {
         RobotTable::Settings table;
         table.height = plan.table_height;
-        port_ = std::make_shared<EmulatedRobot>(EmulatedRobotSettings{}, std::make_shared<RobotTable>(table));
+        port_ = std::make_shared<EmulatedRobot>(
+            EmulatedRobotSettings{}, std::make_shared<TipSurroundings>(table, std::move(plan.tip)));
+    } else if (plan.kind == HandKind::robot_tip) {
+        port_ = std::make_shared<TipDevice>(std::move(plan.tip));
     } else {
         follower_ = std::make_shared<FollowingDevice>(
             FollowingDevice::Settings{.rest = in_device(mapping, plan.start)});

@@ -9,6 +9,7 @@
 #include "devices/driver_device.hpp"
 #include "devices/drivers.hpp"
 #include "devices/following_device.hpp"
+#include "devices/robot_tip.hpp"
 #include "devices/simulated_arm.hpp"
 #include "devices/steering.hpp"
 #include "session/session_types.hpp"
@@ -28,6 +29,7 @@ enum class HandKind : std::uint8_t {
     openhaptics,
     inverse3,
     emulated_robot,
+    robot_tip,  // of an emulated robot in another world
 };
 
 constexpr bool follows_path(HandKind kind) {
@@ -46,7 +48,9 @@ struct HandPlan {
     ArmSettings arm;
     DriverSettings driver;
     double table_height = 0.0;  // of an emulated robot's (unit: meters)
-    Vec3 start{0.0};            // where one that is led begins, in the scene (unit: meters)
+    // Of an emulated robot, and of the hand that is its tip: the same one.
+    std::shared_ptr<TipExchange> tip = std::make_shared<TipExchange>();
+    Vec3 start{0.0};  // where one that is led begins, in the scene (unit: meters)
 };
 
 class SceneHand {

@@ -2,7 +2,7 @@
 //
 //   --scenes=N   of each kind (200)
 //   --first=N    seed of the first scene (5000): nothing was tuned on the scenes from there on
-//   --only=PART  still, far, uncalibrated, moving, recovery
+//   --only=PART  still, far, uncalibrated, moving, recovery, rest, parameters
 //   --talk       of every object that was seen wrong
 #include <cstdio>
 
@@ -46,6 +46,12 @@ int main(int count, char** arguments) {
     }
     if (is_wanted("recovery")) {
         report_recovery(report, bench);
+    }
+    if (is_wanted("rest")) {
+        report_rest(report, bench);
+    }
+    if (is_wanted("parameters")) {
+        report_parameters(report, bench);
     }
     return report.write_json(result_path("sensing")) ? 0 : 1;
 }

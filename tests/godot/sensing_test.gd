@@ -31,6 +31,7 @@ func _sensor(parent: Node) -> DepthSensor:
 	sensor.name = "DepthSensor"
 	sensor.source = DepthSensor.SOURCE_SYNTHETIC
 	sensor.synthetic_scene = NodePath("../Table")
+	sensor.meshes = PackedStringArray(["cube"])
 	sensor.position = Vector3(0, 0.7, 0.48)
 	sensor.rotation.x = -0.97
 	var table := _drawn(_slab(Vector3(1, 0.02, 0.8)), Vector3(0, -0.01, 0), parent)
@@ -39,7 +40,7 @@ func _sensor(parent: Node) -> DepthSensor:
 
 
 func _sees(sensor: DepthSensor) -> bool:
-	return await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_SEEING, 20.0)
+	return await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_SEEING, 60.0)
 
 
 func test_nothing_of_it_is_loaded_until_a_sensor_looks() -> void:
@@ -76,13 +77,14 @@ func test_it_sees_points_where_the_table_is() -> void:
 
 func test_an_unplugged_camera_is_a_state_and_comes_back() -> void:
 	var sensor := _sensor(self)
+	sensor.show_cloud = true
 	add_child(sensor)
 	check(await _sees(sensor), "it says: %s" % sensor.get_state_text())
 	var said: Array[String] = []
 	sensor.state_changed.connect(func(_state: int, text: String) -> void: said.append(text))
 	sensor.set_plugged(false)
 	check(
-		await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_OPENING, 20.0),
+		await until(func() -> bool: return sensor.get_state() == DepthSensor.STATE_OPENING, 60.0),
 		"without a plug it says: %s" % sensor.get_state_text()
 	)
 	check(sensor.get_statistics().points > 0, "the last good image is gone")
@@ -91,16 +93,81 @@ func test_an_unplugged_camera_is_a_state_and_comes_back() -> void:
 	check(said.any(func(text: String) -> bool: return "plug it in again" in text), "it said: %s" % [said])
 
 
+func _named(sensor: DepthSensor, mesh: String) -> Dictionary:
+	for object in sensor.get_objects():
+		if object.name == mesh and object.state != "lost":
+			return object
+	return {}
+
+
+func test_objects_are_found_moved_and_lost() -> void:
+	var sensor := _sensor(self)
+	sensor.knows_support = true
+	sensor.meshes = PackedStringArray(["bracket", "cylinder"])
+	var bracket := _drawn(
+		HapticMesh.create_library_mesh("bracket"), Vector3(-0.12, 0.04, 0.02), get_node("Table")
+	)
+	bracket.position.y += 0.01
+	var told := {"object_found": 0, "object_updated": 0, "object_lost": 0}
+	sensor.object_found.connect(func(_id: int, _mesh: String) -> void: told.object_found += 1)
+	sensor.object_updated.connect(func(_id: int, _at: Transform3D) -> void: told.object_updated += 1)
+	sensor.object_lost.connect(func(_id: int, _mesh: String) -> void: told.object_lost += 1)
+	add_child(sensor)
+	check(
+		await until(func() -> bool: return _named(sensor, "bracket").size() > 0, 60.0),
+		"it says: %s, and has %s" % [sensor.get_state_text(), sensor.get_objects()]
+	)
+	var near := func(at: Vector3) -> bool:
+		var object := _named(sensor, "bracket")
+		return object.size() > 0 and object.transform.origin.distance_to(at) < 0.003
+	check(
+		await until(near.bind(bracket.global_position), 60.0),
+		"the bracket is seen as %s" % _named(sensor, "bracket")
+	)
+	check_equal(told.object_found, 1, "objects found")
+	for _step in 30:
+		bracket.position.x += 0.002
+		await frames(3)
+	check(
+		await until(near.bind(bracket.global_position), 60.0),
+		"moved to %s, it is seen as %s" % [bracket.global_position, _named(sensor, "bracket")]
+	)
+	check(told.object_updated > 0, "no update")
+	check_equal(told.object_found, 1, "objects found, moved")
+	bracket.visible = false
+	check(await until(func() -> bool: return told.object_lost > 0, 60.0), "gone, it is not lost")
+
+
+func test_what_is_found_can_be_touched() -> void:
+	var world := add_world()
+	var sensor := _sensor(world)
+	sensor.knows_support = true
+	sensor.bodies = DepthSensor.BODIES_HELD
+	_drawn(HapticMesh.create_library_mesh("cube"), Vector3(0, 0.06, 0), world.get_node("Table"))
+	world.add_child(sensor)
+	check(
+		await until(func() -> bool: return _named(sensor, "cube").size() > 0, 60.0),
+		"it says: %s, and has %s" % [sensor.get_state_text(), sensor.get_objects()]
+	)
+	var hand := add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.095, 0)), 0.005)
+	world.advance(2.0)
+	var contact := hand.get_contacts()
+	check(contact.size() > 0, "nothing is touched: %s" % hand.get_state_text())
+	if contact.size() > 0:
+		check_equal(contact[0].body, _named(sensor, "cube").node, "body")
+		check_near(contact[0].point.y, 0.1, 0.004, "top of the cube")
+
+
 func test_every_source_that_is_not_there_says_what_to_do() -> void:
 	var sensor := DepthSensor.new()
 	add_child(sensor)
 	check(
-		await until(func() -> bool: return "plug one in" in sensor.get_state_text(), 20.0),
+		await until(func() -> bool: return "plug one in" in sensor.get_state_text(), 60.0),
 		"without a camera it says: %s" % sensor.get_state_text()
 	)
 	sensor.camera_id = "1d27/0601@9/9"
 	check(
-		await until(func() -> bool: return "there is no camera '1d27" in sensor.get_state_text(), 20.0),
+		await until(func() -> bool: return "there is no camera '1d27" in sensor.get_state_text(), 60.0),
 		"without that camera it says: %s" % sensor.get_state_text()
 	)
 	sensor.source = DepthSensor.SOURCE_RECORDING
@@ -112,7 +179,7 @@ func test_every_source_that_is_not_there_says_what_to_do() -> void:
 	FileAccess.open(file, FileAccess.WRITE).store_string("no recording")
 	sensor.recording = file
 	check(
-		await until(func() -> bool: return "not a recording" in sensor.get_state_text(), 20.0),
+		await until(func() -> bool: return "not a recording" in sensor.get_state_text(), 60.0),
 		"of a damaged file it says: %s" % sensor.get_state_text()
 	)
 	DirAccess.remove_absolute(file)
@@ -123,9 +190,11 @@ func test_an_empty_scene_is_said_to_be_empty() -> void:
 	get_node("Table").visible = false
 	add_child(sensor)
 	check(
-		await until(func() -> bool: return "nothing is drawn" in sensor.get_state_text(), 20.0),
+		await until(func() -> bool: return "nothing is drawn" in sensor.get_state_text(), 60.0),
 		"it says: %s" % sensor.get_state_text()
 	)
+	get_node("Table").visible = true
+	check(await _sees(sensor), "with something drawn it says: %s" % sensor.get_state_text())
 
 
 func test_cameras_are_found_by_name() -> void:

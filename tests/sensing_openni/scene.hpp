@@ -51,6 +51,8 @@ public:
     SceneWriter& writer() { return writer_; }
 
     void show(std::uint64_t time = 0) { writer_.show(camera_, bodies_, time); }
+    const Pose& camera() const { return camera_; }
+    const Pose& box() const { return bodies_[1].pose; }
     // The big box, along x.
     void move(double along) { bodies_[1].pose.position.x = -0.1 + along; }
 

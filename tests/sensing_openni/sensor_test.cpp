@@ -22,6 +22,16 @@ OwnedSensor sensor() {
     return OwnedSensor(new Sensor(testing::driver_path()));
 }
 
+// Where the scene's camera is, and with its points.
+OwnedSensor sensor_of(const Scene& scene) {
+    OwnedSensor made = sensor();
+    SensorSettings settings;
+    settings.camera = scene.camera();
+    settings.wants_cloud = true;
+    made->set_settings(settings);
+    return made;
+}
+
 // Takes until it holds, at most for seconds.
 bool until(Sensor& sensor, const std::function<bool(const Sight&)>& holds) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -54,7 +64,7 @@ TEST(Sensor, SaysWhatItWaitsFor) {
 TEST(Sensor, SeesACloudWhereTheTableIs) {
     Scene scene;
     scene.show(7);
-    const OwnedSensor eyes = sensor();
+    const OwnedSensor eyes = sensor_of(scene);
     const std::string uri = scene.uri();
     eyes->open({uri.c_str()});
     ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::seeing; }));
@@ -75,7 +85,7 @@ TEST(Sensor, FindsACameraThatIsPluggedInAgain) {
     settings.rate = 60.0;
     Scene scene(settings);
     scene.show(1);
-    const OwnedSensor eyes = sensor();
+    const OwnedSensor eyes = sensor_of(scene);
     const std::string uri = scene.uri();
     eyes->open({uri.c_str()});
     const auto sees = [](const Sight& sight) { return sight.state == SensorState::seeing; };
@@ -93,7 +103,7 @@ TEST(Sensor, TakesAnotherCameraAtOnce) {
     Scene other;
     one.show(1);
     other.show(2);
-    const OwnedSensor eyes = sensor();
+    const OwnedSensor eyes = sensor_of(one);
     const std::string first = one.uri();
     const std::string second = other.uri();
     eyes->open({first.c_str()});
@@ -104,10 +114,41 @@ TEST(Sensor, TakesAnotherCameraAtOnce) {
     EXPECT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::closed; }));
 }
 
+TEST(Sensor, FindsTheMeshesOfItsLibraryWhereTheyAre) {
+    SyntheticCamera settings;
+    settings.rate = 30.0;
+    settings.depth_error = 0.0;
+    Scene scene(settings);
+    scene.show(1);
+    const OwnedSensor eyes = sensor_of(scene);
+    const TriangleMesh box = shared::box({0.05, 0.04, 0.03});
+    const std::array<KnownMesh, 1> library{KnownMesh{"box", testing::view_of(box), 0.7}};
+    eyes->set_library(library);
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    const auto found = [](const Sight& sight) {
+        return std::ranges::any_of(sight.objects,
+                                   [](const SightedObject& object) { return object.mesh == 0; });
+    };
+    ASSERT_TRUE(until(*eyes, found));
+    const Sight& sight = eyes->sight();
+    const auto seen = std::ranges::find(sight.objects, 0, &SightedObject::mesh);
+    EXPECT_LT(glm::distance(seen->pose.position, scene.box().position), 0.003);
+    EXPECT_GT(seen->confidence, 0.5);
+    EXPECT_TRUE(sight.plane.is_found);
+    EXPECT_NEAR(sight.plane.offset, 0.0, 0.003);
+    // The ball is none of the library.
+    EXPECT_TRUE(until(*eyes, [](const Sight& now) {
+        return std::ranges::any_of(now.objects, [](const SightedObject& object) {
+            return object.mesh < 0 && !object.hull.vertices.empty();
+        });
+    }));
+}
+
 TEST(Sensor, RefusesAnImageInWhichNothingCanBeSeen) {
     Scene scene;
     scene.writer().show({{0.0, 100.0, 0.0}}, {}, 1);
-    const OwnedSensor eyes = sensor();
+    const OwnedSensor eyes = sensor_of(scene);
     const std::string uri = scene.uri();
     eyes->open({uri.c_str()});
     EXPECT_TRUE(until(*eyes, [](const Sight& sight) {

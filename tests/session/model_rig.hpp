@@ -13,6 +13,7 @@
 #include "session/environment_teller.hpp"
 #include "session/model_builder.hpp"
 #include "session/operator_side.hpp"
+#include "session/robot_side.hpp"
 #include "session/teleoperator_side.hpp"
 #include "session_rig.hpp"
 #include "shared/endpoints.hpp"
@@ -39,9 +40,14 @@ inline void add_pointer(Session& session, HeldDevice& device) {
 }
 
 struct Environment {
-    Environment(Link& link, std::uint64_t epoch) {
-        session.attach(std::make_unique<TeleoperatorSide>(small_session(), TeleopSettings{}, link, port,
-                                                          endpoint(Side::teleoperator_side, epoch)));
+    Environment(Link& link, std::uint64_t epoch, const TeleopSettings& settings = {}) {
+        EndpointSettings end = endpoint(Side::teleoperator_side, epoch);
+        end.scenario = scenario_of(settings);
+        if (settings.robot) {
+            session.attach(std::make_unique<RobotSide>(small_session(), settings, link, port, end));
+        } else {
+            session.attach(std::make_unique<TeleoperatorSide>(small_session(), settings, link, port, end));
+        }
         add_pointer(session, device);
     }
 
@@ -72,11 +78,12 @@ struct Environment {
 };
 
 struct Operator {
-    Operator(Link& link, std::uint64_t epoch) {
+    Operator(Link& link, std::uint64_t epoch, const TeleopSettings& settings = {}) {
         OperatorRoom room;
         room.replays = false;
-        session.attach(std::make_unique<OperatorSide>(small_session(), room, TeleopSettings{}, link, port,
-                                                      endpoint(Side::operator_side, epoch)));
+        EndpointSettings end = endpoint(Side::operator_side, epoch);
+        end.scenario = scenario_of(settings);
+        session.attach(std::make_unique<OperatorSide>(small_session(), room, settings, link, port, end));
         add_pointer(session, device);
     }
 
@@ -112,15 +119,19 @@ struct Operator {
 };
 
 struct ModelRig {
-    explicit ModelRig(const LinkConditions& conditions = {})
-        : at_operator(wire.first(), conditions, 1), at_environment(wire.second(), conditions, 2) {
+    explicit ModelRig(const LinkConditions& conditions = {}, const TeleopSettings& settings_of_both = {})
+        : settings(settings_of_both),
+          at_operator(wire.first(), conditions, 1),
+          at_environment(wire.second(), conditions, 2) {
         start_operator(1);
         start_environment(2);
     }
 
-    void start_operator(std::uint64_t epoch) { near = std::make_unique<Operator>(at_operator, epoch); }
+    void start_operator(std::uint64_t epoch) {
+        near = std::make_unique<Operator>(at_operator, epoch, settings);
+    }
     void start_environment(std::uint64_t epoch) {
-        far = std::make_unique<Environment>(at_environment, epoch);
+        far = std::make_unique<Environment>(at_environment, epoch, settings);
     }
 
     void run(Nanoseconds span) {
@@ -135,6 +146,7 @@ struct ModelRig {
         }
     }
 
+    TeleopSettings settings;
     MemoryLinkPair wire{8192};
     LinkEmulator at_operator, at_environment;
     std::unique_ptr<Operator> near;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "model_rig.hpp"
 #include "shared/teleop_run.hpp"
 
 namespace tactus {
@@ -52,6 +53,26 @@ TEST(RobotSide, TheRobotFollowsTheHandAndWhatItRunsIntoIsFelt) {
 
 TEST(RobotSide, TwoRunsAreTheSameToTheBit) {
     EXPECT_EQ(run_teleop(scene(), robot_case(0.05)), run_teleop(scene(), robot_case(0.05)));
+}
+
+// Scenario 5: what a camera has found at the far side makes the operator's model, and follows what the camera
+// sees, though nothing is simulated there.
+TEST(RobotSide, TellsWhatIsKnownOfItsPlace) {
+    TeleopSettings settings;
+    settings.robot = true;
+    EXPECT_EQ(scenario_of(settings), 5);
+    session_test::ModelRig rig({}, settings);
+    rig.far->add("floor", session_test::ground());
+    const SessionHandle body =
+        rig.far->add("found", session_test::body(BoxShape{Vec3(0.05)}, {0.0, 0.05, 0.0}, Motion::Dynamic));
+    rig.run(from_seconds(1.0));
+    ASSERT_NE(rig.near->find("found"), nullptr);
+    EXPECT_NEAR(glm::distance(rig.near->pose("found").position, Vec3(0.0, 0.05, 0.0)), 0.0, 1e-4);
+    rig.far->session.teleport_body(body, {{0.02, 0.05, 0.01}});
+    rig.run(from_seconds(1.0));
+    EXPECT_NEAR(glm::distance(rig.near->pose("found").position, Vec3(0.02, 0.05, 0.01)), 0.0, 1e-3);
+    // The hand feels the model, not what comes from far away.
+    EXPECT_EQ(rig.near->port->statistics.front().link.peer_hello.scenario, 5);
 }
 
 }  // namespace

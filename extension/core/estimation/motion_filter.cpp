@@ -102,6 +102,9 @@ SeenVector::Change SeenVector::see(const Innovation& innovation, double contradi
     vv_ -= of_velocity * pv_;
     pv_ -= of_place * pv_;
     pp_ -= of_place * pp_;
+    // Rounding would part what is symmetric, and grow.
+    pp_ = 0.5 * (pp_ + glm::transpose(pp_));
+    vv_ = 0.5 * (vv_ + glm::transpose(vv_));
     Change change{of_place * innovation.moving, Vec3(0.0), false};
 
     leaning_ += leaning_share * (innovation.resting - leaning_);
@@ -115,6 +118,7 @@ SeenVector::Change SeenVector::see(const Innovation& innovation, double contradi
     ++poses_;
     const Mat3 of_mean = mean_ * glm::inverse(mean_ + r);
     mean_ = mean_ - of_mean * mean_ + (surest_mean * surest_mean) * r;
+    mean_ = 0.5 * (mean_ + glm::transpose(mean_));
     change.resting = of_mean * innovation.resting;
     return change;
 }
@@ -169,8 +173,11 @@ void MotionFilter::tell(const MotionFilterSettings& settings, double seconds) {
     } else if (!rested) {
         told_ = mean_;
     } else {
-        told_ = moved(told_, at_most(mean_.position - told_.position, settings.creep * seconds),
-                      at_most(turn_between(told_.rotation, mean_.rotation), settings.creep_turn * seconds));
+        const bool settled = std::min(place_.poses(), turn_.poses()) >= settings.poses_to_settle;
+        const double way = seconds * (settled ? settings.creep : settings.settling);
+        const double turn = seconds * (settled ? settings.creep_turn : settings.settling_turn);
+        told_ = moved(told_, at_most(mean_.position - told_.position, way),
+                      at_most(turn_between(told_.rotation, mean_.rotation), turn));
     }
 }
 

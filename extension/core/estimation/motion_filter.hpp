@@ -19,13 +19,16 @@
 namespace tactus {
 
 struct MotionFilterSettings {
-    double push = 0.1;          // of chance, spectral density of acceleration (unit: m^2/s^3), > 0
-    double twist = 5.0;         // and of angular acceleration (unit: rad^2/s^3), > 0
-    int poses_at_rest = 10;     // in succession that chance explains: it rests, >= 2
-    double contradicted = 4.0;  // standard deviations that chance does not explain, > 0
-    double creep = 5e-5;        // at rest the told place moves no faster (unit: m/s), > 0
-    double creep_turn = 5e-4;   // (unit: rad/s), > 0
-    double longest_gap = 0.5;   // without a pose: what is known of the motion is old (unit: seconds), > 0
+    double push = 0.1;            // of chance, spectral density of acceleration (unit: m^2/s^3), > 0
+    double twist = 5.0;           // and of angular acceleration (unit: rad^2/s^3), > 0
+    int poses_at_rest = 10;       // in succession that chance explains: it rests, >= 2
+    double contradicted = 4.0;    // standard deviations that chance does not explain, > 0
+    int poses_to_settle = 150;    // at rest, until it has settled
+    double settling = 2e-4;       // until then the told place moves no faster (unit: m/s), > 0
+    double settling_turn = 2e-3;  // (unit: rad/s), > 0
+    double creep = 8e-6;          // and from then on (unit: m/s), > 0
+    double creep_turn = 8e-5;     // (unit: rad/s), > 0
+    double longest_gap = 0.5;     // without a pose: what is known of the motion is old (unit: seconds), > 0
 };
 
 // A vector that is seen with chance, by both accounts. Turns are vectors about the last estimate.

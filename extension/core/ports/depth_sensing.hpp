@@ -30,6 +30,7 @@ struct MeshView {
 
 // What is found where: the mesh and its mass stand at `mesh` in the library that the sensor was given.
 struct KnownMesh {
+    const char* name = "";
     MeshView mesh;
     double mass = 0.0;  // (unit: kilograms)
 };
@@ -46,6 +47,10 @@ struct SensorSettings {
     Pose camera;                  // in the scene; looks along its −z
     double min_confidence = 0.5;  // of an object to be told of, 0 to 1
     double max_rate = 30.0;       // frames looked at in a second; the others are dropped
+    bool wants_cloud = false;
+    // Where the support is level at a known height, the camera's error of depth is learnt from it.
+    bool knows_support = false;
+    double support_height = 0.0;  // in the scene (unit: meters)
 };
 
 enum class SensorState : std::uint8_t {
@@ -56,7 +61,8 @@ enum class SensorState : std::uint8_t {
     ended,  // the recording is at its end
 };
 
-enum class SightState : std::uint8_t { found, tracked, lost };
+// hidden: something nearer stands before it.
+enum class SightState : std::uint8_t { found, tracked, hidden, lost };
 
 struct SightedObject {
     std::uint64_t id = 0;    // stays while it is followed, also when it is lost for a while
@@ -66,7 +72,8 @@ struct SightedObject {
     std::array<double, 36> covariance{};  // of place and rotation vector, by rows (unit: meters², radians²)
     Vec3 linear_velocity{0.0};            // (unit: meters per second)
     Vec3 angular_velocity{0.0};           // (unit: radians per second)
-    double confidence = 0.0;              // 0 to 1
+    bool rests = false;
+    double confidence = 0.0;  // 0 to 1
     MeshView hull;
 };
 
@@ -95,6 +102,7 @@ struct Sight {
     std::span<const SightedObject> objects;
     std::span<const glm::vec3> cloud;  // in the frame of the camera (unit: meters)
     SupportPlane plane;
+    double depth_scale = 1.0;  // true depth over told depth; 1 where the support's height is not known
     SensorTimes times;
 };
 
@@ -138,7 +146,8 @@ public:
     // For CameraChoice::uri. Empty where there is none; error() says why.
     virtual const char* uri() const noexcept = 0;
     virtual const char* error() const noexcept = 0;
-    // The bodies as they stand from now on. `time`: of the frames that show them (unit: microseconds).
+    // The bodies as they stand from now on. `time`: of the frame that shows them, where there is one for each
+    // (unit: microseconds).
     virtual void show(const Pose& camera, std::span<const ShownBody> bodies, std::uint64_t time) noexcept = 0;
     // As if its plug were pulled, and put in again.
     virtual void set_plugged(bool is_plugged) noexcept = 0;

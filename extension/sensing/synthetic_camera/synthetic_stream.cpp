@@ -118,7 +118,8 @@ void SyntheticStream::run() {
     const double rate = scene_.camera().rate;
     const auto period = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(rate > 0.0 ? 1.0 / rate : 1.0));
-    Clock::time_point next = Clock::now();
+    const Clock::time_point began = Clock::now();
+    Clock::time_point next = began;
     SceneState state;
     std::uint32_t drawn = 0;
     while (!ends_) {
@@ -134,6 +135,11 @@ void SyntheticStream::run() {
             continue;
         }
         drawn = state.shown;
+        if (rate > 0.0) {
+            // On a clock of its own, as cameras have.
+            state.time = static_cast<std::uint64_t>(
+                std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - began).count());
+        }
         draw(state);
     }
 }

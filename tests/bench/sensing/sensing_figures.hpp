@@ -28,5 +28,9 @@ void report_still(Report& report, const SensingCase& bench, const std::string& p
 // Objects that move for 90 images, and objects that are suddenly 20 mm and 15 degrees elsewhere.
 void report_moving(Report& report, const SensingCase& bench);
 void report_recovery(Report& report, const SensingCase& bench);
+// A body at rest that is seen with 1 mm of chance.
+void report_rest(Report& report, const SensingCase& bench);
+// What two seconds of touch teach.
+void report_parameters(Report& report, const SensingCase& bench);
 
 }  // namespace tactus::shared

@@ -1,0 +1,48 @@
+#include "session/body_telling.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tactus {
+
+void BodyTelling::take_orders(TeleopPort& port) {
+    while (PreparedDiscovery* const announced = port.announced.front()) {
+        discovery_.announce(*announced);
+        port.released.try_push(std::move(announced->content));
+        port.announced.pop();
+    }
+    ObjectId gone = no_object;
+    while (port.withdrawn.try_pop(gone)) {
+        std::shared_ptr<const std::vector<std::byte>> content;
+        discovery_.withdraw(gone, content);
+        port.released.try_push(std::move(content));
+    }
+}
+
+void BodyTelling::take(const DiscoveryAcknowledgement& known) {
+    if (discovery_.take(known)) {
+        states_.described(known.object);
+    }
+}
+
+void BodyTelling::restart() {
+    discovery_.restart();
+    states_.restart();
+}
+
+void BodyTelling::describe(Channel& channel, Nanoseconds now) {
+    constexpr int most_a_tick = 2;
+    constexpr Nanoseconds soonest = 200'000'000;
+    Endpoint& link = channel.link();
+    discovery_.set_repeat_after(
+        std::max(soonest, static_cast<Nanoseconds>(1.5 * link.clock().figures().mean_delay)));
+    const TeleopSettings& settings = channel.settings();
+    link.set_world(counts().waiting + counts().known + counts().refused + counts().no_room,
+                   direction_to_local(settings.frame, settings.gravity));
+    Message message;
+    for (int i = 0; i < most_a_tick && link.hears_peer() && discovery_.next(now, message); ++i) {
+        link.send(message);
+    }
+}
+
+}  // namespace tactus

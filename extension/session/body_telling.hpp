@@ -1,0 +1,33 @@
+// What a far side tells of its bodies: what they are, until the operator has it, and where they are. Belongs
+// to whoever ticks.
+#pragma once
+
+#include "session/channel.hpp"
+#include "session/session_loop.hpp"
+#include "session/state_teller.hpp"
+
+namespace tactus {
+
+class BodyTelling {
+public:
+    explicit BodyTelling(std::size_t max_bodies) : states_(max_bodies) {}
+
+    // What the owner has announced and withdrawn.
+    void take_orders(TeleopPort& port);
+    void take(const DiscoveryAcknowledgement& known);
+    // Another start of the operator: it knows nothing.
+    void restart();
+
+    // Last things in a tick. `newest`: the newest sample of the operator that has been applied.
+    void tell_states(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
+        states_.tell(loop, channel, newest, now);
+    }
+    void describe(Channel& channel, Nanoseconds now);
+    const DiscoveryCounts& counts() const { return discovery_.counts(); }
+
+private:
+    DiscoverySender discovery_;
+    StateTeller states_;
+};
+
+}  // namespace tactus

@@ -1,0 +1,135 @@
+"""Scenario 5: a camera makes the operator's model, and a robot follows the hand in a place of its own (thesis 5.6).
+
+    ./run experiment scenario5 [--seconds=16]
+
+--seconds  of the hand's way, from when the model has all that is there
+
+Two Godot processes over UDP in real time: the operator; and the far side with an emulated robot, a synthetic camera and the
+place that both are in, whose masses and friction are not the library's. A third one touches that place directly, along the
+same way. SCENE is `static`, or `dynamic`, where the cube is pushed back and forth:
+
+SCENE.discovered_s                      until the operator has all that is there
+SCENE.place_error_median_mm, _p95_mm    of the model from the true place, of all bodies, while the hand is on its way
+SCENE.force_error_mean_N                of what the hand feels from what it feels there directly
+SCENE.force_explained_N                 what the error of place alone makes of it: stiffness times that error, while either touches
+SCENE.force_error_over_pose_explained   the one over the other
+SCENE.robot_touches_share               of the time in which the hand touches, in which the robot does, too
+SCENE.frame_ms_median                   of the camera's images, from arrival to objects
+"""
+
+import json
+import os
+import subprocess
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from measuring import options
+from project import FOLDER
+from setup import godot
+
+PATIENCE = 60.0  # until the model has all that is there (unit: seconds)
+FELT = 0.05  # (unit: newtons)
+STIFFNESS = 220.0  # of all surfaces there (unit: newtons per meter): camera_testbed.tscn
+BODIES = ("cube", "bracket")
+_PORT = 32000 + os.getpid() % 6000 * 2
+
+Lines = list[dict]
+
+
+@dataclass(frozen=True)
+class Settings:
+    seconds: float = 16.0
+
+
+def run(given: dict[str, str], output: Path) -> dict[str, object]:
+    settings = options.parse(Settings, given)
+    output.mkdir(parents=True, exist_ok=True)
+    summary: dict[str, object] = {}
+    for name, moves in {"static": 0, "dynamic": 1}.items():
+        said = play(settings, moves, output)
+        (output / f"{name}.json").write_text(json.dumps(said))
+        summary |= {f"{name}.{key}": value for key, value in figures(said, settings.seconds).items()}
+    return summary
+
+
+def play(settings: Settings, moves: int, output: Path) -> dict[str, Lines]:
+    files = {part: output / f"{part}.jsonl" for part in ("far", "operator", "direct")}
+    processes = [
+        _start("far", files["far"], moves=moves, local_port=_PORT, remote_port=_PORT + 1),
+        _start("operator", files["operator"], local_port=_PORT + 1, remote_port=_PORT),
+        _start("direct", files["direct"], moves=moves),
+    ]
+    try:
+        for part in ("operator", "direct"):
+            _wait(files[part], settings.seconds)
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+    said = {part: _lines(file) for part, file in files.items()}
+    for file in files.values():
+        file.unlink()
+    return said
+
+
+def _start(part: str, file: Path, **settings: object) -> subprocess.Popen:
+    words = [f"--{name}={value}" for name, value in {"part": part, **settings}.items()]
+    script = ["--script", "res://experiments/camera_side.gd"]
+    command = [str(godot.command()), "--headless", "--path", str(FOLDER), *script, "--", *words]
+    with file.open("w") as stdout:
+        return subprocess.Popen(command, stdout=stdout, stderr=subprocess.DEVNULL)
+
+
+def _lines(file: Path) -> Lines:
+    """What has been said so far; the last line may not be whole yet."""
+    return [json.loads(line) for line in file.read_text().split("\n")[:-1] if line.startswith("{")]
+
+
+def _wait(file: Path, seconds: float) -> None:
+    """Until the hand has gone its way."""
+    began = time.monotonic()
+    while True:
+        time.sleep(0.5)
+        newest = (_lines(file) or [{"since": -1.0}])[-1]
+        if newest["since"] > seconds:
+            return
+        if newest["since"] < 0 and time.monotonic() - began > PATIENCE:
+            raise RuntimeError(f"the operator has not got all that is there: {newest.get('text', 'nothing was said')}")
+        if time.monotonic() - began > PATIENCE + 3 * seconds:
+            raise RuntimeError(f"{file.name} has stopped at {newest['since']} s")
+
+
+def figures(said: dict[str, Lines], seconds: float) -> dict[str, float]:
+    here = [line for line in said["operator"] if 0.0 <= line["since"] <= seconds]
+    since = np.array([line["since"] for line in here])
+    felt = np.array([line["force"] for line in here])
+    directly = np.array([_at(said["direct"], "since", t, lambda line: line["force"]) for t in since])
+    there = np.array([_at(said["far"], "time", line["time"], lambda far: far["tip_force"]) for line in here])
+    places = np.array([_place_errors(line, said["far"]) for line in here])
+    error = np.linalg.norm(felt - directly, axis=1)
+    touches = np.linalg.norm(felt, axis=1) > FELT
+    either = touches | (np.linalg.norm(directly, axis=1) > FELT)
+    explained = float(np.mean(np.where(either, STIFFNESS * places.max(axis=1), 0.0)))
+    return {
+        "discovered_s": here[0]["time"] - said["operator"][0]["time"],
+        "place_error_median_mm": 1e3 * float(np.median(places)),
+        "place_error_p95_mm": 1e3 * float(np.percentile(places, 95)),
+        "force_error_mean_N": float(np.mean(error)),
+        "force_explained_N": explained,
+        "force_error_over_pose_explained": float(np.mean(error)) / explained if explained > 0.0 else float("inf"),
+        "robot_touches_share": float(np.mean(np.linalg.norm(there, axis=1)[touches] > FELT)) if touches.any() else 0.0,
+        "frame_ms_median": float(np.median([line["frame_ms"] for line in said["far"] if line["frame_ms"] > 0.0])),
+    }
+
+
+def _at(lines: Lines, clock: str, when: float, value) -> list[float]:
+    """Of the line that was said next to that time."""
+    return value(min(lines, key=lambda line: abs(line[clock] - when)))
+
+
+def _place_errors(line: dict, far: Lines) -> list[float]:
+    true = _at(far, "time", line["time"], lambda one: one["bodies"])
+    return [float(np.linalg.norm(np.subtract(line["bodies"][name][:3], true[name][:3]))) for name in BODIES]
