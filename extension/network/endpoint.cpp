@@ -220,15 +220,17 @@ void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
     }
 }
 
-// What is lost on the way there, smoothed over about eight hellos. What was overtaken only comes later.
+// What is lost on the way there, smoothed: a report tells the more the more packets it is about. What was
+// overtaken only comes later.
 void Endpoint::note_report(const Hello& hello) {
-    constexpr double share_of_newest = 1.0 / 8.0;
+    constexpr double as_much_as_all_before = 150.0;  // (unit: packets)
     if (hello.heard_sequence > reported_sequence_ && hello.heard_sequence <= sequence_ &&
         hello.heard_packets >= reported_packets_) {
         const auto sent = static_cast<double>(hello.heard_sequence - reported_sequence_);
         const auto came = static_cast<double>(hello.heard_packets - reported_packets_);
         const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, 0.0, 1.0);
-        statistics_.lost_there += share_of_newest * (lost - statistics_.lost_there);
+        const double share = sent / (sent + as_much_as_all_before);
+        statistics_.lost_there += share * (lost - statistics_.lost_there);
     }
     reported_sequence_ = hello.heard_sequence;
     reported_packets_ = hello.heard_packets;

@@ -13,7 +13,7 @@ constexpr Nanoseconds max_double_after = 32 * nanoseconds_per_second;
 constexpr Nanoseconds shows_after = 2'500'000'000;
 
 // The share lost is smoothed: so long it takes to tell of a change.
-constexpr Nanoseconds loss_shows_after = 2 * nanoseconds_per_second;
+constexpr Nanoseconds loss_shows_after = nanoseconds_per_second;
 constexpr double still_lost = 0.75;  // of what was lost before less was sent: that has not helped
 constexpr double lost_more = 1.3;    // than is lost anyway
 constexpr double hardly_lost = 0.5;  // of what is much

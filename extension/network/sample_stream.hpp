@@ -48,6 +48,7 @@ private:
         std::uint32_t waiting = 0;  // of them have not been sent yet
     };
 
+    std::uint32_t older() const;
     void send(Endpoint& link);
     void send_message(Endpoint& link, OperatorSamples& message) const;
 
