@@ -43,7 +43,7 @@ void Pace::adapt(Endpoint& link, Nanoseconds now) {
         changed_at_ = now;
         tried_more_ = true;
     }
-    if (congested || tried_more_) {
+    if (queues_ || tried_more_) {
         link.ask_often();
     }
 }
