@@ -105,7 +105,7 @@ bool DiscoverySender::take(const DiscoveryAcknowledgement& acknowledgement) {
 }
 
 bool DiscoverySender::next(Nanoseconds now, Message& message) {
-    if (counts_.waiting + counts_.no_room == 0) {
+    if (!has_more()) {
         return false;
     }
     for (std::size_t looked = 0; looked < entries_.size(); ++looked) {

@@ -57,6 +57,9 @@ public:
     // The next message that is due; false where none is. Points into a content. Call it a few times a tick.
     bool next(Nanoseconds now, Message& message);
 
+    // Whether anything is to be told, now or after a while.
+    bool has_more() const { return counts_.waiting + counts_.no_room > 0; }
+
     const DiscoveryCounts& counts() const { return counts_; }
 
 private:

@@ -12,8 +12,6 @@
 namespace tactus {
 namespace {
 
-constexpr Nanoseconds first_second = nanoseconds_per_second;
-constexpr Nanoseconds hurry = 5;  // times as many clock requests in it
 constexpr double smoothing = 1.0 / 16.0;
 
 // Nothing is held up for longer. Whoever still speaks of an epoch then was put aside by somebody else.
@@ -162,9 +160,11 @@ void Endpoint::meet(std::uint64_t epoch) {
     epoch_packets_ = reported_packets_ = reported_sequence_ = 0;
     statistics_.lost_there = 0.0;
     clock_.forget();
+    queue_there_.forget();
     statistics_.clock = {};
+    statistics_.queue_there = {};
     one_way_known_ = false;
-    met_at_ = now_;
+    often_until_ = now_ + nanoseconds_per_second;
     next_hello_ = next_request_ = now_;  // it need not wait to be heard
 }
 
@@ -220,15 +220,17 @@ void Endpoint::take_hello(const PacketHeader& header, const Hello& hello) {
     }
 }
 
-// What is lost on the way there, smoothed over about eight hellos. What was overtaken only comes later.
+// What is lost on the way there, smoothed: a report tells the more the more packets it is about. What was
+// overtaken only comes later.
 void Endpoint::note_report(const Hello& hello) {
-    constexpr double share_of_newest = 1.0 / 8.0;
+    constexpr double as_much_as_all_before = 150.0;  // (unit: packets)
     if (hello.heard_sequence > reported_sequence_ && hello.heard_sequence <= sequence_ &&
         hello.heard_packets >= reported_packets_) {
         const auto sent = static_cast<double>(hello.heard_sequence - reported_sequence_);
         const auto came = static_cast<double>(hello.heard_packets - reported_packets_);
         const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, 0.0, 1.0);
-        statistics_.lost_there += share_of_newest * (lost - statistics_.lost_there);
+        const double share = sent / (sent + as_much_as_all_before);
+        statistics_.lost_there += share * (lost - statistics_.lost_there);
     }
     reported_sequence_ = hello.heard_sequence;
     reported_packets_ = hello.heard_packets;
@@ -240,8 +242,17 @@ void Endpoint::answer(const ClockRequest& request, Nanoseconds arrived) {
 }
 
 void Endpoint::take_answer(const ClockAnswer& answer, Nanoseconds arrived) {
-    clock_.add({answer.t0, arrived, answer.t1, answer.t2});
+    const std::uint64_t jumps = clock_.figures().jumps;
+    const bool holds = clock_.add({answer.t0, arrived, answer.t1, answer.t2});
     statistics_.clock = clock_.figures();
+    if (!holds) {
+        return;
+    }
+    if (statistics_.clock.jumps != jumps) {
+        queue_there_.forget();
+    }
+    queue_there_.add(answer.t0, answer.t1, now_ - (arrived - answer.t0));
+    statistics_.queue_there = queue_there_.figures();
 }
 
 void Endpoint::note_one_way(Nanoseconds sent_at, Nanoseconds arrived) {
@@ -285,8 +296,9 @@ void Endpoint::end_tick() {
     }
     if (hears_peer() && now_ >= next_request_) {
         send(ClockRequest{++request_, local_now_});
-        const bool fresh = now_ - met_at_ < first_second;
-        next_request_ = now_ + (fresh ? settings_.clock_every / hurry : settings_.clock_every);
+        next_request_ = now_ + (now_ < often_until_ ? often_every : settings_.clock_every);
+    } else if (now_ < often_until_) {
+        next_request_ = std::min(next_request_, now_ + often_every);
     }
     measure_rates(now_);
 }

@@ -5,6 +5,7 @@
 // virtual time. All memory is taken in the constructor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -12,6 +13,7 @@
 #include "network/clock_sync.hpp"
 #include "network/link_conditions.hpp"
 #include "network/messages.hpp"
+#include "network/queue_watch.hpp"
 #include "network/sequence_window.hpp"
 
 namespace tactus {
@@ -31,7 +33,7 @@ struct EndpointSettings {
     std::uint64_t epoch = 1;  // another one at each start: see random_epoch(); never 0
     Nanoseconds period = 1'000'000;
     Nanoseconds hello_every = 100'000'000;
-    Nanoseconds clock_every = 100'000'000;     // while it is heard; five times as often for the first second
+    Nanoseconds clock_every = 100'000'000;     // while it is heard; see ask_often()
     Nanoseconds vanish_after = 1'000'000'000;  // > hello_every
     ClockSkew skew;  // of this side's clock, as an experiment; none: an honest clock
 };
@@ -65,6 +67,7 @@ struct LinkStatistics {
     TrafficRate received_rate;
 
     ClockFigures clock;
+    QueueFigures queue_there;     // on the way to the far side
     double lost_there = 0.0;      // share of what was sent that the far side misses, of late, 0 … 1
     double one_way_delay = 0.0;   // of packets that came, smoothed; 0 without a clock (unit: nanoseconds)
     double one_way_jitter = 0.0;  // mean change of it from packet to packet (unit: nanoseconds)
@@ -74,6 +77,8 @@ class Endpoint {
 public:
     // At most so many datagrams are taken in one tick; the rest waits.
     static constexpr int most_datagrams_per_tick = 128;
+    // Between two requests for the time, where it is asked for often.
+    static constexpr Nanoseconds often_every = 20'000'000;
 
     // `link` must outlive the endpoint.
     Endpoint(Link& link, const EndpointSettings& settings);
@@ -98,6 +103,10 @@ public:
 
     // ---
 
+    // The time is asked for every `often_every` for a while, as in the first second: so that a queue on the
+    // way is known in time.
+    void ask_often() { often_until_ = std::max(often_until_, now_ + often_for); }
+
     // Says bye, thrice since it is not repeated.
     void leave();
 
@@ -116,6 +125,8 @@ public:
     const LinkStatistics& statistics() const { return statistics_; }
 
 private:
+    static constexpr Nanoseconds often_for = 300'000'000;
+
     // True where the packet is the caller's business.
     bool take(Nanoseconds arrived);
     bool admit(const PacketHeader& header);
@@ -136,6 +147,7 @@ private:
     EndpointSettings settings_;
     LinkStatistics statistics_;
     ClockSync clock_;
+    QueueWatch queue_there_;
     SequenceWindow window_;
     Hello own_hello_;
     std::uint64_t hello_sequence_ = 0;  // of that
@@ -162,8 +174,8 @@ private:
     Nanoseconds heard_at_ = 0;
     Nanoseconds left_at_ = 0;
     Nanoseconds admitted_at_ = 0;
-    Nanoseconds newest_at_ = 0;  // when the highest sequence came
-    Nanoseconds met_at_ = 0;     // when the present epoch was first heard
+    Nanoseconds newest_at_ = 0;    // when the highest sequence came
+    Nanoseconds often_until_ = 0;  // the time is asked for often
     Nanoseconds next_hello_ = 0;
     Nanoseconds next_request_ = 0;
     std::uint32_t request_ = 0;

@@ -6,36 +6,35 @@
 namespace tactus {
 namespace {
 
-// A way that takes so much longer than it did has a queue (unit: nanoseconds).
-constexpr double queue = 30e6;
-// Of the way's jitter: so much is no queue.
-constexpr double times_jitter = 4.0;
-constexpr Nanoseconds halve_every = 400'000'000;
+// So much that waits on the way is a queue (unit: nanoseconds).
+constexpr double queue = 20e6;
 constexpr Nanoseconds max_double_after = 32 * nanoseconds_per_second;
 // Who congests the way so soon after more was sent has asked for too much.
-constexpr Nanoseconds shows_after = 1'500'000'000;
+constexpr Nanoseconds shows_after = 2'500'000'000;
 
 // The share lost is smoothed: so long it takes to tell of a change.
-constexpr Nanoseconds loss_shows_after = 2 * nanoseconds_per_second;
+constexpr Nanoseconds loss_shows_after = nanoseconds_per_second;
 constexpr double still_lost = 0.75;  // of what was lost before less was sent: that has not helped
 constexpr double lost_more = 1.3;    // than is lost anyway
 constexpr double hardly_lost = 0.5;  // of what is much
 
 }  // namespace
 
-void Pace::adapt(const LinkStatistics& link, Nanoseconds now) {
-    const ClockFigures& clock = link.clock;
-    const double queued = clock.mean_delay - static_cast<double>(clock.least_delay);
-    queues_ = clock.known && queued > std::max(queue, times_jitter * clock.jitter);
-    const bool lossy = loses(link.lost_there, now);
+void Pace::adapt(Endpoint& link, Nanoseconds now) {
+    const QueueFigures& way = link.statistics().queue_there;
+    const double lost = link.statistics().lost_there;
+    queues_ = way.is_longer_than(queue);
+    // What was asked before the last change tells nothing of it; a queue that empties already will be gone.
+    const bool fills = queues_ && way.as_of > changed_at_ && !way.falls();
+    const bool lossy = loses(lost, now);
     const bool congested = queues_ || lossy;
     congested_at_ = congested ? now : congested_at_;
     if (tried_more_ && (congested || now - changed_at_ >= shows_after)) {
         tried_more_ = false;
         patience_ = congested ? std::min(2 * patience_, max_double_after) : double_after;
     }
-    if (congested && stride_ < max_stride && now - changed_at_ >= halve_every) {
-        lost_before_ = queues_ ? 0.0 : link.lost_there;
+    if ((fills || lossy) && stride_ < settings_.max_stride) {
+        lost_before_ = queues_ ? 0.0 : lost;
         stride_ *= 2;
         changed_at_ = now;
     } else if (!congested && stride_ > 1 && now - std::max(congested_at_, changed_at_) >= patience_) {
@@ -44,11 +43,14 @@ void Pace::adapt(const LinkStatistics& link, Nanoseconds now) {
         changed_at_ = now;
         tried_more_ = true;
     }
+    if (queues_ || tried_more_) {
+        link.ask_often();
+    }
 }
 
 // Much, and more than is lost whatever is sent. Asked again only once the last answer can have shown.
 bool Pace::loses(double lost, Nanoseconds now) {
-    if (lost <= hardly_lost * much_lost_) {
+    if (lost <= hardly_lost * settings_.much_lost) {
         lost_before_ = lost_anyway_ = 0.0;
     }
     if (now - changed_at_ < loss_shows_after) {
@@ -60,7 +62,7 @@ bool Pace::loses(double lost, Nanoseconds now) {
         changed_at_ = now;
         return false;
     }
-    return lost > std::max(much_lost_, lost_more * lost_anyway_);
+    return lost > std::max(settings_.much_lost, lost_more * lost_anyway_);
 }
 
 }  // namespace tactus

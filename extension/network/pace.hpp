@@ -1,27 +1,30 @@
-// How often a side sends when the network cannot take more: every tick, or every second, fourth or eighth.
+// How often a side sends when the network cannot take more: every time, or every second, fourth, eighth …
 //
-// Halved where what is on its way queues up, or where much is lost and that makes it less: of losses that
-// stay as they are who sends is not the cause, and more packets are what helps. Doubled again when neither
-// has been so for two seconds, or longer where that was too much the last time.
+// Halved where what is on its way queues up and goes on doing so, or where much is lost and that makes it
+// less: of losses that stay as they are who sends is not the cause, and more packets are what helps. Doubled
+// again when neither has been so for two seconds, or longer where that was too much the last time.
 #pragma once
 
 #include "network/endpoint.hpp"
 
 namespace tactus {
 
-class Pace {
-public:
-    static constexpr std::uint32_t max_stride = 8;
-
+struct PaceSettings {
     // More than that share lost is too much. Losses tell of a way that is too narrow only where it holds up
     // little: who cannot say later what he does not say now leaves them out of account (1).
-    explicit Pace(double much_lost) : much_lost_(much_lost) {}
+    double much_lost = 1.0;
+    std::uint32_t max_stride = 8;  // a power of two
+};
+
+class Pace {
+public:
+    explicit Pace(const PaceSettings& settings) : settings_(settings) {}
 
     // Once a tick.
-    void adapt(const LinkStatistics& link, Nanoseconds now);
+    void adapt(Endpoint& link, Nanoseconds now);
 
     // The far side is another one: nothing before counts.
-    void restart() { *this = Pace(much_lost_); }
+    void restart() { *this = Pace(settings_); }
 
     std::uint32_t stride() const { return stride_; }
     bool queues() const { return queues_; }
@@ -33,7 +36,7 @@ private:
 
     bool loses(double lost, Nanoseconds now);
 
-    double much_lost_;
+    PaceSettings settings_;
     std::uint32_t stride_ = 1;
     bool queues_ = false;
     Nanoseconds congested_at_ = 0;

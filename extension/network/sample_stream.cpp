@@ -52,10 +52,9 @@ void SampleStream::add(const OperatorSample& sample) {
 }
 
 void SampleStream::end_tick(Endpoint& link, Nanoseconds now) {
-    const LinkStatistics& statistics = link.statistics();
-    pace_.adapt(statistics, now);
-    // Where a queue is the trouble, repeats make it longer, and who asks whether less helps sends less.
-    const std::uint32_t wanted = pace_.asks() ? least_repeats : repeats_for(statistics.lost_there);
+    pace_.adapt(link, now);
+    // Where a queue is the trouble, repeats make it longer.
+    const std::uint32_t wanted = repeats_for(link.statistics().lost_there);
     repeats_ = pace_.queues() ? 0 : std::min(settings_.max_repeats, wanted);
     if (++tick_ % pace_.stride() == 0) {
         send(link);
@@ -70,6 +69,15 @@ void SampleStream::restart() {
     repeats_ = least_repeats;
 }
 
+// Samples of earlier packets in one of `stride` ticks. Who asks whether sending less helps sends half as many
+// packets, and none of them is larger for it.
+std::uint32_t SampleStream::older() const {
+    if (pace_.asks()) {
+        return repeats_ > 0 ? pace_.stride() / 2 * (repeats_ - 1) : 0;
+    }
+    return repeats_ * pace_.stride();
+}
+
 void SampleStream::send(Endpoint& link) {
     OperatorSamples message;
     message.period = settings_.period;
@@ -77,8 +85,7 @@ void SampleStream::send(Endpoint& link) {
         if (pointer.waiting == 0) {
             continue;
         }
-        // Repeats bridge lost packets, each of `stride` ticks.
-        const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + repeats_ * pace_.stride());
+        const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + older());
         if (message.count + wanted > OperatorSamples::most) {
             send_message(link, message);
         }

@@ -48,12 +48,13 @@ private:
         std::uint32_t waiting = 0;  // of them have not been sent yet
     };
 
+    std::uint32_t older() const;
     void send(Endpoint& link);
     void send_message(Endpoint& link, OperatorSamples& message) const;
 
     SampleStreamSettings settings_;
     std::vector<Pointer> pointers_;
-    Pace pace_{0.1};
+    Pace pace_{PaceSettings{0.1, 8}};
     std::uint32_t repeats_ = 2;
     std::uint64_t tick_ = 0;
 };

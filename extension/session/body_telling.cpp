@@ -7,7 +7,10 @@ namespace tactus {
 
 void BodyTelling::take_orders(TeleopPort& port) {
     while (PreparedDiscovery* const announced = port.announced.front()) {
-        discovery_.announce(*announced);
+        const ObjectId object = announced->object;
+        if (discovery_.announce(*announced)) {
+            states_.announced(object);
+        }
         port.released.try_push(std::move(announced->content));
         port.announced.pop();
     }
@@ -15,6 +18,7 @@ void BodyTelling::take_orders(TeleopPort& port) {
     while (port.withdrawn.try_pop(gone)) {
         std::shared_ptr<const std::vector<std::byte>> content;
         discovery_.withdraw(gone, content);
+        states_.withdrawn(gone);
         port.released.try_push(std::move(content));
     }
 }
@@ -27,11 +31,12 @@ void BodyTelling::take(const DiscoveryAcknowledgement& known) {
 
 void BodyTelling::restart() {
     discovery_.restart();
+    bulk_ = {};
     states_.restart();
 }
 
 void BodyTelling::describe(Channel& channel, Nanoseconds now) {
-    constexpr int most_a_tick = 2;
+    constexpr int max_a_tick = 4;
     constexpr Nanoseconds soonest = 200'000'000;
     Endpoint& link = channel.link();
     discovery_.set_repeat_after(
@@ -39,9 +44,13 @@ void BodyTelling::describe(Channel& channel, Nanoseconds now) {
     const TeleopSettings& settings = channel.settings();
     link.set_world(counts().waiting + counts().known + counts().refused + counts().no_room,
                    direction_to_local(settings.frame, settings.gravity));
+    const bool heard = link.hears_peer();
+    bulk_.adapt(link, now, heard && discovery_.has_more());
     Message message;
-    for (int i = 0; i < most_a_tick && link.hears_peer() && discovery_.next(now, message); ++i) {
+    for (int i = 0; i < max_a_tick && heard && bulk_.may_send() && discovery_.next(now, message); ++i) {
+        const std::uint64_t before = link.statistics().bytes_sent;
         link.send(message);
+        bulk_.sent(link.statistics().bytes_sent - before);
     }
 }
 

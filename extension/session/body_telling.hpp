@@ -2,6 +2,7 @@
 // to whoever ticks.
 #pragma once
 
+#include "network/bulk_rate.hpp"
 #include "session/channel.hpp"
 #include "session/session_loop.hpp"
 #include "session/state_teller.hpp"
@@ -20,13 +21,16 @@ public:
 
     // Last things in a tick. `newest`: the newest sample of the operator that has been applied.
     void tell_states(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
-        states_.tell(loop, channel, newest, now);
+        states_.tell(loop, channel, newest, now, yields());
     }
     void describe(Channel& channel, Nanoseconds now);
+    // What queues on the way there is descriptions, which can be told more slowly.
+    bool yields() const { return bulk_.can_yield(); }
     const DiscoveryCounts& counts() const { return discovery_.counts(); }
 
 private:
     DiscoverySender discovery_;
+    BulkRate bulk_;  // of discovery
     StateTeller states_;
 };
 

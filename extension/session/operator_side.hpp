@@ -32,6 +32,12 @@ struct OperatorRoom {
     bool replays = true;                // false: no twin, re-simulation is not available
 };
 
+// What of a body that a pointer rests on is felt later only.
+struct TouchedBody {
+    double friction = 0.0;  // static, of the pointer on it
+    double mass = 0.0;      // (unit: kilograms); 0: it does not move, or nothing is touched
+};
+
 class OperatorSide final : public TeleopSide {
 public:
     OperatorSide(const SessionSettings& session, const OperatorRoom& room, const TeleopSettings& settings,
@@ -55,6 +61,7 @@ private:
         Vec3 modelled_before{0.0};  // two ticks ago, or the same where a change was in between
         Vec3 hand{0.0};             // one tick ago (unit: meters)
         Vec3 force{0.0};            // given to the hand, one tick ago (unit: newtons)
+        TouchedBody touched;        // one tick ago
         bool known = false;         // there was such a tick
         bool answered = false;      // traditional: what the far side said last still held then
         OperatorPassivity passivity;

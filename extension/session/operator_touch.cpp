@@ -1,5 +1,6 @@
 // How the operator's side puts the model right, and what its hand is given.
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -21,6 +22,22 @@ double stiffness_under(const SessionLoop& loop, const ProxyState& state) {
     }
     const SessionLoop::Body* const under = loop.body(state.bodies[0]);
     return under ? std::max(1.0, loop.scene().body(under->slot).material.stiffness) : usual_stiffness;
+}
+
+// What another friction or mass of what is touched makes of a force comes as the hand and the body go on: at
+// most so much (unit: newtons).
+double change_to_come(const TouchedBody& before, const TouchedBody& now, double force) {
+    const double rubbed = std::max(0.0, now.friction - before.friction);
+    const double heavier =
+        before.mass > 0.0 && now.mass > 0.0 ? std::abs(now.mass - before.mass) / before.mass : 0.0;
+    return std::max(rubbed, heavier) * force;
+}
+
+TouchedBody touched_body(const SessionLoop& loop, const ProxyState& state) {
+    const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
+    return under ? TouchedBody{loop.scene().body(under->slot).material.static_friction,
+                               loop.mass(state.bodies[0])}
+                 : TouchedBody{};
 }
 
 std::uint32_t felt_status(FeltState state) {
@@ -250,6 +267,13 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         in.stiffness = stiffness_under(loop, slot.state);
     }
     hide_changes(pointer, in.modelled, in.stiffness, way, changed);
+    const TouchedBody touched = touched_body(loop, slot.state);
+    if (const double force = glm::length(in.modelled);
+        changed && pointer.known &&
+        change_to_come(pointer.touched, touched, force) > just_noticeable(settings().stealth, force)) {
+        pointer.felt.let_go();
+    }
+    pointer.touched = touched;
     const bool same_model = pointer.known && !settings().traditional && !corrected_ && !changed;
     slot.own_change = same_model ? glm::distance(in.modelled, pointer.modelled) : 0.0;
     const Vec3 modelled = in.modelled;

@@ -12,6 +12,7 @@ namespace {
 
 // Where a body has come to rest is said so many ticks longer.
 constexpr std::uint64_t linger = 200;
+constexpr std::uint64_t linger_rounds = 8;
 
 // Nobody sees such a difference in a body that moves (unit: meters, radians).
 constexpr double seen_position = 1e-3;
@@ -34,24 +35,49 @@ StateTeller::StateTeller(std::size_t max_bodies) : told_(max_bodies) {
 }
 
 void StateTeller::restart() {
-    for (std::size_t body = 0; body < told_.size(); ++body) {
-        described(static_cast<SessionHandle>(body));
+    pace_.restart();
+    for (Told& told : told_) {
+        told.known = told.known == Known::built ? Known::awaited : told.known;
+        begin_anew(told);
+    }
+}
+
+void StateTeller::announced(SessionHandle body) {
+    if (body < told_.size() && told_[body].known == Known::unasked) {
+        told_[body].known = Known::awaited;
     }
 }
 
 void StateTeller::described(SessionHandle body) {
     if (body < told_.size()) {
-        told_[body].times = 0;
-        told_[body].due = tick_ + ticks(settling);
+        told_[body].known = Known::built;
+        begin_anew(told_[body]);
     }
 }
 
-void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
+void StateTeller::withdrawn(SessionHandle body) {
+    if (body < told_.size()) {
+        told_[body].known = Known::unasked;
+    }
+}
+
+// Of what stands, all is to be said again.
+void StateTeller::begin_anew(Told& told) const {
+    told.times = 0;
+    told.due = tick_ + ticks(settling);
+}
+
+void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now,
+                       bool others_yield) {
     ++tick_;
     seconds_ = loop.seconds();
     losing_ = loses(channel.link().statistics());
+    if (!others_yield) {
+        pace_.adapt(channel.link(), now);
+    }
     const TeleopSettings& settings = channel.settings();
-    const std::uint64_t every = std::max(1u, std::min(settings.states_every, settings.refresh_every));
+    const std::uint64_t every =
+        std::max(1u, std::min(settings.states_every, settings.refresh_every)) * pace_.stride();
     if (said_ >= due_.size() && tick_ % every == 0) {
         round_ = every;
         begin_round(loop, channel, now);
@@ -79,6 +105,9 @@ void StateTeller::begin_round(SessionLoop& loop, const Channel& channel, Nanosec
             if (told.tick != 0) {
                 told = {};
             }
+            continue;
+        }
+        if (told.known == Known::awaited) {
             continue;
         }
         bool due = false;
@@ -129,14 +158,15 @@ void StateTeller::take_slow_turn(const SessionLoop& loop) {
 
 // As many as a packet holds have their turn together, one packet after the other.
 bool StateTeller::has_its_turn(const TeleopSettings& settings, SessionHandle body) const {
-    const std::uint64_t turns = std::max<std::uint64_t>(1, std::max(1u, settings.refresh_every) / round_);
+    const std::uint64_t refresh = std::uint64_t{std::max(1u, settings.refresh_every)} * pace_.stride();
+    const std::uint64_t turns = std::max<std::uint64_t>(1, refresh / round_);
     return tick_ / round_ % turns == body / ObjectStates::most % turns;
 }
 
 bool StateTeller::moves_otherwise(SessionLoop& loop, const TeleopSettings& settings, SessionHandle body,
                                   Nanoseconds now) const {
     const Told& told = told_[body];
-    if (told.moved_at == 0 || tick_ - told.moved_at >= linger) {
+    if (told.moved_at == 0 || tick_ - told.moved_at >= std::max(linger, linger_rounds * round_)) {
         return false;
     }
     if (told.again) {

@@ -8,11 +8,13 @@
 //                               stays for ever, in a slow turn
 //
 // What is due is gathered once in a round of `states_every` ticks, and its packets are spread over the round.
+// Where the way there queues, rounds are longer (network/pace.hpp).
 // Belongs to whoever ticks.
 #pragma once
 
 #include <vector>
 
+#include "network/pace.hpp"
 #include "session/channel.hpp"
 #include "session/session_loop.hpp"
 
@@ -24,15 +26,22 @@ public:
 
     // Another start of the operator: it knows nothing.
     void restart();
-    // The operator has built the body anew.
+    // The body is described to the operator, who has nothing to hear of it until it has built it.
+    void announced(SessionHandle body);
+    // The operator has built it, perhaps anew.
     void described(SessionHandle body);
+    void withdrawn(SessionHandle body);
 
-    // Once a tick. `newest`: the newest sample of the operator that has been applied.
-    void tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now);
+    // Once a tick. `newest`: the newest sample of the operator that has been applied; `others_yield`: what
+    // queues on the way there is somebody else's, who sends less.
+    void tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now, bool others_yield);
 
 private:
+    enum class Known : std::uint8_t { unasked, awaited, built };
+
     // What was said about a body last.
     struct Told {
+        Known known = Known::unasked;
         BodyMotion motion;
         std::uint64_t tick = 0;  // 0: never
         Nanoseconds time = 0;
@@ -45,6 +54,7 @@ private:
         std::uint64_t due = 1;    // the tick from which on it is to be said; 0: all is said
     };
 
+    void begin_anew(Told& told) const;
     void begin_round(SessionLoop& loop, const Channel& channel, Nanoseconds now);
     void note_where_it_stands(SessionLoop& loop, SessionHandle body);
     void take_slow_turn(const SessionLoop& loop);
@@ -57,6 +67,7 @@ private:
     void note_told(SessionLoop& loop, const Channel& channel, SessionHandle body, Nanoseconds now);
     std::uint64_t ticks(Nanoseconds span) const;
 
+    Pace pace_{PaceSettings{1.0, 32}};
     std::vector<Told> told_;          // by body
     std::vector<SessionHandle> due_;  // in this round
     std::size_t said_ = 0;            // of them

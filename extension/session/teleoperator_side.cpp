@@ -58,6 +58,7 @@ void TeleoperatorSide::start_over_if_peer_has() {
     if (channel_.peer_has_started()) {
         release_hands();
         telling_.restart();
+        force_pace_.restart();
     }
 }
 
@@ -199,6 +200,12 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
 }
 
 void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
+    if (!telling_.yields()) {
+        force_pace_.adapt(channel_.link(), now);
+    }
+    if (++force_tick_ % force_pace_.stride() != 0) {
+        return;
+    }
     ForceSamples message;
     for (std::size_t i = 0; i < share_.most() && message.count < ForceSamples::most; ++i) {
         if (pointers_[i].holds && slot_of(loop, i).present() && force_is_due(loop, i, now)) {

@@ -68,6 +68,8 @@ private:
     PointerShare share_;
     PlayedHands hands_;
     double seconds_;  // of a tick
+    Pace force_pace_{PaceSettings{}};
+    std::uint64_t force_tick_ = 0;
     std::array<Pointer, most_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     TeleopStatistics statistics_;

@@ -74,13 +74,14 @@ TEST(SampleStream, EverySampleComesWhereNothingIsLost) {
     EXPECT_EQ(rig.stream.ticks_a_packet(), 1u);
 }
 
-// One hand, every tick, with all that IP and UDP add.
+// One hand, every tick, with all that IP and UDP add. Where a third or half of it is lost it takes eight or
+// nine of each sample, once it is known that less does not help.
 TEST(SampleStream, AHandTakesAtMostOneAndAHalfMegabits) {
     for (const double loss : {0.0, 0.02, 0.09, 0.3, 0.5}) {
         StreamRig rig(lossy(loss));
         rig.run(5000 * ms);
         const LinkStatistics& link = rig.rig.near().statistics();
-        EXPECT_LT(link.sent_rate.bits_per_s, 1.5e6) << loss;
+        EXPECT_LT(link.sent_rate.bits_per_s, loss < 0.25 ? 1.5e6 : 1.65e6) << loss;
         EXPECT_GT(link.sent_rate.bits_per_s, 0.1e6) << loss;
     }
 }
@@ -113,6 +114,12 @@ TEST(SampleStream, ALineThatIsTooNarrowIsNotFilledUp) {
     const double delay_when_used = rig.rig.near().statistics().clock.mean_delay;
     rig.run(10'000 * ms);
     EXPECT_LT(rig.rig.near().statistics().clock.mean_delay, std::max(120e6, delay_when_used));
+    double longest = 0.0;
+    for (int i = 0; i < 10'000; ++i) {
+        rig.run(ms);
+        longest = std::max(longest, rig.rig.far().statistics().one_way_delay);
+    }
+    EXPECT_LT(longest, 90e6) << "ns, of which the way takes 10 and a full queue 200";
     rig.rig.near_link().change({});
     rig.rig.far_link().change({});
     rig.run(60'000 * ms);
@@ -135,6 +142,26 @@ TEST(SampleStream, LossesThatStayAsTheyAreSlowNothingDown) {
         }
         EXPECT_LE(lost, 60u) << loss;
     }
+}
+
+// Whether less helps is asked while a hand is at work: it costs few samples.
+TEST(SampleStream, AskingWhetherLessHelpsLosesLittle) {
+    StreamRig rig(lossy(0.5));
+    rig.run(300 * ms);
+    const std::uint64_t from = rig.sequence;
+    std::uint32_t longest_stride = 0;
+    for (int i = 0; i < 4000; ++i) {
+        rig.run(1 * ms);
+        longest_stride = std::max(longest_stride, rig.stream.ticks_a_packet());
+    }
+    const std::uint64_t to = rig.sequence;
+    rig.rig.run(100 * ms);
+    std::size_t lost = 0;
+    for (std::uint64_t sequence = from; sequence <= to; ++sequence) {
+        lost += rig.heard[0].contains(sequence) ? 0 : 1;
+    }
+    EXPECT_EQ(longest_stride, 2u);
+    EXPECT_LE(lost, 100u);
 }
 
 // A way that keeps nothing back and drops what is too much.

@@ -17,6 +17,15 @@ BodyAddition stone(int number) {
     return body(BoxShape{Vec3(0.01)}, {0.1 * (number % 8), 0.0, 0.1 * (number / 8)}, Motion::Static);
 }
 
+BodyAddition tumbling(int number) {
+    BodyAddition box =
+        body(BoxShape{Vec3(0.01)}, {0.1 * (number % 8), 1.0, 0.1 * (number / 8)}, Motion::Dynamic, 0.1);
+    box.description.gravity_scale = 0.0;
+    box.description.angular_velocity = {0.0, 3.0, 0.0};
+    box.description.can_sleep = false;
+    return box;
+}
+
 double bits_from_far(const ModelRig& rig) {
     return rig.near->port->statistics.front().link.received_rate.bits_per_s;
 }
@@ -38,6 +47,20 @@ LinkConditions way(double rate, double loss = 0.0) {
     conditions.rate = rate;
     conditions.loss = loss;
     return conditions;
+}
+
+std::shared_ptr<TriangleMesh> land(std::uint32_t side) {
+    auto mesh = std::make_shared<TriangleMesh>();
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+        mesh->vertices.push_back({0.02 * (i % side), 0.001 * ((i * 7919) % 13), 0.02 * (i / side)});
+    }
+    for (std::uint32_t i = 0; i + side + 1 < side * side; ++i) {
+        if (i % side + 1 < side) {
+            mesh->triangles.push_back({i, i + side, i + 1});
+            mesh->triangles.push_back({i + 1, i + side, i + side + 1});
+        }
+    }
+    return mesh;
 }
 
 TEST(Frugal, WhatStandsIsToldOnce) {
@@ -142,12 +165,7 @@ TEST(Frugal, TheTurnOfWhatStandsTakesLittle) {
 TEST(Frugal, StatesAreSpreadOverTicks) {
     ModelRig rig;
     for (int i = 0; i < 40; ++i) {
-        BodyAddition box =
-            body(BoxShape{Vec3(0.01)}, {0.1 * (i % 8), 1.0, 0.1 * (i / 8)}, Motion::Dynamic, 0.1);
-        box.description.gravity_scale = 0.0;
-        box.description.angular_velocity = {0.0, 3.0, 0.0};
-        box.description.can_sleep = false;
-        rig.far->add("Box" + std::to_string(i), box);
+        rig.far->add("Box" + std::to_string(i), tumbling(i));
     }
     rig.run(3 * second);
     std::uint64_t sent = rig.far->port->statistics.front().link.packets_sent, most = 0, all = 0;
@@ -159,6 +177,60 @@ TEST(Frugal, StatesAreSpreadOverTicks) {
     }
     EXPECT_GE(all, 600u) << "three packets in five ticks";
     EXPECT_LE(most, 4u) << "one of states, a hello, a request and an answer";
+}
+
+struct Waits {
+    double mean = 0.0, longest = 0.0;  // (unit: nanoseconds)
+};
+
+// How long what comes from the environment is on its way.
+Waits waits(ModelRig& rig, Nanoseconds span) {
+    Waits found;
+    const auto looks = static_cast<int>(span / (10 * ms));
+    for (int i = 0; i < looks; ++i) {
+        rig.run(10 * ms);
+        const double now = rig.near->port->statistics.front().link.one_way_delay;
+        found.mean += now / looks;
+        found.longest = std::max(found.longest, now);
+    }
+    return found;
+}
+
+// A hundred kilobytes: the description takes its time, and what the hand needs is not held up by it.
+TEST(Frugal, ADescriptionDoesNotFillUpANarrowWay) {
+    for (const double rate : {300e3, 1e6, 10e6}) {
+        ModelRig rig(way(rate));
+        rig.run(second);
+        rig.far->add("Land", body(MeshShape{land(48), 0.0}, {0.0, -1.0, 0.0}, Motion::Static));
+        const Waits found = waits(rig, rate < 1e6 ? 12 * second : 6 * second);
+        EXPECT_LT(found.longest, 90e6) << rate << ": ns, of which the way takes 10; a full queue takes 200";
+        EXPECT_LT(found.mean, 50e6) << rate;
+        EXPECT_NE(rig.near->find("Land"), nullptr) << rate;
+    }
+}
+
+TEST(Frugal, AWideWayIsUsed) {
+    LinkConditions wide = way(0.0);
+    wide.delay = 25 * ms;
+    ModelRig rig(wide);
+    rig.run(second);
+    rig.far->add("Land", body(MeshShape{land(150), 0.0}, {0.0, -1.0, 0.0}, Motion::Static));  // a megabyte
+    rig.run(4 * second);
+    EXPECT_NE(rig.near->find("Land"), nullptr);
+}
+
+// Forty boxes that go on tumbling need two megabits at full rate.
+TEST(Frugal, StatesDoNotFillUpANarrowWay) {
+    ModelRig rig(way(300e3));
+    rig.far->session.set_gravity(Vec3(0.0));
+    for (int i = 0; i < 40; ++i) {
+        rig.far->add("Box" + std::to_string(i), tumbling(i));
+    }
+    rig.run(8 * second);
+    ASSERT_EQ(rig.near->builder.objects().size(), 40u);
+    const Waits found = waits(rig, 20 * second);
+    EXPECT_LT(found.mean, 60e6) << "ns; the way alone takes 10, a full queue 200";
+    EXPECT_LT(found.longest, 90e6);
 }
 
 }  // namespace

@@ -143,6 +143,19 @@ TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
     EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
 }
 
+TEST(Mmt, HalfOfAllPacketsLostCostLessThanThriceTheForceError) {
+    TeleopCase one = wrong_box(100.0);
+    const double without = run_teleop(scene(true), one).at("force_error_mean_N");
+    one.forth.loss = one.back.loss = 0.5;
+    double mean = 0.0;
+    constexpr int seeds = 5;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        one.seed = static_cast<std::uint64_t>(7 * seed);
+        mean += run_teleop(scene(true), one).at("force_error_mean_N") / seeds;
+    }
+    EXPECT_LT(mean, 3.0 * without);
+}
+
 TEST(Mmt, AStillModelThatIsWrongIsRightSoonAfterTheFirstTouch) {
     TeleopCase tilted = with_delay(100.0, 4.0);
     tilted.wrong["Ground"].turn = glm::angleAxis(0.05, Vec3(1.0, 0.0, 0.0));
@@ -234,6 +247,27 @@ TEST(Mmt, ABodyThatIsToldAnewStaysInTheWayOfTheHandThatPushesIt) {
     light.events.push_back({1.5, TeleopEvent::Kind::told, "Box", 0.0});
     const TeleopFigures figures = run_teleop(push, light);
     EXPECT_LT(figures.at("force_error_left_N"), 0.05);
+}
+
+// A hand slides over a ground that was taken for ice. What friction does comes as it slides on.
+TEST(Mmt, FrictionThatComesUnderAHandIsLetInAndSaidSo) {
+    TeleopScene slide = scene(false);
+    slide.bodies.pop_back();
+    KeyframePath path;
+    path.interpolation = PathInterpolation::linear;
+    path.keyframes = {{0, {-0.1, 0.05, 0.0}},
+                      {300'000'000, {-0.1, 0.05, 0.0}},
+                      {800'000'000, {-0.1, 0.005, 0.0}},
+                      {4'000'000'000, {0.1, 0.005, 0.0}}};
+    slide.path = path;
+    TeleopCase ice = with_delay(100.0, 3.0);
+    ice.discovers = true;
+    ice.wrong["Ground"].touch_friction_is = 0.0;
+    ice.measured_from = 2.0;
+    ice.events.push_back({2.0, TeleopEvent::Kind::told, "Ground", 0.0});
+    const TeleopFigures figures = run_teleop(slide, ice);
+    EXPECT_GT(figures.at("let_go_ticks"), 0.0);
+    EXPECT_LT(figures.at("felt_excess_1ms_N_max"), 0.1);
 }
 
 TEST(Mmt, AnArmPressesTheModelAsItWouldPressWhatIsThere) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
@@ -22,6 +23,9 @@ constexpr double nearly_noticed = 0.95;
 void FeltPointer::hide(const Vec3& before, const Vec3& after) {
     const Vec3 change = before - after;
     hidden_ += change;
+    if (state_ == FeltState::letting_go) {
+        kept_ += change;
+    }
     modelled_before_ = glm::length(after);
     drift_.carried(glm::length(change));
 }
@@ -35,7 +39,6 @@ void FeltPointer::hide_size(const Vec3& before, const Vec3& after) {
 }
 
 Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
-    begins_to_let_go_ = false;
     faded_ = 0.0;
     const double modelled = glm::length(in.modelled);
     const double stored = in.stiffness > 0.0 ? 0.5 * modelled * modelled / in.stiffness : 0.0;
@@ -47,11 +50,18 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
     if (modelled < modelled_before_) {
         // As the hand moves away and the model's force with it, so does what is hidden.
         hidden_ *= modelled / modelled_before_;
+        kept_ *= modelled / modelled_before_;
+    }
+    begin_to_let_go(settings, in);
+    const double before = glm::length(hidden_);
+    if (state_ == FeltState::letting_go) {
+        hidden_ = left_of_felt(in);
+        state_ = left_ > 0.0 ? state_ : FeltState::bridged;
+    } else if (hidden_ != Vec3(0.0)) {
+        state_ = FeltState::bridged;
+        hidden_ = tactus::faded(hidden_, fading(settings, in));
     }
     if (hidden_ != Vec3(0.0)) {
-        const double most = fading(settings, in, glm::length(in.modelled + hidden_));
-        const double before = glm::length(hidden_);
-        hidden_ = tactus::faded(hidden_, most);
         if (glm::length(hidden_) < nothing_hidden) {
             hidden_ = Vec3(0.0);
         }
@@ -59,34 +69,56 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
             tank_.allow(hidden_, in.hand_velocity, in.seconds, tank_reserve, settings.tank, energy_.damped_J);
         faded_ = std::abs(before - glm::length(hidden_));
     }
-    if (hidden_ == Vec3(0.0)) {
+    if (hidden_ == Vec3(0.0) && state_ != FeltState::letting_go) {
         state_ = FeltState::together;
     }
     modelled_before_ = modelled;
     const Vec3 felt = in.modelled + hidden_;
+    change_ = felt - std::exchange(felt_, felt);
     energy_.tank_J = tank_.level();
     energy_.hidden_J += glm::dot(hidden_, in.hand_velocity) * in.seconds;
-    energy_.hand_J += glm::dot(felt, in.hand_velocity) * in.seconds;
-    return felt;
+    energy_.hand_J += glm::dot(felt_, in.hand_velocity) * in.seconds;
+    return felt_;
+}
+
+// What was falling already goes on falling at least as fast.
+void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInput& in) {
+    const bool too_much = glm::length(hidden_) > most_hidden(settings, glm::length(in.modelled));
+    begins_to_let_go_ = (std::exchange(lets_go_, false) || too_much) && state_ != FeltState::letting_go;
+    if (!begins_to_let_go_) {
+        return;
+    }
+    state_ = FeltState::letting_go;
+    left_ = settings.let_go_seconds;
+    kept_ = Vec3(0.0);
+    const Vec3 going = felt_ - in.modelled;
+    const double size2 = glm::dot(going, going);
+    const double falling = -glm::dot(change_, going);
+    if (falling > 0.0) {
+        left_ = std::clamp(size2 / falling * in.seconds, in.seconds, settings.let_go_seconds);
+    }
+}
+
+// What was felt, as the hand's own way has changed it since, goes over into what is modelled now. What has
+// been changed since then is hidden as ever.
+Vec3 FeltPointer::left_of_felt(const FeltInput& in) {
+    const double before = std::exchange(left_, std::max(0.0, left_ - in.seconds));
+    const double share = before > 0.0 ? left_ / before : 0.0;
+    const double size = glm::length(in.modelled);
+    if (!(size > 0.0)) {
+        return kept_ + (felt_ - kept_) * share;
+    }
+    const double leaving = std::max(0.0, glm::dot(in.hand_velocity, in.modelled) / size) * in.seconds;
+    const double from = size + in.stiffness * leaving;
+    const Vec3 hidden = (felt_ - in.modelled * (from / size)) * (size / from);
+    return kept_ + (hidden - kept_) * share;
 }
 
 // How much of what is hidden goes in this tick (unit: newtons).
-double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in, double felt) {
-    const double size = glm::length(hidden_);
+double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in) const {
     const double modelled = glm::length(in.modelled);
+    const double felt = glm::length(in.modelled + hidden_);
     const double unnoticed = unnoticed_change(settings, felt, in.seconds);
-    // No more is hidden than is felt: it would be a force of its own.
-    const double bound = std::max(just_noticeable(settings, modelled), settings.bound * modelled);
-    if (size > bound || state_ == FeltState::letting_go) {
-        if (state_ != FeltState::letting_go) {
-            state_ = FeltState::letting_go;
-            begins_to_let_go_ = true;
-            letting_go_rate_ = 0.0;
-        }
-        letting_go_rate_ = std::max(letting_go_rate_, size / settings.let_go_seconds);
-        return std::max(unnoticed, letting_go_rate_ * in.seconds);
-    }
-    state_ = FeltState::bridged;
     // Where a model drifts, fading as fast as corrections come changes nothing that can be felt; somewhat
     // faster, so that what has gathered gets less.
     constexpr double catching_up = 1.5;

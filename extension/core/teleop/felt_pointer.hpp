@@ -8,10 +8,13 @@
 //     together    -> bridged      the model has changed and `hidden` makes up for it
 //     bridged     -> together     it has faded
 //     bridged     -> letting_go   more is hidden than is felt, or nothing is touched any more
+//     any         -> letting_go   let_go(): what the change leads to is too large to hide
 //     letting_go  -> together     it is gone
+//     letting_go  -> bridged      but for what has changed meanwhile
 //     together    -> carried      a second pointer is carried along with the object
 //     (session/carried_pointer.hpp)
-// Letting go fades within `let_go_seconds` however much there is; whoever feels it is told so.
+// What is let go goes over into what is modelled within `let_go_seconds`, however much there is and whatever
+// the model does meanwhile; whoever feels it is told so.
 //
 // What is hidden lives on energy that touch has taken from the hand before (energy.hpp).
 #pragma once
@@ -37,7 +40,9 @@ class FeltPointer {
 public:
     // The model has changed under the hand: in this tick `modelled` is `after`, and would have been `before`.
     void hide(const Vec3& before, const Vec3& after);
-    // The same, but only the size of what is felt is kept.
+    // What the model will do now is not what it would have done, by more than can be hidden as it comes.
+    void let_go() { lets_go_ = true; }
+    // The same as hide(), but only the size of what is felt is kept.
     void hide_size(const Vec3& before, const Vec3& after);
 
     // One tick: the force on the hand (unit: newtons).
@@ -53,13 +58,19 @@ public:
     const EnergyFigures& energy() const { return energy_; }
 
 private:
-    double fading(const StealthSettings& settings, const FeltInput& input, double felt);
+    void begin_to_let_go(const StealthSettings& settings, const FeltInput& input);
+    Vec3 left_of_felt(const FeltInput& input);
+    double fading(const StealthSettings& settings, const FeltInput& input) const;
 
     Vec3 hidden_{0.0};
+    Vec3 felt_{0.0};    // one tick ago (unit: newtons)
+    Vec3 change_{0.0};  // of what is felt, in the last tick (unit: newtons)
     FeltState state_ = FeltState::together;
     DriftRate drift_;               // of what corrections bring
     double modelled_before_ = 0.0;  // size of the modelled force, one tick ago (unit: newtons)
-    double letting_go_rate_ = 0.0;  // (unit: newtons per second)
+    bool lets_go_ = false;          // is to
+    double left_ = 0.0;             // of letting go (unit: seconds)
+    Vec3 kept_{0.0};                // what changes have added meanwhile (unit: newtons)
     double faded_ = 0.0;
     bool begins_to_let_go_ = false;
     EnergyTank tank_;

@@ -14,6 +14,10 @@ double unnoticed_change(const StealthSettings& settings, double force, double se
     return settings.share * just_noticeable(settings, force) * seconds / settings.window;
 }
 
+double most_hidden(const StealthSettings& settings, double modelled) {
+    return std::max(just_noticeable(settings, modelled), settings.bound * modelled);
+}
+
 Vec3 faded(const Vec3& from, double way) {
     const double length = glm::length(from);
     return length <= way ? Vec3(0.0) : from * (1.0 - way / length);

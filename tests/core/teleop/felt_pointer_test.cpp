@@ -97,6 +97,44 @@ TEST(FeltPointer, NothingIsFeltWhereNothingIsTouchedAnyMore) {
     EXPECT_LT(glm::length(felt), 0.05);
 }
 
+// What is let go of goes over into what is modelled, whatever the model does meanwhile.
+TEST(FeltPointer, AModelThatIsToMoveOtherwiseIsLetGoOf) {
+    const StealthSettings settings;
+    FeltPointer pointer = rubbed(settings, {0.0, 3.0, 0.0});
+    pointer.let_go();
+    Vec3 last(0.0, 3.0, 0.0);
+    int ticks = 0;
+    for (double modelled = 3.0; ticks == 0 || pointer.state() == FeltState::letting_go; ++ticks) {
+        modelled = std::max(0.0, modelled - 0.5);  // it flies off at 1 m/s
+        const Vec3 felt =
+            pointer.feel(settings, {{0.0, modelled, 0.0}, Vec3(0.0), modelled > 0.0 ? 500.0 : 0.0, tick});
+        EXPECT_EQ(pointer.begins_to_let_go(), ticks == 0);
+        EXPECT_LE(glm::distance(felt, last), 3.0 * tick / settings.let_go_seconds * 1.1);
+        last = felt;
+        ASSERT_LT(ticks, 400);
+    }
+    EXPECT_EQ(last, Vec3(0.0));
+}
+
+// A touch that is about to end by itself is not held on to because it has ended already.
+TEST(FeltPointer, WhatFallsAlreadyIsLetGoOfAtLeastAsFast) {
+    const StealthSettings settings;
+    constexpr double falling = 0.1;  // in a tick (unit: newtons)
+    FeltPointer pointer;
+    double modelled = 2.0;
+    for (; modelled > 1.0; modelled -= falling) {
+        pointer.feel(settings, pressing({0.0, modelled, 0.0}));
+    }
+    pointer.hide({0.0, modelled, 0.0}, Vec3(0.0));
+    double last = modelled + falling;
+    int ticks = 0;
+    for (double felt = 1.0; felt > 0.0; last = felt) {
+        felt = pointer.feel(settings, {Vec3(0.0), Vec3(0.0), 0.0, tick}).y;
+        EXPECT_LE(last - felt, 1.1 * falling);
+        ASSERT_LE(++ticks, 12);
+    }
+}
+
 // A model that is changed at random, every tick, under a hand that moves at random: what hiding gives never
 // exceeds what touch has taken before.
 TEST(FeltPointer, WhatIsHiddenNeverAddsEnergyThatTouchHasNotTaken) {
