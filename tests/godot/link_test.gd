@@ -208,7 +208,7 @@ func test_bad_values_are_refused_and_the_old_ones_stay() -> void:
 		["tuning:derivation", 6],
 		["control_scheme", 4],
 		["correction_scheme", -1],
-		["scenario", 5],
+		["scenario", 6],
 		["side", 7],
 	]:
 		var before: Variant = link.get_indexed(wrong[0])
