@@ -102,8 +102,8 @@ def openni():
     return [folder for folder in found if (folder / "OniCAPI.h").is_file() and (folder / "Driver/OniDriverAPI.h").is_file()][:1]
 
 
-# A library that is loaded later finds the played calls first.
-LINK_PLAYED = ["-Wl,--export-dynamic-symbol=poll,--export-dynamic-symbol=ioctl"]
+# A library that is loaded later finds the played poll() first.
+LINK_PLAYED = ["-Wl,--export-dynamic-symbol=poll"]
 
 
 def umockdev():

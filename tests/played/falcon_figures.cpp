@@ -33,6 +33,15 @@ std::unique_ptr<DriverDevice> open_falcon() {
     return std::make_unique<DriverDevice>(std::make_unique<FalconDriver>(std::move(settings)));
 }
 
+// As the loop of a world asks for it.
+RealtimeRequest loop_request() {
+    RealtimeRequest request;
+    request.lock_memory = false;
+    request.keep_awake = false;
+    request.cpu = any_processor;
+    return request;
+}
+
 // A loop of 1 kHz that asks for one force, and can be made to stop.
 class Loop {
 public:
@@ -57,11 +66,7 @@ public:
 
 private:
     void run() {
-        RealtimeRequest request;
-        request.lock_memory = false;
-        request.keep_awake = false;
-        request.cpu = any_processor;
-        const RealtimeReport granted = make_thread_realtime(request);
+        const RealtimeReport granted = make_thread_realtime(loop_request());
         SleepTimer timer;
         for (Nanoseconds tick = monotonic_now(); !end_; tick = std::max(tick + ms, monotonic_now() - ms)) {
             timer.sleep_until(tick);
@@ -151,6 +156,7 @@ double tick_p99(Device& device, double seconds, const auto& move) {
     session.add_proxy(pointer);
     const SpanClock clock;
     std::vector<double> spans;
+    const RealtimeReport granted = make_thread_realtime(loop_request());
     SleepTimer timer;
     const Nanoseconds start = monotonic_now();
     for (Nanoseconds tick = start; tick < start + from_seconds(seconds); tick += ms) {
@@ -160,6 +166,7 @@ double tick_p99(Device& device, double seconds, const auto& move) {
         session.tick(tick - start);
         spans.push_back(1e-3 * clock.nanoseconds(from, clock.now()));
     }
+    release_realtime(granted);
     return quantile(spans, 0.99);
 }
 
