@@ -3,16 +3,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "core/math/shortened.hpp"
+
 namespace tactus {
-
-namespace {
-
-Vec3 no_longer_than(double limit, const Vec3& vector) {
-    const double length = glm::length(vector);
-    return length > limit ? vector * (limit / length) : vector;
-}
-
-}  // namespace
 
 Vec3 effective_deflection(const Vec3& deflection, double dead_zone) {
     const double length = glm::length(deflection);
@@ -27,7 +20,7 @@ Vec3 steered(const Vec3& place, const Vec3& deflection, const SteeringSettings& 
     const Vec3 wanted = settings.mode == SteeringMode::position
                             ? settings.reach * effective
                             : place + settings.speed * seconds * effective;
-    return no_longer_than(settings.reach, wanted);
+    return shortened(wanted, settings.reach);
 }
 
 }  // namespace tactus

@@ -24,8 +24,8 @@ void place(const ModelRoll::Shown& shown, const Pose& pose) {
 }
 
 void hide(const ModelRoll::Shown& shown) {
-    if (auto* node = shown.is_picture ? node_of_id<Node>(shown.node) : nullptr) {
-        node->queue_free();
+    if (shown.is_picture) {
+        free_later(shown.node);
     }
 }
 

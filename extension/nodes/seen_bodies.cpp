@@ -6,14 +6,15 @@
 #include <godot_cpp/classes/convex_polygon_shape3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/classes/static_body3d.hpp>
-#include <godot_cpp/core/object.hpp>
 #include <unordered_set>
+#include <utility>
 
 #include "core/math/least_turn.hpp"
 #include "core/teleop/body_motion.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/mesh_drawing.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -130,7 +131,7 @@ Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> 
 
 void SeenBodies::place(Made& made, const SightedObject& object, double age) const {
     made.pose = pose_after(object, age);
-    auto* const node = Object::cast_to<Node3D>(ObjectDB::get_instance(made.node));
+    auto* const node = node_of_id<Node3D>(made.node);
     if (node == nullptr) {
         return;
     }
@@ -166,9 +167,7 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
         Made& made = made_[object.id];
         const bool is_other = made.mesh != object.mesh || made.hull_corners != object.hull.vertices.size();
         if (made.node != 0 && is_other) {
-            if (auto* const old = Object::cast_to<Node>(ObjectDB::get_instance(made.node))) {
-                old->queue_free();
-            }
+            free_later(made.node);
             made.node = 0;
         }
         if (made.node == 0) {
@@ -186,9 +185,7 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
         if (there.contains(one.first)) {
             return false;
         }
-        if (auto* const node = Object::cast_to<Node>(ObjectDB::get_instance(one.second.node))) {
-            node->queue_free();
-        }
+        free_later(one.second.node);
         return true;
     });
     hold_support(sensor, sight.plane, looks.objects != SeenAs::pictures);
@@ -198,11 +195,10 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
 // What the objects stand on is a slab, and is put elsewhere only where it is seen to be: its noise would
 // shake all that stands on it.
 void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is_wanted) {
-    auto* slab = Object::cast_to<Node3D>(ObjectDB::get_instance(support_));
+    auto* slab = node_of_id<Node3D>(support_);
     if (!is_wanted || !plane.is_found) {
-        if (slab != nullptr && !is_wanted) {
-            slab->queue_free();
-            support_ = 0;
+        if (!is_wanted) {
+            free_later(std::exchange(support_, 0));
         }
         return;
     }
@@ -230,12 +226,9 @@ void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is
 }
 
 void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) {
-    auto* drawn = Object::cast_to<MeshInstance3D>(ObjectDB::get_instance(cloud_));
+    auto* drawn = node_of_id<MeshInstance3D>(cloud_);
     if (!is_wanted) {
-        if (drawn != nullptr) {
-            drawn->queue_free();
-            cloud_ = 0;
-        }
+        free_later(std::exchange(cloud_, 0));
         return;
     }
     if (drawn == nullptr) {
@@ -262,25 +255,16 @@ void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) 
 
 Node3D* SeenBodies::node_of(std::uint64_t object) const {
     const auto found = made_.find(object);
-    return found != made_.end() ? Object::cast_to<Node3D>(ObjectDB::get_instance(found->second.node))
-                                : nullptr;
+    return found != made_.end() ? node_of_id<Node3D>(found->second.node) : nullptr;
 }
 
 void SeenBodies::clear() {
     for (const auto& [id, made] : made_) {
-        if (auto* const node = Object::cast_to<Node>(ObjectDB::get_instance(made.node))) {
-            node->queue_free();
-        }
+        free_later(made.node);
     }
     made_.clear();
-    if (auto* const cloud = Object::cast_to<Node>(ObjectDB::get_instance(cloud_))) {
-        cloud->queue_free();
-    }
-    cloud_ = 0;
-    if (auto* const slab = Object::cast_to<Node>(ObjectDB::get_instance(support_))) {
-        slab->queue_free();
-    }
-    support_ = 0;
+    free_later(std::exchange(cloud_, 0));
+    free_later(std::exchange(support_, 0));
 }
 
 }  // namespace tactus

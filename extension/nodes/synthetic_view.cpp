@@ -75,10 +75,10 @@ void SyntheticView::end() {
 }
 
 bool SyntheticView::has_others() const {
-    auto* const root = Object::cast_to<Node>(ObjectDB::get_instance(root_));
+    auto* const root = node_of_id<Node>(root_);
     std::vector<MeshInstance3D*> drawn;
     if (root != nullptr && root->is_inside_tree()) {
-        collect(*root, Object::cast_to<Node>(ObjectDB::get_instance(without_)), drawn);
+        collect(*root, node_of_id<Node>(without_), drawn);
     }
     return std::ranges::any_of(drawn, [this](const MeshInstance3D* one) {
         return std::ranges::find(shown_, one->get_instance_id(), &Shown::node) == shown_.end();
@@ -92,7 +92,7 @@ bool SyntheticView::show(const Pose& camera) {
     bodies_.clear();
     bool is_another = ++shows_ % looks_for_others == 0 && has_others();
     for (std::size_t i = 0; i < shown_.size(); ++i) {
-        auto* const drawn = Object::cast_to<MeshInstance3D>(ObjectDB::get_instance(shown_[i].node));
+        auto* const drawn = node_of_id<MeshInstance3D>(shown_[i].node);
         if (drawn == nullptr || !drawn->is_inside_tree() || drawn->get_mesh().is_null() ||
             drawn->get_mesh()->get_instance_id() != shown_[i].mesh) {
             is_another = true;

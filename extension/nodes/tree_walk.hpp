@@ -14,6 +14,13 @@ NodeType* node_of_id(std::uint64_t id) {
     return godot::Object::cast_to<NodeType>(godot::ObjectDB::get_instance(id));
 }
 
+// It goes when nothing uses it any more; gone already is as well.
+inline void free_later(std::uint64_t id) {
+    if (auto* const node = node_of_id<godot::Node>(id)) {
+        node->queue_free();
+    }
+}
+
 // Where a path property leads; null: it is empty, leads nowhere, or to another kind.
 template <class NodeType>
 NodeType* node_at(const godot::Node& from, const godot::NodePath& path) {

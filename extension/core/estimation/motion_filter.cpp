@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/math/shortened.hpp"
 #include "core/teleop/body_motion.hpp"
 
 namespace tactus {
@@ -48,11 +49,7 @@ double deviation(const Vec3& of, const Mat3& covariance) {
 }
 
 Vec3 turn_between(const Quat& from, const Quat& to) {
-    const Quat turn = to * glm::conjugate(from);
-    const double sign = turn.w < 0.0 ? -1.0 : 1.0;
-    const Vec3 axis = sign * Vec3(turn.x, turn.y, turn.z);
-    const double sine = glm::length(axis);
-    return sine > 0.0 ? axis * (2.0 * std::atan2(sine, sign * turn.w) / sine) : Vec3(0.0);
+    return turn_vector(to * glm::conjugate(from));
 }
 
 Pose moved(const Pose& pose, const Vec3& way, const Vec3& turn) {
@@ -62,11 +59,6 @@ Pose moved(const Pose& pose, const Vec3& way, const Vec3& turn) {
 bool is_finite(const Pose& pose) {
     const Quat& q = pose.rotation;
     return std::isfinite(square(pose.position)) && std::abs(glm::dot(q, q) - 1.0) < 1e-3;
-}
-
-Vec3 at_most(const Vec3& v, double length) {
-    const double own = glm::length(v);
-    return own > length ? v * (length / own) : v;
 }
 
 }  // namespace
@@ -176,8 +168,8 @@ void MotionFilter::tell(const MotionFilterSettings& settings, double seconds) {
         const bool settled = std::min(place_.poses(), turn_.poses()) >= settings.poses_to_settle;
         const double way = seconds * (settled ? settings.creep : settings.settling);
         const double turn = seconds * (settled ? settings.creep_turn : settings.settling_turn);
-        told_ = moved(told_, at_most(mean_.position - told_.position, way),
-                      at_most(turn_between(told_.rotation, mean_.rotation), turn));
+        told_ = moved(told_, shortened(mean_.position - told_.position, way),
+                      shortened(turn_between(told_.rotation, mean_.rotation), turn));
     }
 }
 

@@ -13,6 +13,13 @@ double angle_between(const Quat& from, const Quat& to) {
     return 2.0 * std::asin(half_sine);
 }
 
+Vec3 turn_vector(const Quat& turn) {
+    const double sign = turn.w < 0.0 ? -1.0 : 1.0;
+    const Vec3 axis = sign * Vec3(turn.x, turn.y, turn.z);
+    const double sine = glm::length(axis);
+    return sine > 0.0 ? axis * (2.0 * std::atan2(sine, sign * turn.w) / sine) : Vec3(0.0);
+}
+
 Quat turn_by(const Vec3& angular_velocity, double seconds) {
     const double angle = glm::length(angular_velocity) * seconds;
     if (!(std::abs(angle) > 0.0)) {

@@ -22,6 +22,9 @@ struct MotionThreshold {
 // The angle of the turn that takes `from` to `to`, 0 … pi (unit: radians).
 double angle_between(const Quat& from, const Quat& to);
 
+// The turn as a vector along its axis, no longer than pi (unit: radians).
+Vec3 turn_vector(const Quat& turn);
+
 // The turn of length |w| t about w.
 Quat turn_by(const Vec3& angular_velocity, double seconds);
 

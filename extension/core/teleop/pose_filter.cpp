@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/teleop/body_motion.hpp"
+
 namespace tactus {
 
 namespace {
@@ -27,14 +29,6 @@ double square(const Vec3& v) {
 
 double square(double v) {
     return v * v;
-}
-
-// The turn as a vector along its axis (unit: radians).
-Vec3 turn_vector(const Quat& turn) {
-    const double sign = turn.w < 0.0 ? -1.0 : 1.0;
-    const Vec3 axis = sign * Vec3(turn.x, turn.y, turn.z);
-    const double sine = glm::length(axis);
-    return sine > 0.0 ? axis * (2.0 * std::atan2(sine, sign * turn.w) / sine) : Vec3(0.0);
 }
 
 Quat turn_of(const Vec3& vector) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/math/shortened.hpp"
+
 namespace tactus {
 
 namespace {
@@ -11,11 +13,6 @@ namespace {
 // Below it friction is held to grow with speed: at rest it takes whatever it is given, which nobody can tell
 // from contact (unit: meters per second).
 constexpr double creeping = 0.01;
-
-Vec3 shortened(const Vec3& v, double most) {
-    const double length = glm::length(v);
-    return length > most ? v * (most / length) : v;
-}
 
 }  // namespace
 

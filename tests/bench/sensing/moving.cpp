@@ -20,15 +20,6 @@ constexpr int images_to_recover = 3;
 // Less of it than this is seen: others hide it.
 constexpr double least_seen = 0.5;
 
-const SpanClock& span_clock() {
-    static const SpanClock clock;
-    return clock;
-}
-
-double seconds_now() {
-    return 1e-9 * span_clock().nanoseconds(0, span_clock().now());
-}
-
 // On an ellipse about where it was, turning about an axis that stays: from rest, evenly faster over a second.
 struct Course {
     Pose start;

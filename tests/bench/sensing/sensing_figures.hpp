@@ -18,6 +18,12 @@ struct SensingCase {
     bool talks = false;          // of what goes wrong
 };
 
+// For what a discovery tells of its own time.
+inline double seconds_now() {
+    static const SpanClock clock;
+    return 1e-9 * clock.nanoseconds(0, clock.now());
+}
+
 // Camera and depth error of a scene; where the support's place is known, as after a calibration by it.
 DiscoverySettings bench_settings(bool support_known);
 DepthNoise bench_noise(std::uint64_t seed);

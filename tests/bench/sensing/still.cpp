@@ -22,15 +22,6 @@ struct StillFigures {
     std::vector<double> position_mm, angle_deg, segmentation_ms, new_object_ms, rest_mm;
 };
 
-const SpanClock& span_clock() {
-    static const SpanClock clock;
-    return clock;
-}
-
-double seconds_now() {
-    return 1e-9 * span_clock().nanoseconds(0, span_clock().now());
-}
-
 struct FirstSight {
     std::uint32_t id;
     std::size_t mesh;

@@ -8,11 +8,13 @@
 
 #include "core/teleop/body_motion.hpp"
 #include "shared/poses.hpp"
+#include "shared/rough_eyes.hpp"
 
 namespace tactus {
 namespace {
 
 using shared::at;
+using shared::RoughEyes;
 
 constexpr Nanoseconds frame = 33'333'333;
 constexpr double frame_seconds = 1.0 / 30.0;
@@ -26,23 +28,9 @@ Matrix6 covariance_of(double place, double turn) {
     return covariance;
 }
 
-class RoughEyes {
-public:
-    RoughEyes(double place, double turn, unsigned seed = 3) : place_(place), turn_(turn), random_(seed) {}
-
-    Pose see(const Pose& pose) {
-        return {pose.position + place_ * vector(),
-                glm::normalize(turn_by(turn_ * vector(), 1.0) * pose.rotation)};
-    }
-    Matrix6 covariance() const { return covariance_of(place_, turn_); }
-
-private:
-    Vec3 vector() { return {normal_(random_), normal_(random_), normal_(random_)}; }
-
-    double place_, turn_;
-    std::mt19937_64 random_;
-    std::normal_distribution<double> normal_{0.0, 1.0};
-};
+Matrix6 covariance_of(const RoughEyes& eyes) {
+    return covariance_of(eyes.of_place(), eyes.of_turn());
+}
 
 TEST(MotionFilter, TheFirstPoseIsBelieved) {
     MotionFilter filter;
@@ -61,7 +49,7 @@ TEST(MotionFilter, WhatRestsIsToldAtRest) {
         double squares = 0.0;
         int moving = 0, counted = 0;
         for (int i = 1; i <= 1800; ++i) {
-            filter.see({}, eyes.see(truth), eyes.covariance(), i * frame);
+            filter.see({}, eyes.see(truth), covariance_of(eyes), i * frame);
             if (i > 600) {
                 const Vec3 off = filter.pose().position - truth.position;
                 squares += glm::dot(off, off);
@@ -81,7 +69,7 @@ TEST(MotionFilter, AtRestVelocitiesAreZeroAndPlacesCreep) {
     Pose before;
     bool rested = false;
     for (int i = 1; i <= 600; ++i) {
-        filter.see(settings, eyes.see(at({0.0, 0.0, 0.0})), eyes.covariance(), i * frame);
+        filter.see(settings, eyes.see(at({0.0, 0.0, 0.0})), covariance_of(eyes), i * frame);
         if (filter.rests()) {
             EXPECT_EQ(filter.linear_velocity(), Vec3(0.0));
             EXPECT_EQ(filter.angular_velocity(), Vec3(0.0));
@@ -104,7 +92,7 @@ TEST(MotionFilter, WhatMovesIsFollowedWithItsVelocities) {
     for (int i = 1; i <= 90; ++i) {
         const double t = i * frame_seconds;
         const Pose truth = at(t * velocity, turn_by(spin, t));
-        filter.see({}, eyes.see(truth), eyes.covariance(), i * frame);
+        filter.see({}, eyes.see(truth), covariance_of(eyes), i * frame);
         if (i > 20) {
             EXPECT_FALSE(filter.rests());
             EXPECT_LT(glm::length(filter.pose().position - truth.position), 1e-3);
@@ -122,11 +110,11 @@ TEST(MotionFilter, WhatSetsOffIsNoticed) {
     RoughEyes eyes(2e-4, 2e-3);
     int i = 1;
     for (; i <= 100; ++i) {
-        filter.see({}, eyes.see(at({0.0, 0.0, 0.0})), eyes.covariance(), i * frame);
+        filter.see({}, eyes.see(at({0.0, 0.0, 0.0})), covariance_of(eyes), i * frame);
     }
     ASSERT_TRUE(filter.rests());
     for (int k = 1; k <= 5; ++k, ++i) {
-        filter.see({}, eyes.see(at({0.1 * k * frame_seconds, 0.0, 0.0})), eyes.covariance(), i * frame);
+        filter.see({}, eyes.see(at({0.1 * k * frame_seconds, 0.0, 0.0})), covariance_of(eyes), i * frame);
     }
     EXPECT_FALSE(filter.rests());
     EXPECT_LT(std::abs(filter.pose().position.x - 0.5 * frame_seconds), 2e-3);
@@ -138,7 +126,7 @@ TEST(MotionFilter, WhatCreepsIsNotHeldBack) {
     double worst = 0.0;
     for (int i = 1; i <= 900; ++i) {
         const double x = 1e-3 * i * frame_seconds;
-        filter.see({}, eyes.see(at({x, 0.0, 0.0})), eyes.covariance(), i * frame);
+        filter.see({}, eyes.see(at({x, 0.0, 0.0})), covariance_of(eyes), i * frame);
         worst = std::max(worst, std::abs(filter.pose().position.x - x));
     }
     EXPECT_LT(worst, 1.2e-3);

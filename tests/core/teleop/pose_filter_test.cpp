@@ -4,15 +4,16 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <random>
 
 #include "core/teleop/body_motion.hpp"
 #include "shared/poses.hpp"
+#include "shared/rough_eyes.hpp"
 
 namespace tactus {
 namespace {
 
 using shared::at;
+using shared::RoughEyes;
 
 PoseStep step_of(const Vec3& way, double open_way = 0.0) {
     PoseStep step;
@@ -20,25 +21,6 @@ PoseStep step_of(const Vec3& way, double open_way = 0.0) {
     step.open_way = open_way;
     return step;
 }
-
-// Sees poses with normally distributed chance.
-class RoughEyes {
-public:
-    RoughEyes(double of_place, double of_turn, unsigned seed = 3)
-        : of_place_(of_place), of_turn_(of_turn), random_(seed) {}
-
-    Pose see(const Pose& pose) {
-        return {pose.position + of_place_ * vector(),
-                glm::normalize(turn_by(of_turn_ * vector(), 1.0) * pose.rotation)};
-    }
-
-private:
-    Vec3 vector() { return {normal_(random_), normal_(random_), normal_(random_)}; }
-
-    double of_place_, of_turn_;
-    std::mt19937_64 random_;
-    std::normal_distribution<double> normal_{0.0, 1.0};
-};
 
 TEST(PoseFilter, AnHonestFarSideIsBelievedToTheBit) {
     PoseFilter filter;
