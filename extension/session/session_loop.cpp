@@ -17,7 +17,7 @@ namespace {
 
 PhysicsSettings with_room(const SessionSettings& settings) {
     PhysicsSettings physics = settings.physics;
-    physics.max_bodies = settings.most_bodies;
+    physics.max_bodies = settings.max_bodies;
     physics.full_rate_bodies = settings.full_rate_bodies;
     return physics;
 }
@@ -54,21 +54,21 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     : settings_(settings),
       seconds_(to_seconds(settings.period)),
       snapshots_(snapshots),
-      scene_(settings.most_bodies, settings.most_parts),
+      scene_(settings.max_bodies, settings.max_parts),
       physics_(with_room(settings)),
-      bodies_(settings.most_bodies),
-      handle_of_slot_(settings.most_bodies, no_handle),
-      handle_of_id_(settings.most_bodies, no_handle),
-      state_changes_(settings.most_bodies),
-      state_of_(settings.most_bodies, no_handle),
+      bodies_(settings.max_bodies),
+      handle_of_slot_(settings.max_bodies, no_handle),
+      handle_of_id_(settings.max_bodies, no_handle),
+      state_changes_(settings.max_bodies),
+      state_of_(settings.max_bodies, no_handle),
       gravity_(settings.physics.gravity) {
-    travelling_.reserve(settings.most_bodies);
-    forming_.reserve(settings.most_bodies);
-    magnets_.reserve(settings.most_bodies);
-    pushed_.reserve(settings.most_bodies);
+    travelling_.reserve(settings.max_bodies);
+    forming_.reserve(settings.max_bodies);
+    magnets_.reserve(settings.max_bodies);
+    pushed_.reserve(settings.max_bodies);
     joints_.resize(settings.physics.max_joints);
-    states_.reserve(settings.most_bodies);
-    hands_.reserve(most_proxies);
+    states_.reserve(settings.max_bodies);
+    hands_.reserve(max_proxies);
 }
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
@@ -198,7 +198,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
         slot.force = Vec3(0.0);
     }
     for (ProxySlot& slot : proxies_) {
-        if (slot.proxy && slot.description.device < most_devices) {
+        if (slot.proxy && slot.description.device < max_devices) {
             slot.hand = devices_[slot.description.device].hand;
             slot.hand_velocity = devices_[slot.description.device].hand_velocity;
         }
@@ -235,22 +235,27 @@ void SessionLoop::touch_all(Nanoseconds now) {
     }
 }
 
-// A side has a way of its own to hide what it changes.
 void SessionLoop::fade_jumps() {
     for (ProxySlot& slot : proxies_) {
-        if (!slot.proxy || slot.description.device >= most_devices) {
-            continue;
+        if (slot.proxy && slot.description.device < max_devices) {
+            slot.state.force = slot.fading.felt(slot.force, force_limit(slot), slot.jumped, slot.step);
         }
-        FadingForce::Step step{slot.hand, slot.hand_velocity};
-        for (const Touch& contact : slot.proxy->touching()) {
-            const TouchMaterial& material = scene_.body(contact.body).material;
-            step.stiffness = std::max(step.stiffness, material.stiffness);
-            step.damping = std::max(step.damping, material.damping);
-        }
-        const Workspace& workspace = devices_[slot.description.device].workspace;
-        const double limit = workspace.force_limit / workspace.force_scale;
-        slot.state.force = slot.fading.felt(slot.force, limit, slot.jumped, step);
     }
+}
+
+double SessionLoop::force_limit(const ProxySlot& slot) const {
+    const Workspace& workspace = devices_[slot.description.device].workspace;
+    return workspace.force_limit / workspace.force_scale;
+}
+
+FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
+    FadingForce::Step step{slot.hand, slot.hand_velocity};
+    for (const Touch& contact : slot.proxy->touching()) {
+        const TouchMaterial& material = scene_.body(contact.body).material;
+        step.stiffness = std::max(step.stiffness, material.stiffness);
+        step.damping = std::max(step.damping, material.damping);
+    }
+    return step;
 }
 
 // Bodies get their part only now: what a correction of this tick changes is in it.
@@ -265,11 +270,12 @@ void SessionLoop::press_all() {
 
 void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.parts = {};
-    if (!slot.description.enabled || slot.idle || slot.description.device >= most_devices ||
+    if (!slot.description.enabled || slot.idle || slot.description.device >= max_devices ||
         !devices_[slot.description.device].device) {
         slot.force = Vec3(0.0);
         slot.proxy->restart();
         slot.state = {};
+        slot.step = step_of(slot);
         slot.jumped = true;
         return;
     }
@@ -293,6 +299,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         smooth(force, slot.force_before);
     }
     slot.force = force.total + attract(slot, false);
+    slot.step = step_of(slot);
     slot.jumped = tick.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
@@ -377,7 +384,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
 }
 
 RobotView SessionLoop::robot(SessionHandle device) const {
-    if (device >= most_devices || !devices_[device].device) {
+    if (device >= max_devices || !devices_[device].device) {
         return {};
     }
     const DeviceSlot& slot = devices_[device];
@@ -386,7 +393,7 @@ RobotView SessionLoop::robot(SessionHandle device) const {
 
 void SessionLoop::write_devices(Nanoseconds now) {
     for (const ProxySlot& slot : proxies_) {
-        if (slot.proxy && slot.description.device < most_devices) {
+        if (slot.proxy && slot.description.device < max_devices) {
             devices_[slot.description.device].force += slot.state.force;
         }
     }
@@ -531,7 +538,7 @@ void SessionLoop::publish(Nanoseconds now) {
 }
 
 void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
-    if (recording.proxy >= most_proxies || !proxies_[recording.proxy].proxy) {
+    if (recording.proxy >= max_proxies || !proxies_[recording.proxy].proxy) {
         return;
     }
     const ProxyState& state = proxies_[recording.proxy].state;

@@ -48,7 +48,7 @@ struct StreamRig {
     }
 
     EndpointRig rig;
-    SampleStream stream{{8, 16, ms}};
+    SampleStream stream{{15, 16, ms}};
     std::uint64_t sequence = 0;
     std::uint64_t packets = 0;
     std::map<std::uint16_t, std::set<std::uint64_t>> heard;
@@ -74,14 +74,13 @@ TEST(SampleStream, EverySampleComesWhereNothingIsLost) {
     EXPECT_EQ(rig.stream.ticks_a_packet(), 1u);
 }
 
-// One hand, every tick, with all that IP and UDP add. Where a third or half of it is lost it takes eight or
-// nine of each sample, once it is known that less does not help.
+// One hand, every tick, with all that IP and UDP add.
 TEST(SampleStream, AHandTakesAtMostOneAndAHalfMegabits) {
     for (const double loss : {0.0, 0.02, 0.09, 0.3, 0.5}) {
         StreamRig rig(lossy(loss));
         rig.run(5000 * ms);
         const LinkStatistics& link = rig.rig.near().statistics();
-        EXPECT_LT(link.sent_rate.bits_per_s, loss < 0.25 ? 1.5e6 : 1.65e6) << loss;
+        EXPECT_LT(link.sent_rate.bits_per_s, 1.5e6) << loss;
         EXPECT_GT(link.sent_rate.bits_per_s, 0.1e6) << loss;
     }
 }
@@ -169,7 +168,7 @@ TEST(SampleStream, LossesThatSendingLessMakesFewerAreHeeded) {
     LinkConditions narrow;
     narrow.delay = 10 * ms;
     narrow.rate = 500'000.0;
-    narrow.most_waiting = 3 * ms;
+    narrow.max_waiting = 3 * ms;
     StreamRig rig(narrow);
     rig.run(18'000 * ms);
     EXPECT_GE(rig.stream.ticks_a_packet(), 2u);

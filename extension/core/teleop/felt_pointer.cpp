@@ -83,7 +83,7 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
 
 // What was falling already goes on falling at least as fast.
 void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInput& in) {
-    const bool too_much = glm::length(hidden_) > most_hidden(settings, glm::length(in.modelled));
+    const bool too_much = glm::length(hidden_) > max_hidden(settings, glm::length(in.modelled));
     begins_to_let_go_ = (std::exchange(lets_go_, false) || too_much) && state_ != FeltState::letting_go;
     if (!begins_to_let_go_) {
         return;
