@@ -159,7 +159,6 @@ private:
     std::vector<Target> targets_;  // of this tick
     bool corrected_ = false;       // in this tick
     bool changed_ = false;  // something else than a correction has changed what is touched in this tick
-    Vec3 gravity_{0.0};     // of the model (unit: meters per second squared)
     TeleopStatistics statistics_;
     bool restart_waits_ = false;  // the owner has not been told yet
 };

@@ -104,7 +104,6 @@ public:
     const Body* body(SessionHandle handle) const;
     ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
     const TouchScene& scene() const { return scene_; }
-    SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
     DeviceSample device_sample(SessionHandle device) const;
     RobotView robot(SessionHandle device) const;
     // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
