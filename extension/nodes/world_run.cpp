@@ -245,6 +245,7 @@ void WorldRun::show() {
 
 // A script that is called as a body moves may end all this.
 void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
+    view().begin_to_show();
     for (std::size_t i = 0; i < snapshot.body_count && !is_over(); ++i) {
         view().show(snapshot.bodies[i], snapshot.tick);
     }
