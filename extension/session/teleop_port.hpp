@@ -50,7 +50,7 @@ struct TeleopSettings {
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
     std::uint32_t states_every = 5;     // ticks between states of what moves, >= 1
-    std::uint32_t refresh_every = 200;  // ticks between states of everything, >= 1
+    std::uint32_t refresh_every = 200;  // ticks between states of what rests, >= 1
     std::uint32_t repeats = 16;         // samples in one packet, the newest and older ones, 1 … 16
     Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
     ClockSkew skew;                     // of this side's clock, as an experiment
