@@ -28,8 +28,8 @@ void TwistHold::set_up(const JPH::Body& body, float seconds) {
     softness_ = 1.0f / (stiffness_ * seconds * seconds);
     bias_ = patch_spin_ - twist / seconds;
     effective_inertia_ = 1.0f / (axis_.Dot(turn_) + softness_);
-    most_ = limit_ * seconds;
-    impulse_ = std::clamp(-stiffness_ * twist * seconds, -most_, most_);
+    max_impulse_ = limit_ * seconds;
+    impulse_ = std::clamp(-stiffness_ * twist * seconds, -max_impulse_, max_impulse_);
 }
 
 bool TwistHold::solve(JPH::Body& body) {
@@ -37,7 +37,8 @@ bool TwistHold::solve(JPH::Body& body) {
         return false;
     const float spin = axis_.Dot(body.GetMotionProperties()->GetAngularVelocity());
     const float before = impulse_;
-    impulse_ = std::clamp(before - effective_inertia_ * (spin + softness_ * before - bias_), -most_, most_);
+    impulse_ = std::clamp(before - effective_inertia_ * (spin + softness_ * before - bias_), -max_impulse_,
+                          max_impulse_);
     add_impulse(body, impulse_ - before);
     return impulse_ != before;
 }

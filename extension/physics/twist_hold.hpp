@@ -39,7 +39,7 @@ private:
     float softness_ = 0.0f;                // turning rate the spring gives way by for a unit impulse
     float bias_ = 0.0f;                    // turning rate at which it would be slack
     float effective_inertia_ = 0.0f;
-    float most_ = 0.0f;  // impulse in a sub-step
+    float max_impulse_ = 0.0f;  // impulse in a sub-step
     float impulse_ = 0.0f;
 };
 

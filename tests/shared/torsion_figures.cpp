@@ -36,8 +36,8 @@ public:
 
 SessionSettings settings_with(const Vec3& gravity) {
     SessionSettings settings;
-    settings.most_bodies = 4;
-    settings.most_parts = 4;
+    settings.max_bodies = 4;
+    settings.max_parts = 4;
     settings.physics.gravity = gravity;
     return settings;
 }

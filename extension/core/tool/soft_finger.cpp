@@ -22,13 +22,13 @@ double patch_radius(const SoftFinger& finger, double pressing) {
 }
 
 double torsion_limit(const SoftFinger& finger, double friction, double pressing, double along) {
-    const double most_along = friction * pressing;
-    if (!finger.is_soft() || !(most_along > 0.0)) {
+    const double max_along = friction * pressing;
+    if (!finger.is_soft() || !(max_along > 0.0)) {
         return 0.0;
     }
-    const double used = std::min(1.0, along / most_along);
+    const double used = std::min(1.0, along / max_along);
     const double left = (1.0 - 0.25 * used * used) * std::sqrt(1.0 - used * used);
-    return 3.0 * std::numbers::pi / 16.0 * most_along * patch_radius(finger, pressing) * left;
+    return 3.0 * std::numbers::pi / 16.0 * max_along * patch_radius(finger, pressing) * left;
 }
 
 void turn_in_grip(Torsion& torsion, const TorsionLimits& limits, double turned) {
