@@ -83,19 +83,18 @@ private:
     // Whose triangles a PackMemory holds.
     struct Owner {
         std::uint32_t part = 0;
-        std::uint32_t stamp = 0;    // of the part, when it was asked; another: the memory is void
-        std::uint64_t used_at = 0;  // tick
-        double density = 0.0;       // packs for each meter that a ball reaches beyond the nearest; 0: unknown
+        std::uint32_t stamp = 0;       // of the part, when it was asked; another: the memory is void
+        std::uint64_t used_at = 0;     // tick
+        std::uint64_t crowded_at = 0;  // tick in which more were near than it holds
     };
 
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
-    std::size_t owner_of(std::uint32_t part);
+    Owner& owner_of(std::uint32_t part);
     double wanted_margin() const;
-    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way, bool may_gather = true);
+    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
-    void find_tree_contacts(std::uint32_t part, const Vec3& local, double beyond, double& limit,
-                            ContactList& out);
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
     void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);
     void add_insisted(const Vec3& center, ContactList& out);
