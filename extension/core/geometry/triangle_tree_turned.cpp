@@ -1,5 +1,5 @@
-// The discs of the triangle tree: see disc_node.hpp. What holds more packs than `max_packs` is bent or
-// folded: no plane fits it better than a ball does.
+// The turned boxes of the triangle tree: see turned_node.hpp. What holds more packs than `max_packs` is bent
+// or folded: no plane fits it.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

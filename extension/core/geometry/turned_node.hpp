@@ -3,7 +3,8 @@
 // around a sliver covers thousands of its neighbours; seen from a sphere, both hide how far aside of the
 // touching place the piece is.
 //
-// Everything is measured from the middle of the child's box, so that rounding is small where a child is.
+// Everything is measured from the middle of the child's box, so that rounding is small where the child is
+// small.
 #pragma once
 
 #include "core/geometry/box_node.hpp"
