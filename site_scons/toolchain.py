@@ -102,8 +102,8 @@ def openni():
     return [folder for folder in found if (folder / "OniCAPI.h").is_file() and (folder / "Driver/OniDriverAPI.h").is_file()][:1]
 
 
-# A library that is loaded later finds the played poll() first.
-LINK_PLAYED = ["-Wl,--export-dynamic-symbol=poll"]
+# A library that is loaded later finds the played poll() and ioctl() first.
+LINK_PLAYED = ["-Wl,--export-dynamic-symbol=poll", "-Wl,--export-dynamic-symbol=ioctl"]
 
 
 def umockdev():

@@ -21,30 +21,37 @@ constexpr Nanoseconds exchange_time = 5'000'000;
 // What the I/O thread is given to renew a force or take it away by itself (unit: nanoseconds).
 constexpr Nanoseconds grace = 50'000;
 
-// Next to the loop's own, which is 70 and may not wait for these.
-RealtimeRequest realtime_request() {
+RealtimeRequest realtime_request(int priority, int cpu) {
     RealtimeRequest request;
-    request.fifo_priority = 69;
+    request.fifo_priority = priority;
     request.lock_memory = false;
-    request.cpu = any_processor;
+    request.cpu = cpu;
     request.keep_awake = false;
     return request;
 }
 
+// The loop's own priority is 70, and it may not wait for a driver.
+const RealtimeRequest of_driver = realtime_request(69, any_processor);
+// Before the loop, so that one that never sleeps is watched as well; on its processor, which does not sleep
+// either: elsewhere a timer may have to wake one first, which takes up to half a millisecond where that is a
+// virtual one. Of the loop's time it takes a few microseconds a millisecond.
+const RealtimeRequest of_watchdog = realtime_request(71, last_processor);
+
 }  // namespace
 
-template <void (DriverDevice::*work)()>
+template <void (DriverDevice::*work)(), const RealtimeRequest& request>
 void DriverDevice::enter(void* device) {
-    const RealtimeReport granted = make_thread_realtime(realtime_request());
+    const RealtimeReport granted = make_thread_realtime(request);
     (static_cast<DriverDevice*>(device)->*work)();
     release_realtime(granted);
 }
 
 // Without a watchdog nothing is driven.
 DriverDevice::DriverDevice(std::unique_ptr<Driver> driver) : driver_(std::move(driver)) {
-    std::string problem = watchdog_.start("tactus-watchdog", enter<&DriverDevice::keep_watch>, this);
+    std::string problem =
+        watchdog_.start("tactus-watchdog", enter<&DriverDevice::keep_watch, of_watchdog>, this);
     if (problem.empty()) {
-        problem = io_.start("tactus-device", enter<&DriverDevice::run>, this);
+        problem = io_.start("tactus-device", enter<&DriverDevice::run, of_driver>, this);
     }
     if (!problem.empty()) {
         tell(DriverHealth::Phase::searching, "no thread for the device: " + problem);

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "devices/driver.hpp"
+#include "platform/realtime_thread.hpp"
 #include "platform/thread.hpp"
 
 namespace tactus {
@@ -45,7 +46,7 @@ private:
         Nanoseconds at = 0;
     };
 
-    template <void (DriverDevice::*work)()>
+    template <void (DriverDevice::*work)(), const RealtimeRequest& request>
     static void enter(void* device);
     void run();
     bool open(std::string& problem);

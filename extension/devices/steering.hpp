@@ -1,5 +1,5 @@
-// Keys and sticks as a hand: they say in which direction and how much, not where. A deflection is a vector
-// of length 0 to 1, one axis each for right, up and towards the user.
+// Keys, sticks and caps as a hand: they say in which direction and how much, not where. A deflection is a
+// vector of length 0 to 1, one axis each for right, up and towards the user.
 #pragma once
 
 #include "core/math/types.hpp"
@@ -9,6 +9,11 @@ namespace tactus {
 enum class SteeringMode {
     rate,      // a deflection is a velocity: any place is reached, and the hand stays where it was let go
     position,  // a deflection is a place: the hand is back where it began once it is let go
+};
+
+struct SteeringInput {
+    Vec3 deflection{0.0};       // right, up, towards the user
+    std::uint32_t buttons = 0;  // bit i: button i is held
 };
 
 struct SteeringSettings {

@@ -60,14 +60,17 @@ std::uint64_t id_of(const Ref<PhysicsMaterial>& material) {
 
 }  // namespace
 
-GodotBody::GodotBody(CollisionObject3D& node, const Node& world, std::shared_ptr<BodyNews> news,
-                     Complaints& complaints)
+GodotBody::GodotBody(CollisionObject3D& node, const GodotScene& scene, std::shared_ptr<BodyNews> news)
     : id_(node.get_instance_id()),
       node_(node),
       rigid_(Object::cast_to<RigidBody3D>(&node)),
-      world_(world),
-      news_(std::move(news)),
-      complaints_(complaints) {}
+      scene_(scene),
+      news_(std::move(news)) {}
+
+void GodotBody::is_in_tree(bool now) {
+    is_in_tree_ = now;
+    is_below_world_ = now && node_.get_parent() == &scene_.world;
+}
 
 // A watch lives and dies in its body.
 bool GodotBody::is_there() const {
@@ -79,7 +82,7 @@ bool GodotBody::is_in_scene() const {
 }
 
 std::string GodotBody::path() const {
-    return from_godot(String(world_.get_path_to(&node_)));
+    return from_godot(String(scene_.world.get_path_to(&node_)));
 }
 
 SceneSpeed GodotBody::speed() const {
@@ -196,6 +199,10 @@ SceneSpeed GodotBody::set_speed(const SceneSpeed& speed) {
 
 SceneFrame GodotBody::stand_at(const Pose& pose, const Mat3& scaling) {
     const Transform3D place = to_godot(pose, scaling);
+    if (scene_.is_at_origin && is_below_world_) {
+        node_.set_transform(place);
+        return frame_of(place);
+    }
     node_.set_global_transform(place);
     return is_in_scene() ? frame() : frame_of(place);
 }

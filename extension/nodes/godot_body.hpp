@@ -11,11 +11,17 @@
 
 namespace tactus {
 
+// What the bodies of a world share.
+struct GodotScene {
+    const godot::Node3D& world;  // that they stand below
+    Complaints& complaints;
+    bool is_at_origin = false;  // the world, as of this frame: a place in it is a place below it
+};
+
 class GodotBody final : public SceneBody, private BodyWatch::Listener {
 public:
-    // `world` is the node that it stands below; both it and `complaints` are there until let_go().
-    GodotBody(godot::CollisionObject3D& node, const godot::Node& world, std::shared_ptr<BodyNews> news,
-              Complaints& complaints);
+    // The scene is there until let_go().
+    GodotBody(godot::CollisionObject3D& node, const GodotScene& scene, std::shared_ptr<BodyNews> news);
 
     std::uint64_t id() const override { return id_; }
     bool is_there() const override;
@@ -39,23 +45,23 @@ public:
     SceneSpeed set_speed(const SceneSpeed& speed) override;
     SceneFrame stand_at(const Pose& pose, const Mat3& scaling) override;
 
-    void say(const std::string& problem) const override { complaints_.say(node_, problem); }
+    void say(const std::string& problem) const override { scene_.complaints.say(node_, problem); }
 
 private:
     void has_moved() override { news_->moved.push_back(id_); }
     void has_changed() override { news_->changed.push_back(id_); }
-    void is_in_tree(bool now) override { is_in_tree_ = now; }
+    void is_in_tree(bool now) override;
     void watch_has_gone() override { watch_ = nullptr; }
 
     std::uint64_t id_;
     godot::CollisionObject3D& node_;  // while it is there
     godot::RigidBody3D* rigid_;       // the same; null where it is none
     BodyWatch* watch_ = nullptr;      // null: Godot takes none at the moment, or it has gone
-    bool is_in_tree_ = false;         // while there is a watch
+    bool is_in_tree_ = false;         // while there is a watch; likewise the next one
+    bool is_below_world_ = false;     // directly
     std::uint64_t material_ = 0;      // id of the PhysicsMaterial that it listens to; 0: none
-    const godot::Node& world_;
+    const GodotScene& scene_;
     std::shared_ptr<BodyNews> news_;
-    Complaints& complaints_;
 };
 
 }  // namespace tactus

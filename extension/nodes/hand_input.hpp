@@ -6,15 +6,9 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/variant/string.hpp>
 
-#include "core/math/types.hpp"
+#include "devices/steering.hpp"
 
 namespace tactus {
-
-// See devices/steering.hpp.
-struct SteeringInput {
-    Vec3 deflection{0.0};       // right, up, towards the user
-    std::uint32_t buttons = 0;  // bit i: button i is held
-};
 
 // The arrow keys, page up (away) and page down (closer), by their places on the keyboard; space is button 0,
 // enter is button 1.

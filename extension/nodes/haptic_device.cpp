@@ -31,6 +31,7 @@ const Color box_color(0.1f, 0.4f, 0.9f, 0.5f);
 void HapticDevice::changed() {
     path_problem_ = path_.is_valid() ? path_->get_problem() : String();
     hand_ = {};
+    space_mouse_.reset();
     set_process_internal(!is_edited() && (is_steered(kind()) || kind() == HandKind::node));
     draw_box();
     update_configuration_warnings();
@@ -102,9 +103,11 @@ String HapticDevice::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
         return wrong;
     }
-    return HapticWorld::of(this) == nullptr
-               ? String("no HapticWorld is running: put one into the scene, best above this node")
-               : to_godot(state_of_hand(state_, has_driver(kind()), hand_.health().text));
+    if (HapticWorld::of(this) == nullptr) {
+        return "no HapticWorld is running: put one into the scene, best above this node";
+    }
+    const std::string said = is_steered(kind()) ? from_godot(hindrance()) : hand_.health().text;
+    return to_godot(state_of_hand(state_, has_driver(kind()), said));
 }
 
 String HapticDevice::hindrance() const {
@@ -113,6 +116,7 @@ String HapticDevice::hindrance() const {
     }
     return kind() == HandKind::mouse     ? problem_of_mouse(*this)
            : kind() == HandKind::gamepad ? problem_of_gamepad(gamepad_)
+           : space_mouse_ != nullptr     ? to_godot(space_mouse_->problem())
                                          : String();
 }
 
@@ -219,9 +223,22 @@ void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change
     }
 }
 
+SteeringInput HapticDevice::steering_input() {
+    if (kind() == HandKind::keyboard) {
+        return read_keyboard();
+    }
+    if (kind() == HandKind::gamepad) {
+        return read_gamepad(gamepad_);
+    }
+    if (space_mouse_ == nullptr) {
+        space_mouse_ = std::make_unique<SpaceMouse>();
+    }
+    return space_mouse_->look(monotonic_now());
+}
+
 void HapticDevice::lead_hand() {
     if (is_steered(kind())) {
-        const SteeringInput input = kind() == HandKind::keyboard ? read_keyboard() : read_gamepad(gamepad_);
+        const SteeringInput input = steering_input();
         hand_.steer(from_view(*this, input.deflection), steering_, get_process_delta_time(), workspace(),
                     input.buttons);
     } else if (const Node3D* led_by = target_node()) {

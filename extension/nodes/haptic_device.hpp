@@ -8,6 +8,7 @@
 #include <godot_cpp/variant/node_path.hpp>
 #include <memory>
 
+#include "devices/space_mouse.hpp"
 #include "nodes/haptic_path.hpp"
 #include "nodes/properties.hpp"
 #include "world/scene_hand.hpp"
@@ -28,6 +29,7 @@ public:
         DRIVER_KEYBOARD = static_cast<int64_t>(HandKind::keyboard),
         DRIVER_GAMEPAD = static_cast<int64_t>(HandKind::gamepad),
         DRIVER_NODE = static_cast<int64_t>(HandKind::node),
+        DRIVER_SPACE_MOUSE = static_cast<int64_t>(HandKind::space_mouse),
         DRIVER_FALCON = static_cast<int64_t>(HandKind::falcon),
         DRIVER_FORCE_DIMENSION = static_cast<int64_t>(HandKind::force_dimension),
         DRIVER_OPENHAPTICS = static_cast<int64_t>(HandKind::openhaptics),
@@ -85,7 +87,8 @@ private:
     HapticDevice* robot_node() const;  // whose tip this one is; null: none
     // Around the workspace, where it is to be seen.
     void draw_box();
-    // Tells the hand where it is wanted, where keys, a gamepad or a node do so.
+    SteeringInput steering_input();
+    // Tells the hand where it is wanted, where keys, a cap, a stick or a node do so.
     void lead_hand();
 
     HandKind driver_ = HandKind::automatic;
@@ -108,6 +111,7 @@ private:
     int dead_man_buttons_ = 0;
 
     SceneHand hand_;
+    std::unique_ptr<SpaceMouse> space_mouse_;                             // of that driver alone
     std::shared_ptr<TipExchange> tip_ = std::make_shared<TipExchange>();  // as an emulated robot
     DeviceState state_;
     godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen

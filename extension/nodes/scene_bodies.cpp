@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "nodes/godot_body.hpp"
 #include "nodes/godot_joint.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -26,22 +25,21 @@ void SceneBodies::scene_changed(const Node& node) {
 
 void SceneBodies::find(Session& session) {
     std::vector<std::uint64_t> bodies, joints;
-    for_each_below(world_, [&](Node& node) {
+    for_each_below(scene_.world, [&](Node& node) {
         if (is_solid_body(&node)) {
             bodies.push_back(node.get_instance_id());
         } else if (Object::cast_to<Joint3D>(&node) != nullptr) {
             joints.push_back(node.get_instance_id());
         } else if (is_first_look_) {
-            complaints_.say(node, problem_of_kind(node));
+            scene_.complaints.say(node, problem_of_kind(node));
         }
     });
     is_first_look_ = false;
     const auto make_body = [this](std::uint64_t id) {
-        return std::make_unique<GodotBody>(*node_of_id<CollisionObject3D>(id), world_, mirrors_.news(),
-                                           complaints_);
+        return std::make_unique<GodotBody>(*node_of_id<CollisionObject3D>(id), scene_, mirrors_.news());
     };
     const auto make_joint = [this](std::uint64_t id) {
-        return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), complaints_);
+        return std::make_unique<GodotJoint>(*node_of_id<Joint3D>(id), scene_.complaints);
     };
     mirrors_.match(bodies, make_body, joints, make_joint, session);
 }
@@ -49,8 +47,8 @@ void SceneBodies::find(Session& session) {
 void SceneBodies::synchronise(MirrorContext context) {
     for (const std::uint64_t id : std::exchange(others_, {})) {
         auto* other = node_of_id<Node>(id);
-        if (other != nullptr && world_.is_ancestor_of(other)) {
-            complaints_.say(*other, problem_of_kind(*other));
+        if (other != nullptr && scene_.world.is_ancestor_of(other)) {
+            scene_.complaints.say(*other, problem_of_kind(*other));
         }
     }
     if (std::exchange(tree_changed_, false)) {
@@ -58,6 +56,10 @@ void SceneBodies::synchronise(MirrorContext context) {
     }
     context.mesh_changes = HapticMesh::changes();
     mirrors_.synchronise(context);
+}
+
+void SceneBodies::begin_to_show() {
+    scene_.is_at_origin = scene_.world.get_global_transform() == Transform3D();
 }
 
 CollisionObject3D* SceneBodies::node(std::size_t index) const {

@@ -4,22 +4,22 @@
 
 #include <godot_cpp/classes/collision_object3d.hpp>
 
-#include "nodes/messages.hpp"
+#include "nodes/godot_body.hpp"
 #include "nodes/scene_view.hpp"
-#include "world/body_mirrors.hpp"
 
 namespace tactus {
 
 class SceneBodies final : public SceneView {
 public:
     // `in_turn`: see BodyMirrors.
-    SceneBodies(const godot::Node& world, std::size_t max_bodies, bool in_turn, Complaints& complaints)
-        : world_(world), complaints_(complaints), mirrors_(max_bodies, in_turn) {}
+    SceneBodies(const godot::Node3D& world, std::size_t max_bodies, bool in_turn, Complaints& complaints)
+        : scene_{world, complaints}, mirrors_(max_bodies, in_turn) {}
 
     void scene_changed(const godot::Node& node) override;
     SessionHandle body_of(std::uint64_t node) const override { return mirrors_.body_of(node); }
     std::uint64_t node_of(SessionHandle body) const override { return mirrors_.node_of(body); }
     std::size_t body_count() const override { return mirrors_.bodies().size(); }
+    void begin_to_show() override;
     void show(const BodyState& state, std::uint64_t tick) override { mirrors_.show(state, tick); }
     void release(Session& session) override { mirrors_.release(session); }
 
@@ -33,8 +33,7 @@ public:
 private:
     void find(Session& session);
 
-    const godot::Node& world_;
-    Complaints& complaints_;
+    GodotScene scene_;
     BodyMirrors mirrors_;
     std::vector<std::uint64_t> others_;  // nodes that have come and are none of ours
     bool is_first_look_ = true;

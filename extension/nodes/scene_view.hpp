@@ -18,6 +18,8 @@ public:
     virtual SessionHandle body_of(std::uint64_t node) const = 0;  // no_handle: the node is none of its bodies
     virtual std::uint64_t node_of(SessionHandle body) const = 0;  // that shows the body; 0: none
     virtual std::size_t body_count() const = 0;
+    // The states of a snapshot are shown next.
+    virtual void begin_to_show() {}
     // `tick` is the tick of the snapshot that the state is from. May call a script.
     virtual void show(const BodyState& state, std::uint64_t tick) = 0;
     // Gives all back to Godot's own physics.

@@ -1,4 +1,4 @@
-// A stream of bytes to a service (TCP).
+// A stream of bytes to a service of this machine.
 //
 // Threads: one at a time.
 #pragma once
@@ -20,6 +20,8 @@ public:
 
     // To a port of this machine. Empty, or why not.
     std::string connect_here(std::uint16_t port);
+    // To the socket at this place of the file system, where the system has such sockets.
+    std::string connect_to(const std::string& path);
     void close();
     bool is_open() const { return handle_ != closed; }
 
@@ -37,6 +39,7 @@ public:
 
 private:
     static constexpr std::int64_t closed = -1;
+
     std::int64_t handle_ = closed;  // the system's
 };
 

@@ -3,9 +3,11 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstring>
 
 #include "platform/stream_socket.hpp"
 #include "platform/system_message.hpp"
@@ -21,6 +23,11 @@ constexpr int send_flags = MSG_NOSIGNAL;
 #else
 constexpr int send_flags = 0;
 #endif
+
+void make_ours(int handle) {
+    fcntl(handle, F_SETFL, O_NONBLOCK);
+    fcntl(handle, F_SETFD, FD_CLOEXEC);
+}
 
 bool ready(int handle, short events, int milliseconds) {
     pollfd file{handle, events, 0};
@@ -46,8 +53,30 @@ std::string StreamSocket::connect_here(std::uint16_t port) {
     }
     const int on = 1;
     setsockopt(made, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    fcntl(made, F_SETFL, O_NONBLOCK);
-    fcntl(made, F_SETFD, FD_CLOEXEC);
+    make_ours(made);
+    handle_ = made;
+    return {};
+}
+
+// A service that is too busy to be waited for is none.
+std::string StreamSocket::connect_to(const std::string& path) {
+    close();
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    if (path.size() >= sizeof address.sun_path) {
+        return system_message(ENAMETOOLONG);
+    }
+    std::memcpy(address.sun_path, path.data(), path.size());
+    const int made = socket(AF_UNIX, SOCK_STREAM, 0);
+    if (made < 0) {
+        return system_message(errno);
+    }
+    make_ours(made);
+    if (connect(made, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+        const std::string why = system_message(errno);
+        ::close(made);
+        return why;
+    }
     handle_ = made;
     return {};
 }

@@ -50,6 +50,11 @@ std::string StreamSocket::connect_here(std::uint16_t port) {
     return {};
 }
 
+std::string StreamSocket::connect_to(const std::string&) {
+    close();
+    return "Windows has no such service";
+}
+
 void StreamSocket::close() {
     if (handle_ != closed) {
         closesocket(static_cast<SOCKET>(handle_));

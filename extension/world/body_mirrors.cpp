@@ -9,7 +9,7 @@ namespace tactus {
 namespace {
 
 // Of all the bodies: no more than cost a tenth of a millisecond, in a large scene.
-constexpr Turns looks{.frames_a_round = 96, .min = 4, .max = 32};
+constexpr Turns looks{.frames_a_round = 128, .min = 4, .max = 32};
 
 // Speeds are cheaper to ask for, and a throw should not wait.
 constexpr Turns looks_at_speeds{.frames_a_round = 16, .min = 12, .max = 256};

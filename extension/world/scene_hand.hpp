@@ -24,6 +24,7 @@ enum class HandKind : std::uint8_t {
     keyboard,
     gamepad,
     node,
+    space_mouse,
     falcon = 16,  // those with a driver are in the order of DriverKind
     force_dimension,
     openhaptics,
@@ -36,7 +37,7 @@ constexpr bool follows_path(HandKind kind) {
     return kind == HandKind::path || kind == HandKind::arm;
 }
 constexpr bool is_steered(HandKind kind) {
-    return kind == HandKind::keyboard || kind == HandKind::gamepad;
+    return kind == HandKind::keyboard || kind == HandKind::gamepad || kind == HandKind::space_mouse;
 }
 constexpr bool has_driver(HandKind kind) {
     return kind >= HandKind::falcon && kind <= HandKind::inverse3;

@@ -74,6 +74,17 @@ func test_a_stick_is_a_place_where_that_is_asked_for() -> void:
 	check_near(device.get_hand_position(), Vector3.ZERO, 1e-4, "let go")
 
 
+func test_a_space_mouse_without_its_daemon_says_so() -> void:
+	OS.set_environment("SPNAV_SOCKET", "/tmp/no_such_spacenavd")
+	expect_error("needs spacenavd")
+	var world := add_world()
+	var device := _device(world, HapticDevice.DRIVER_SPACE_MOUSE)
+	await _play(world, 2)
+	check(device.get_state_text().contains("apt-get install spacenavd"), device.get_state_text())
+	check_near(device.get_hand_position(), Vector3.ZERO, 1e-9, "nobody moves it")
+	OS.unset_environment("SPNAV_SOCKET")
+
+
 func test_a_node_of_the_scene_leads_the_hand() -> void:
 	var world := add_world()
 	add_floor(world)
@@ -111,7 +122,12 @@ func test_a_hand_without_its_node_says_so() -> void:
 
 func test_what_another_driver_needs_is_not_shown() -> void:
 	var device := HapticDevice.new()
-	for driver: int in [HapticDevice.DRIVER_KEYBOARD, HapticDevice.DRIVER_GAMEPAD, HapticDevice.DRIVER_NODE]:
+	for driver: int in [
+		HapticDevice.DRIVER_KEYBOARD,
+		HapticDevice.DRIVER_GAMEPAD,
+		HapticDevice.DRIVER_SPACE_MOUSE,
+		HapticDevice.DRIVER_NODE
+	]:
 		device.driver = driver
 		var shown := []
 		for property: Dictionary in device.get_property_list():

@@ -15,6 +15,7 @@
 #include "platform/sleep.hpp"
 #include "played/played_stall.hpp"
 #include "played/played_usb.hpp"
+#include "realtime/awake_processor.hpp"
 #include "session/session.hpp"
 #include "shared/bench_kit.hpp"
 
@@ -26,6 +27,7 @@ constexpr Nanoseconds ms = 1'000'000;
 constexpr Nanoseconds in_time = 2 * ms;
 constexpr Nanoseconds patience = 20'000 * ms;
 constexpr Nanoseconds stall = 15 * ms;
+constexpr Nanoseconds verdict = 5 * ms;
 
 std::unique_ptr<DriverDevice> open_falcon() {
     FalconSettings settings;
@@ -37,8 +39,6 @@ std::unique_ptr<DriverDevice> open_falcon() {
 RealtimeRequest loop_request() {
     RealtimeRequest request;
     request.lock_memory = false;
-    request.keep_awake = false;
-    request.cpu = any_processor;
     return request;
 }
 
@@ -67,6 +67,10 @@ public:
 private:
     void run() {
         const RealtimeReport granted = make_thread_realtime(loop_request());
+        AwakeProcessor awake;
+        if (granted.cpu != any_processor) {
+            awake.start(granted.cpu);
+        }
         SleepTimer timer;
         for (Nanoseconds tick = monotonic_now(); !end_; tick = std::max(tick + ms, monotonic_now() - ms)) {
             timer.sleep_until(tick);
@@ -108,7 +112,8 @@ StallFigures figures_of(std::vector<double> milliseconds, int stalls) {
     return figures;
 }
 
-// Puts the hand under a force, makes something stall, and takes the time until the force is gone.
+// Puts the hand under a force, makes something stall, and takes the time until the force is gone for good:
+// what was still on its way has come by the time of the verdict.
 template <typename Stall, typename GoOn>
 StallFigures time_stalls(int stalls, const Stall& begin, const GoOn& go_on) {
     PlayedUsb usb({});
@@ -125,8 +130,9 @@ StallFigures time_stalls(int stalls, const Stall& begin, const GoOn& go_on) {
             }
             SleepTimer().sleep_until(monotonic_now() + static_cast<Nanoseconds>(random.between(2e6, 5e6)));
             const Nanoseconds began = begin(loop);
-            if (wait_until([&] { return usb.let_go_at() >= began; }, stall + 50 * ms)) {
-                times.push_back(to_seconds(usb.let_go_at() - began) * 1e3);
+            SleepTimer().sleep_until(began + verdict);
+            if (wait_until([&] { return usb.is_let_go(); }, stall + 50 * ms)) {
+                times.push_back(to_seconds(std::max<Nanoseconds>(0, usb.let_go_at() - began)) * 1e3);
             }
             go_on(loop);
         }
@@ -245,12 +251,7 @@ StallFigures stall_loop(int stalls) {
 
 StallFigures stall_driver(int stalls) {
     return time_stalls(
-        stalls,
-        [](Loop&) {
-            const Nanoseconds now = monotonic_now();
-            stall_thread("tactus-device", stall);
-            return now;
-        },
+        stalls, [](Loop&) { return stall_thread("tactus-device", stall); },
         [](Loop&) { SleepTimer().sleep_until(monotonic_now() + stall); });
 }
 

@@ -31,13 +31,16 @@ pid_t thread_named(const std::string& name) {
 
 }  // namespace
 
-void stall_thread(const std::string& name, Nanoseconds span) {
+Nanoseconds stall_thread(const std::string& name, Nanoseconds span) {
     stall_us = static_cast<int>(span / 1'000);
     struct sigaction action{};
     action.sa_handler = stand_still;
     action.sa_flags = SA_RESTART;
     sigaction(SIGUSR1, &action, nullptr);
-    syscall(SYS_tgkill, getpid(), thread_named(name), SIGUSR1);
+    const pid_t thread = thread_named(name);
+    const Nanoseconds now = monotonic_now();
+    syscall(SYS_tgkill, getpid(), thread, SIGUSR1);
+    return now;
 }
 
 }  // namespace tactus::shared

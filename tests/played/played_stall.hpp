@@ -7,7 +7,8 @@
 
 namespace tactus::shared {
 
-// The thread of this process that is named so stands still for that long, wherever it is just now.
-void stall_thread(const std::string& name, Nanoseconds span);
+// The thread of this process that is named so stands still for that long, wherever it is just now; in a call
+// of the kernel that does not sleep, at its end. When it was told so (on the steady clock).
+Nanoseconds stall_thread(const std::string& name, Nanoseconds span);
 
 }  // namespace tactus::shared

@@ -12,11 +12,12 @@
 #include <deque>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "platform/clock.hpp"
-#include "played/played_poll.hpp"
+#include "played/played_node.hpp"
 
 namespace tactus::shared {
 
@@ -24,6 +25,10 @@ namespace {
 
 // A client in another process, whose poll() is not played, would ask again at once.
 constexpr useconds_t nothing_to_reap = 100;
+
+constexpr std::uint32_t capabilities = USBDEVFS_CAP_BULK_SCATTER_GATHER | USBDEVFS_CAP_BULK_CONTINUATION |
+                                       USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT |
+                                       USBDEVFS_CAP_ZERO_PACKET;
 
 // Where the system shows the device on a port of the first bus.
 std::string node_of(int port) {
@@ -65,12 +70,12 @@ UMockdevTestbed* testbed() {
 }
 
 struct Urb {
-    UMockdevIoctlData* data = nullptr;  // of a usbdevfs_urb, ours until it is reaped
+    usbdevfs_urb* urb = nullptr;
+    unsigned char* bytes = nullptr;
+    std::uintptr_t address = 0;           // in the client's process
+    UMockdevIoctlData* remote = nullptr;  // of another process: where its memory is kept until it is reaped
     Nanoseconds asked = 0;
     bool done = false;
-
-    usbdevfs_urb& urb() const { return *reinterpret_cast<usbdevfs_urb*>(data->data); }
-    unsigned char* bytes() const { return static_cast<unsigned char*>(urb().buffer); }
 };
 
 }  // namespace
@@ -86,27 +91,35 @@ bool run_below_umockdev(char** arguments) {
     return false;
 }
 
-struct PlayedUsb::Impl final : PlayedPoll {
+struct PlayedUsb::Impl final : PlayedNode {
     Impl(const PlayedUsbSettings& given)
-        : PlayedPoll(node_of(given.port)),
+        : PlayedNode(node_of(given.port)),
           settings(given),
           random(given.seed),
           falcon(given.falcon, given.seed),
           failing(given.failing) {}
+    ~Impl() override {
+        vanish();
+        forget_urbs();
+    }
 
+    int call(unsigned long request, void* argument) override;
     Nanoseconds ready_at() override;
 
     bool fails() { return random.unit() < failing; }
-    bool handle(UMockdevIoctlClient* client);
-    bool submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
-    bool reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
-    bool discard(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
+    int submit(Urb urb);
+    std::optional<Urb> reap();
+    int discard(std::uintptr_t address);
+    int release();
+    void forget_urbs();
+    int answer(unsigned long request) const;
     void perform(Urb& urb);
     void look(Urb& urb, Nanoseconds now);
 
-    static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, Impl* self) {
-        return self->handle(client) ? TRUE : FALSE;
-    }
+    // From another process.
+    int submit_remote(UMockdevIoctlData* argument);
+    int reap_remote(UMockdevIoctlData* argument);
+    static gboolean on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, Impl* self);
 
     PlayedUsbSettings settings;
     std::mutex mutex;
@@ -119,70 +132,139 @@ struct PlayedUsb::Impl final : PlayedPoll {
     UMockdevIoctlBase* handler = nullptr;
 };
 
-bool PlayedUsb::Impl::handle(UMockdevIoctlClient* client) {
-    std::unique_lock lock(mutex);
-    UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
-    const auto request = umockdev_ioctl_client_get_request(client);
-    if (!plugged && request != USBDEVFS_REAPURBNDELAY && request != USBDEVFS_DISCARDURB) {
-        umockdev_ioctl_client_complete(client, -1, ENODEV);
-        return true;
-    }
+int PlayedUsb::Impl::call(unsigned long request, void* argument) {
+    const std::lock_guard lock(mutex);
     switch (request) {
-        case USBDEVFS_GET_CAPABILITIES: {
-            UMockdevIoctlData* const flags =
-                umockdev_ioctl_data_resolve(argument, 0, sizeof(guint32), nullptr);
-            const guint32 capabilities = USBDEVFS_CAP_BULK_SCATTER_GATHER | USBDEVFS_CAP_BULK_CONTINUATION |
-                                         USBDEVFS_CAP_NO_PACKET_SIZE_LIM |
-                                         USBDEVFS_CAP_REAP_AFTER_DISCONNECT | USBDEVFS_CAP_ZERO_PACKET;
-            std::memcpy(flags->data, &capabilities, sizeof capabilities);
-            umockdev_ioctl_client_complete(client, 0, 0);
-            umockdev_ioctl_data_unref(flags);
-            return true;
+        case USBDEVFS_SUBMITURB: {
+            auto* const urb = static_cast<usbdevfs_urb*>(argument);
+            return submit(
+                {urb, static_cast<unsigned char*>(urb->buffer), reinterpret_cast<std::uintptr_t>(urb)});
         }
-        case USBDEVFS_SUBMITURB:
-            return submit(client, argument);
         case USBDEVFS_REAPURB:
         case USBDEVFS_REAPURBNDELAY: {
-            if (reap(client, argument)) {
-                return true;
+            const std::optional<Urb> urb = reap();
+            if (urb) {
+                *static_cast<void**>(argument) = urb->urb;
             }
-            lock.unlock();
-            if (!is_used()) {
-                usleep(nothing_to_reap);
-            }
-            umockdev_ioctl_client_complete(client, -1, EAGAIN);
-            return true;
+            return urb ? 0 : -EAGAIN;
         }
         case USBDEVFS_DISCARDURB:
-            return discard(client, argument);
-        case USBDEVFS_IOCTL:  // no driver of the kernel's holds it
-            umockdev_ioctl_client_complete(client, -1, ENODATA);
-            return true;
-        case USBDEVFS_CLAIMINTERFACE:
-        case USBDEVFS_DISCONNECT_CLAIM:
-            umockdev_ioctl_client_complete(client, in_use ? -1 : 0, in_use ? EBUSY : 0);
-            return true;
-        default:  // releases, resets
-            umockdev_ioctl_client_complete(client, 0, 0);
-            return true;
+            return discard(reinterpret_cast<std::uintptr_t>(argument));
+        case USBDEVFS_RELEASEINTERFACE:
+            return release();
+        case USBDEVFS_GET_CAPABILITIES:
+            *static_cast<std::uint32_t*>(argument) = capabilities;
+            return plugged ? 0 : -ENODEV;
+        default:
+            return answer(request);
     }
 }
 
-bool PlayedUsb::Impl::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
-    Urb urb;
-    urb.data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
-    UMockdevIoctlData* const bytes =
-        umockdev_ioctl_data_resolve(urb.data, offsetof(usbdevfs_urb, buffer),
-                                    static_cast<gulong>(std::max(1, urb.urb().buffer_length)), nullptr);
+// What needs none of the client's memory.
+int PlayedUsb::Impl::answer(unsigned long request) const {
+    if (!plugged) {
+        return -ENODEV;
+    }
+    switch (request) {
+        case USBDEVFS_IOCTL:  // no driver of the kernel's holds it
+            return -ENODATA;
+        case USBDEVFS_CLAIMINTERFACE:
+        case USBDEVFS_DISCONNECT_CLAIM:
+            return in_use ? -EBUSY : 0;
+        default:  // releases, resets
+            return 0;
+    }
+}
+
+gboolean PlayedUsb::Impl::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, Impl* self) {
+    std::unique_lock lock(self->mutex);
+    UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
+    const auto request = umockdev_ioctl_client_get_request(client);
+    int result = 0;
+    switch (request) {
+        case USBDEVFS_SUBMITURB:
+            result = self->submit_remote(argument);
+            break;
+        case USBDEVFS_REAPURB:
+        case USBDEVFS_REAPURBNDELAY:
+            result = self->reap_remote(argument);
+            break;
+        case USBDEVFS_DISCARDURB:
+            result = self->discard(*reinterpret_cast<std::uintptr_t*>(argument->data));
+            break;
+        case USBDEVFS_RELEASEINTERFACE:
+            result = self->release();
+            break;
+        case USBDEVFS_GET_CAPABILITIES: {
+            UMockdevIoctlData* const flags =
+                umockdev_ioctl_data_resolve(argument, 0, sizeof capabilities, nullptr);
+            std::memcpy(flags->data, &capabilities, sizeof capabilities);
+            umockdev_ioctl_data_unref(flags);
+            result = self->plugged ? 0 : -ENODEV;
+            break;
+        }
+        default:
+            result = self->answer(request);
+    }
+    lock.unlock();
+    if (result == -EAGAIN) {
+        usleep(nothing_to_reap);
+    }
+    umockdev_ioctl_client_complete(client, result < 0 ? -1 : 0, result < 0 ? -result : 0);
+    return TRUE;
+}
+
+int PlayedUsb::Impl::submit_remote(UMockdevIoctlData* argument) {
+    UMockdevIoctlData* const data = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
+    auto* const urb = reinterpret_cast<usbdevfs_urb*>(data->data);
+    UMockdevIoctlData* const bytes = umockdev_ioctl_data_resolve(
+        data, offsetof(usbdevfs_urb, buffer), static_cast<gulong>(std::max(1, urb->buffer_length)), nullptr);
     umockdev_ioctl_data_unref(bytes);
+    const int result = submit({urb, static_cast<unsigned char*>(urb->buffer), data->client_addr, data});
+    if (result < 0) {
+        umockdev_ioctl_data_unref(data);
+    }
+    return result;
+}
+
+int PlayedUsb::Impl::reap_remote(UMockdevIoctlData* argument) {
+    const std::optional<Urb> urb = reap();
+    if (!urb) {
+        return -EAGAIN;
+    }
+    UMockdevIoctlData* const pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(gpointer), nullptr);
+    umockdev_ioctl_data_set_ptr(pointer, 0, urb->remote);
+    umockdev_ioctl_data_unref(pointer);
+    umockdev_ioctl_data_unref(urb->remote);
+    return 0;
+}
+
+int PlayedUsb::Impl::submit(Urb urb) {
+    if (!plugged) {
+        return -ENODEV;
+    }
     urb.asked = monotonic_now();
-    urb.urb().actual_length = 0;
-    urb.urb().status = 0;
+    urb.urb->actual_length = 0;
+    urb.urb->status = 0;
     perform(urb);
     urbs.push_back(urb);
-    umockdev_ioctl_client_complete(client, 0, 0);
     changed();
-    return true;
+    return 0;
+}
+
+// Who lets go of the interface hears no more of what was on its way.
+int PlayedUsb::Impl::release() {
+    forget_urbs();
+    return answer(USBDEVFS_RELEASEINTERFACE);
+}
+
+void PlayedUsb::Impl::forget_urbs() {
+    for (const Urb& urb : urbs) {
+        if (urb.remote != nullptr) {
+            umockdev_ioctl_data_unref(urb.remote);
+        }
+    }
+    urbs.clear();
 }
 
 Nanoseconds PlayedUsb::Impl::ready_at() {
@@ -200,15 +282,14 @@ Nanoseconds PlayedUsb::Impl::ready_at() {
 
 // What the host sends arrives at once, or not at all.
 void PlayedUsb::Impl::perform(Urb& urb) {
-    usbdevfs_urb& u = urb.urb();
+    usbdevfs_urb& u = *urb.urb;
     if (u.type == USBDEVFS_URB_TYPE_CONTROL) {
         urb.done = true;
         if (fails()) {
             u.status = -EPROTO;
             return;
         }
-        const unsigned char* const setup = urb.bytes();
-        falcon.control(setup[1], static_cast<std::uint16_t>(setup[2] | setup[3] << 8));
+        falcon.control(urb.bytes[1], static_cast<std::uint16_t>(urb.bytes[2] | urb.bytes[3] << 8));
     } else if ((u.endpoint & 0x80) == 0) {
         urb.done = true;
         int length = u.buffer_length;
@@ -217,12 +298,12 @@ void PlayedUsb::Impl::perform(Urb& urb) {
             length = random.flip() ? 0 : random.below(length);
         }
         u.actual_length = length;
-        falcon.write({urb.bytes(), static_cast<std::size_t>(length)}, urb.asked);
+        falcon.write({urb.bytes, static_cast<std::size_t>(length)}, urb.asked);
     }
 }
 
 void PlayedUsb::Impl::look(Urb& urb, Nanoseconds now) {
-    usbdevfs_urb& u = urb.urb();
+    usbdevfs_urb& u = *urb.urb;
     if (!plugged) {
         u.status = -ENODEV;
         urb.done = true;
@@ -243,13 +324,13 @@ void PlayedUsb::Impl::look(Urb& urb, Nanoseconds now) {
     }
     const std::vector<std::uint8_t> bytes = falcon.read(room, urb.asked, now);
     if (!bytes.empty()) {
-        std::memcpy(urb.bytes(), bytes.data(), bytes.size());
+        std::memcpy(urb.bytes, bytes.data(), bytes.size());
         u.actual_length = static_cast<int>(bytes.size());
         urb.done = true;
     }
 }
 
-bool PlayedUsb::Impl::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
+std::optional<Urb> PlayedUsb::Impl::reap() {
     bool reader_waits = false;
     for (auto urb = urbs.begin(); urb != urbs.end(); ++urb) {
         // Reads are served in the order in which they were asked for.
@@ -257,33 +338,24 @@ bool PlayedUsb::Impl::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argum
             look(*urb, monotonic_now());
         }
         if (urb->done) {
-            UMockdevIoctlData* const pointer =
-                umockdev_ioctl_data_resolve(argument, 0, sizeof(gpointer), nullptr);
-            umockdev_ioctl_data_set_ptr(pointer, 0, urb->data);
-            umockdev_ioctl_client_complete(client, 0, 0);
-            umockdev_ioctl_data_unref(pointer);
-            umockdev_ioctl_data_unref(urb->data);
+            const Urb done = *urb;
             urbs.erase(urb);
-            return true;
+            return done;
         }
     }
-    return false;
+    return std::nullopt;
 }
 
-bool PlayedUsb::Impl::discard(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
-    const auto address = reinterpret_cast<gulong>(*reinterpret_cast<void**>(argument->data));
-    const auto found = std::find_if(urbs.begin(), urbs.end(), [address](const Urb& urb) {
-        return urb.data->client_addr == address && !urb.done;
-    });
+int PlayedUsb::Impl::discard(std::uintptr_t address) {
+    const auto found = std::find_if(
+        urbs.begin(), urbs.end(), [address](const Urb& urb) { return urb.address == address && !urb.done; });
     if (found == urbs.end()) {
-        umockdev_ioctl_client_complete(client, -1, EINVAL);
-        return true;
+        return -EINVAL;
     }
-    found->urb().status = -ENOENT;
+    found->urb->status = -ENOENT;
     found->done = true;
     changed();
-    umockdev_ioctl_client_complete(client, 0, 0);
-    return true;
+    return 0;
 }
 
 PlayedUsb::PlayedUsb(const PlayedUsbSettings& settings) : impl_(std::make_unique<Impl>(settings)) {
@@ -296,9 +368,6 @@ PlayedUsb::~PlayedUsb() {
     unplug();
     umockdev_testbed_detach_ioctl(testbed(), node_of(impl_->settings.port).c_str(), nullptr);
     g_object_unref(impl_->handler);
-    for (const Urb& urb : impl_->urbs) {
-        umockdev_ioctl_data_unref(urb.data);
-    }
 }
 
 void PlayedUsb::plug() {
@@ -365,6 +434,11 @@ std::uint8_t PlayedUsb::leds() {
 Nanoseconds PlayedUsb::let_go_at() {
     const std::lock_guard lock(impl_->mutex);
     return impl_->falcon.let_go_at();
+}
+
+bool PlayedUsb::is_let_go() {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->falcon.is_let_go();
 }
 
 bool PlayedUsb::running() {

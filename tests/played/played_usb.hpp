@@ -44,6 +44,8 @@ public:
     bool running();
     // When the motors were last told to give no force after some (on the steady clock); 0: never.
     Nanoseconds let_go_at();
+    // Whether they are told so now.
+    bool is_let_go();
     std::uint64_t exchanges();
 
 private:

@@ -51,6 +51,7 @@ public:
     std::uint8_t leds() const { return command_.leds; }
     // When a packet last took away a force that the one before had given; 0: never.
     Nanoseconds let_go_at() const { return let_go_at_; }
+    bool is_let_go() const { return command_.torques == std::array<std::int16_t, 3>{}; }
     std::uint64_t exchanges() const { return exchanges_; }
     void power_cycle();
 

@@ -52,7 +52,8 @@ TEST(SceneHand, IsOfItsKind) {
     const SceneHand robot(plan, {});
     EXPECT_NE(robot.port(), nullptr);
     EXPECT_FALSE(robot.is_led());
-    for (const HandKind kind : {HandKind::mouse, HandKind::keyboard, HandKind::gamepad, HandKind::node}) {
+    for (const HandKind kind :
+         {HandKind::mouse, HandKind::keyboard, HandKind::gamepad, HandKind::space_mouse, HandKind::node}) {
         plan.kind = kind;
         EXPECT_TRUE(SceneHand(plan, {}).is_led());
     }

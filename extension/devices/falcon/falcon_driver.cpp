@@ -296,9 +296,12 @@ bool FalconDriver::make_queue() {
     carried_ = 0.0;
     owed_ = static_cast<int>(transfers_each_way);
     heard_ = monotonic_now();
-    bool ready = prepare(last_, endpoint_out, last_done);
+    bool ready = true;
     const FalconPacket letting_go = falcon_encode(FalconCommand{});
-    std::copy(letting_go.begin(), letting_go.end(), last_.bytes.begin());
+    for (Spare& spare : spares_) {
+        ready = prepare(spare, endpoint_out, spare_done) && ready;
+        std::copy(letting_go.begin(), letting_go.end(), spare.bytes.begin());
+    }
     for (std::size_t i = 0; i < transfers_each_way; ++i) {
         ready = prepare(in_[i], endpoint_in, in_done) && prepare(out_[i], endpoint_out, out_done) && ready;
     }
@@ -337,18 +340,21 @@ void FalconDriver::out_done(usb::Transfer* transfer) {
     }
 }
 
-void FalconDriver::last_done(usb::Transfer* transfer) {
-    static_cast<Queued*>(transfer->user_data)
-        ->driver->is_last_in_flight_.store(false, std::memory_order_release);
+void FalconDriver::spare_done(usb::Transfer* transfer) {
+    static_cast<Spare*>(static_cast<Queued*>(transfer->user_data))
+        ->is_taken.store(false, std::memory_order_release);
 }
 
 // libusb takes transfers from any thread, also while another one is stuck in its events.
 void FalconDriver::let_go() {
-    if (is_last_in_flight_.exchange(true, std::memory_order_acq_rel)) {
+    for (Spare& spare : spares_) {
+        if (spare.is_taken.exchange(true, std::memory_order_acq_rel)) {
+            continue;
+        }
+        if (usb_->submit_transfer(spare.transfer) != 0) {
+            spare.is_taken.store(false, std::memory_order_release);
+        }
         return;
-    }
-    if (usb_->submit_transfer(last_.transfer) != 0) {
-        is_last_in_flight_.store(false, std::memory_order_release);
     }
 }
 
@@ -447,8 +453,18 @@ std::string FalconDriver::advice() const {
 
 bool FalconDriver::is_any_in_flight() const {
     const auto flies = [](const Queued& queued) { return queued.in_flight; };
-    return is_last_in_flight_.load(std::memory_order_acquire) || std::any_of(in_.begin(), in_.end(), flies) ||
-           std::any_of(out_.begin(), out_.end(), flies);
+    const auto is_taken = [](const Spare& spare) { return spare.is_taken.load(std::memory_order_acquire); };
+    return std::any_of(spares_.begin(), spares_.end(), is_taken) ||
+           std::any_of(in_.begin(), in_.end(), flies) || std::any_of(out_.begin(), out_.end(), flies);
+}
+
+// One that never comes back is left to libusb.
+void FalconDriver::give_back(Queued& queued) {
+    if (queued.transfer != nullptr && !queued.in_flight) {
+        queued.driver->usb_->free_transfer(queued.transfer);
+    }
+    queued.transfer = nullptr;
+    queued.in_flight = false;
 }
 
 // A transfer belongs to libusb until it has come back, be it cancelled.
@@ -473,14 +489,13 @@ void FalconDriver::close() {
             }
         }
     }
-    last_.in_flight = is_last_in_flight_.exchange(false, std::memory_order_acq_rel);
-    for (Queued* queued : {&in_[0], &in_[1], &out_[0], &out_[1], &last_}) {
-        // One that never comes back is left to libusb.
-        if (queued->transfer != nullptr && !queued->in_flight) {
-            usb_->free_transfer(queued->transfer);
-        }
-        queued->transfer = nullptr;
-        queued->in_flight = false;
+    for (std::size_t i = 0; i < transfers_each_way; ++i) {
+        give_back(in_[i]);
+        give_back(out_[i]);
+    }
+    for (Spare& spare : spares_) {
+        spare.in_flight = spare.is_taken.exchange(false, std::memory_order_acq_rel);
+        give_back(spare);
     }
     if (handle_ != nullptr) {
         usb_->release_interface(handle_, 0);

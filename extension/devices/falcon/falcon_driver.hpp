@@ -40,11 +40,17 @@ private:
     // Two each way keep the wire busy while one is being looked at.
     static constexpr std::size_t transfers_each_way = 2;
     static constexpr std::size_t read_size = 64;
+    // The watchdog's own. One that has let go comes back when the I/O thread looks, and a force may be on
+    // again before that.
+    static constexpr std::size_t spare_transfers = 4;
     struct Queued {
         FalconDriver* driver = nullptr;
         usb::Transfer* transfer = nullptr;
         bool in_flight = false;
         std::array<unsigned char, read_size> bytes{};
+    };
+    struct Spare : Queued {
+        std::atomic<bool> is_taken{false};
     };
 
     std::string open_device();
@@ -68,7 +74,8 @@ private:
     Vec3 living(ForceSlot& forces, Nanoseconds now);
     static void in_done(usb::Transfer* transfer);
     static void out_done(usb::Transfer* transfer);
-    static void last_done(usb::Transfer* transfer);
+    static void spare_done(usb::Transfer* transfer);
+    static void give_back(Queued& queued);
     bool is_any_in_flight() const;
     void note(usb::TransferStatus status);
     void wait(Nanoseconds until, int* until_done = nullptr);
@@ -80,8 +87,7 @@ private:
     std::string id_;
     std::vector<std::uint8_t> received_;  // while it starts: what has come and was not asked for yet
     std::array<Queued, transfers_each_way> in_, out_;
-    Queued last_;  // of the watchdog: a packet without a force
-    std::atomic<bool> is_last_in_flight_{false};
+    std::array<Spare, spare_transfers> spares_;  // packets without a force
     FalconStream<FalconReport> stream_;
     FalconArm arm_;
     FalconReport report_;
