@@ -46,23 +46,34 @@ struct TurnedBox {
     }
     void put(TurnedNode& turned, int slot) const {
         const double more = turned_margin * (length + width + (high - low));
-        const auto set = [slot](FloatPoint& to, const Vec3& v) {
-            to.x[slot] = static_cast<float>(v.x);
-            to.y[slot] = static_cast<float>(v.y);
-            to.z[slot] = static_cast<float>(v.z);
-        };
-        set(turned.normal, normal);
-        set(turned.along, along);
         turned.low[slot] = round_down(low - more);
         turned.high[slot] = round_up(high + more);
-        turned.length[slot] = round_up(length + more);
-        turned.width[slot] = round_up(width + more);
+        turned.length[slot] = upper_half(length + more);
+        turned.width[slot] = upper_half(width + more);
     }
 };
+set(turned.normal, normal);
+set(turned.along, along);
+turned.low[slot] = round_down(low - more);
+turned.high[slot] = round_up(high + more);
+turned.length[slot] = round_up(length + more);
+turned.width[slot] = round_up(width + more);
+}
+};
 
-// A unit vector as floats hold it, shortened so that it is no longer than 1.
-Vec3 shortened(const Vec3& v) {
-    return Vec3(glm::vec3(v * ((1.0 - 2e-7) / glm::length(v))));
+// The axes of a child's box, as they are stored: across the surface, and about along it.
+void set_axes(TurnedNode& turned, int slot, const Vec3& normal, const Vec3& along) {
+    const glm::vec3 shortened(normal * (1.0 - 2e-7));
+    turned.normal.x[slot] = shortened.x;
+    turned.normal.y[slot] = shortened.y;
+    turned.normal.z[slot] = shortened.z;
+    for (int axis = 0; axis < 3; ++axis) {
+        turned.along[axis][slot] = static_cast<std::int16_t>(std::lround(32'766.0 * along[axis]));
+    }
+}
+
+Vec3 lane(const FloatPoint& v, int slot) {
+    return {v.x[slot], v.y[slot], v.z[slot]};
 }
 
 // The way in the plane across `normal` along which corners are farthest from the middle, by the sum of their
@@ -139,14 +150,17 @@ void TriangleTree::fit_turned_boxes(const ParallelRunner& run) {
                     continue;
                 }
                 TurnedBox box;
-                box.middle = origin_ + Vec3(middles.x[i], middles.y[i], middles.z[i]);
-                box.normal = shortened(area);
-                Spread spread(glm::normalize(area), box.middle);
+                box.middle = origin_ + lane(middles, i);
+                const Vec3 normal = glm::normalize(area);
+                Spread spread(normal, box.middle);
                 for (const std::uint32_t p : below) {
                     spread.take(pack(p));
                 }
-                box.along = shortened(spread.longest());
-                box.third = glm::cross(box.normal, box.along);
+                set_axes(turned_[n], i, normal, spread.longest());
+                const TurnedAxes axes = axes_of(turned_[n]);
+                box.normal = lane(turned_[n].normal, i);
+                box.along = lane(axes.along, i);
+                box.third = lane(axes.third, i);
                 for (const std::uint32_t p : below) {
                     box.take(pack(p));
                 }

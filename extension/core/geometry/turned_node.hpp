@@ -7,17 +7,36 @@
 // small.
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "core/geometry/box_node.hpp"
 
 namespace tactus {
 
+using ShortLanes = std::int16_t __attribute__((vector_size(16)));
+using UpperHalves = std::uint16_t __attribute__((vector_size(16)));
+using UpperLanes = std::uint32_t __attribute__((vector_size(32)));
+
 struct alignas(32) TurnedNode {
-    // Unit vectors, no longer than 1: across the surface, and the way in it that it extends farthest; 0 where
-    // no plane fits it. The third is normal x along.
-    FloatPoint normal, along;
-    FloatLanes low, high;      // normal . x of its triangles (unit: meters)
-    FloatLanes length, width;  // the largest |along . x| and |third . x| (unit: meters)
+    // A unit vector across the surface, no longer than 1; 0 where no plane fits it.
+    FloatPoint normal;
+    FloatLanes low, high;  // normal . x of its triangles (unit: meters)
+    // The way in the surface that it extends farthest, about of length 2^15; with the normal it gives the
+    // axes.
+    ShortLanes along[3];
+    // The largest |along . x| and |third . x|, as the upper halves of floats (unit: meters).
+    UpperHalves length, width;
 };
+
+// The axes of turned boxes beside the normal: across it and each other to a float's rounding, no longer than
+// 1 and less by what the short numbers leave out.
+struct TurnedAxes {
+    FloatPoint along, third;
+};
+
+// What a length along such an axis is more than told, squared: its numbers err by 2^-16 of it each.
+constexpr float short_axes = 1.0003f;
 
 // Stored lengths are larger by this share of the box's size, for what float products lose there.
 constexpr double turned_margin = 2e-6;
@@ -40,6 +59,22 @@ inline FloatPoint operator-(const FloatPoint& a, const FloatPoint& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+inline TurnedAxes axes_of(const TurnedNode& turned) {
+    const FloatLanes unit = splat_float(0x1p-15f);
+    const auto widened = [&](const ShortLanes& v) { return __builtin_convertvector(v, FloatLanes) * unit; };
+    const FloatPoint about{widened(turned.along[0]), widened(turned.along[1]), widened(turned.along[2])};
+    const FloatPoint third = cross(turned.normal, about);
+    return {cross(third, turned.normal), third};
+}
+
+// The smallest number of that kind not below a length, and back.
+inline std::uint16_t upper_half(double length) {
+    return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(round_up(length)) >> 16) + 1);
+}
+inline FloatLanes widened(const UpperHalves& halves) {
+    return std::bit_cast<FloatLanes>(__builtin_convertvector(halves, UpperLanes) << 16);
+}
+
 namespace box_detail {
 inline FloatLanes size_of(FloatLanes a) {
     return most(a, -a);
@@ -53,19 +88,19 @@ struct Beyond {
 
 // `rounding`: of the point. The vectors err by 2^-24, differences, three products and two sums lose as much
 // of a length each.
-inline Beyond beyond_turned(const BoxNode& boxes, const TurnedNode& turned, const FloatPoint& third,
+inline Beyond beyond_turned(const BoxNode& boxes, const TurnedNode& turned, const TurnedAxes& axes,
                             const FloatPoint& p, float rounding) {
     const FloatPoint offset = p - middle_of(boxes);
     const FloatLanes zero = splat_float(0.0f);
     const FloatLanes n = dot(turned.normal, offset);
-    const FloatLanes a = dot(turned.along, offset);
-    const FloatLanes t = dot(third, offset);
+    const FloatLanes a = dot(axes.along, offset);
+    const FloatLanes t = dot(axes.third, offset);
     const FloatLanes doubt =
         splat_float(rounding) + splat_float(4e-7f) * (size_of(n) + size_of(a) + size_of(t));
     const FloatLanes upper = most(n - turned.high - doubt, zero);
     const FloatLanes lower = most(turned.low - n - doubt, zero);
-    const FloatLanes far = most(size_of(a) - turned.length - doubt - doubt, zero);
-    const FloatLanes aside = most(size_of(t) - turned.width - doubt - doubt, zero);
+    const FloatLanes far = most(size_of(a) - widened(turned.length) - doubt - doubt, zero);
+    const FloatLanes aside = most(size_of(t) - widened(turned.width) - doubt - doubt, zero);
     return {upper - lower, (a > zero) ? far : -far, (t > zero) ? aside : -aside};
 }
 
@@ -74,12 +109,13 @@ inline FloatLanes squared_length(const Beyond& v) {
 }
 
 // The same as `nearing` for boxes; whichever is farther away.
-inline Nearing nearing(const BoxNode& boxes, const TurnedNode& turned, const FloatPoint& third,
+inline Nearing nearing(const BoxNode& boxes, const TurnedNode& turned, const TurnedAxes& axes,
                        const FloatWay& way, const FloatPoint& center) {
-    const Beyond from = beyond_turned(boxes, turned, third, center, way.rounding);
+    const Beyond from = beyond_turned(boxes, turned, axes, center, way.rounding);
     const FloatLanes distance = float_sqrt(squared_length(from));
     const FloatLanes away = from.normal * dot(turned.normal, way.motion) +
-                            from.along * dot(turned.along, way.motion) + from.third * dot(third, way.motion);
+                            from.along * dot(axes.along, way.motion) +
+                            from.third * dot(axes.third, way.motion);
     const Nearing box = nearing(boxes, way, center);
     const FloatLanes gap = distance * splat_float(1.0f - 1e-6f) - splat_float(way.distance);
     const auto farther = gap > box.gap;
@@ -87,15 +123,16 @@ inline Nearing nearing(const BoxNode& boxes, const TurnedNode& turned, const Flo
 }
 
 // Where nothing of a turned box lies ahead of the sphere's centre: all of it is left behind from the start.
-inline FloatMask is_behind(const BoxNode& boxes, const TurnedNode& turned, const FloatPoint& third,
+inline FloatMask is_behind(const BoxNode& boxes, const TurnedNode& turned, const TurnedAxes& axes,
                            const FloatWay& way) {
     const FloatLanes rise = dot(turned.normal, way.motion);
+    const FloatLanes length = widened(turned.length);
+    const FloatLanes width = widened(turned.width);
     const FloatLanes reach = most(turned.low * rise, turned.high * rise) +
-                             turned.length * size_of(dot(turned.along, way.motion)) +
-                             turned.width * size_of(dot(third, way.motion));
-    const FloatLanes size =
-        turned.length + turned.width + (turned.high - turned.low) + splat_float(way.distance);
-    const auto has_axes = turned.length > splat_float(0.0f);
+                             length * splat_float(short_axes) * size_of(dot(axes.along, way.motion)) +
+                             width * splat_float(short_axes) * size_of(dot(axes.third, way.motion));
+    const FloatLanes size = length + width + (turned.high - turned.low) + splat_float(way.distance);
+    const auto has_axes = length > splat_float(0.0f);
     return has_axes &
            (dot(middle_of(boxes) - way.start, way.motion) + reach < splat_float(-2.0f * way.blur) * size);
 }
@@ -104,9 +141,8 @@ inline FloatMask is_behind(const BoxNode& boxes, const TurnedNode& turned, const
 // As squared_distance_to_boxes; `rounding` is that of the point (unit: meters).
 inline FloatLanes squared_distance(const BoxNode& boxes, const TurnedNode& turned, const FloatPoint& p,
                                    float rounding) {
-    const FloatPoint third = cross(turned.normal, turned.along);
     return box_detail::most(
-        box_detail::squared_length(box_detail::beyond_turned(boxes, turned, third, p, rounding)),
+        box_detail::squared_length(box_detail::beyond_turned(boxes, turned, axes_of(turned), p, rounding)),
         squared_distance_to_boxes(boxes, p));
 }
 
@@ -118,9 +154,9 @@ inline FloatLanes earliest_meeting(const BoxNode& boxes, const TurnedNode& turne
     using namespace box_detail;
     const FloatLanes zero = splat_float(0.0f);
     const FloatLanes never = splat_float(__builtin_inff());
-    const FloatPoint third = cross(turned.normal, turned.along);
-    const Nearing first = nearing(boxes, turned, third, way, way.start);
-    const Nearing last = nearing(boxes, turned, third, way, way.end);
+    const TurnedAxes axes = axes_of(turned);
+    const Nearing first = nearing(boxes, turned, axes, way, way.start);
+    const Nearing last = nearing(boxes, turned, axes, way, way.end);
     const FloatLanes fall = first.rate + splat_float(way.blur);
     const FloatLanes rise = splat_float(way.blur) - last.rate;  // going back from the end: also a fall
     const FloatLanes limit = splat_float(way.limit);
@@ -132,7 +168,7 @@ inline FloatLanes earliest_meeting(const BoxNode& boxes, const TurnedNode& turne
         (first.gap > zero) & ((fall <= zero) | ((last.gap > zero) & (lowest > most(doubt, zero))));
     const auto used = boxes.low[0] <= boxes.high[0];
     const FloatLanes key = (first.gap > zero) ? first.gap / fall : zero;
-    const auto met = used & ~apart & ~is_behind(boxes, turned, third, way);
+    const auto met = used & ~apart & ~is_behind(boxes, turned, axes, way);
     return (met & (key <= splat_float(way.limit * (1.0f + 4e-6f)))) ? key : never;
 }
 

@@ -33,6 +33,10 @@ public:
     // `beyond` above rest.
     void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0);
 
+    // False where the work did not suffice for everything that the sphere overlaps, when they were found
+    // last.
+    bool saw_all() const { return saw_all_; }
+
     // For a close look at contacts around the centre.
     ContactLook look_from(const Vec3& center) { return {*scene_, center, rest(), tolerances().same, work_}; }
 
@@ -105,6 +109,7 @@ private:
     double stride_ = 0.0;
     BroadPhase broad_phase_;
     WorkBudget work_{0};
+    bool saw_all_ = true;
     std::uint64_t ticks_ = 0;
     PassedBodies passed_;
     std::array<FeatureId, max_in_mind> in_mind_{};

@@ -18,6 +18,7 @@ double limit_from(double nearest, double rest, double reach, double limit) {
 
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
+    saw_all_ = true;
     broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center);
     double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
@@ -97,6 +98,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
             take(pack, tangents, least_distances(tangents, center));
         });
+        saw_all_ = saw_all_ && others >= rest();
     }
     broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
 }
