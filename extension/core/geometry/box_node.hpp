@@ -113,14 +113,15 @@ inline FloatLanes squared_distance_to_boxes(const BoxNode& node, const FloatPoin
     return dx * dx + dy * dy + dz * dz;
 }
 
-// A sphere's way as the boxes see it: `distance` is less by what rounding may hide, `blur` is how much the
-// rate at which it nears a box may err (unit: meters).
+// A sphere's way as the boxes see it: `distance` is more by what rounding may hide, `blur` is how much the
+// rate at which it nears a box may err, `rounding` that of its ends (unit: meters).
 struct FloatWay {
     FloatPoint start, end;  // where it is at t = 0 and at t = limit
     FloatPoint motion;      // as t grows by 1
     float distance;
     float blur;
     float limit;
+    float rounding;
 };
 
 namespace box_detail {
@@ -142,29 +143,5 @@ inline Nearing nearing(const BoxNode& node, const FloatWay& way, const FloatPoin
             (x * way.motion.x + y * way.motion.y + z * way.motion.z) / -distance};
 }
 }  // namespace box_detail
-
-// Lower bounds of the t up to the limit at which the sphere meets what is in each box; infinite for boxes
-// that it passes by and for unused slots. A box is convex, so its distance as a function of t lies above its
-// tangents at both ends of the way: the first falls to the sphere's radius no earlier than t = gap / rate,
-// and where the two cross above it (or the second still falls at the end), no t is left.
-inline FloatLanes earliest_meeting(const BoxNode& node, const FloatWay& way) {
-    using namespace box_detail;
-    const FloatLanes zero = splat_float(0.0f);
-    const FloatLanes never = splat_float(__builtin_inff());
-    const Nearing first = nearing(node, way, way.start);
-    const Nearing last = nearing(node, way, way.end);
-    const FloatLanes fall = first.rate + splat_float(way.blur);
-    const FloatLanes rise = splat_float(way.blur) - last.rate;  // going back from the end: also a fall
-    const FloatLanes limit = splat_float(way.limit);
-    const FloatLanes crossing = (first.gap - last.gap + rise * limit) / (fall + rise);
-    const FloatLanes lowest = (rise > zero) ? first.gap - fall * crossing : last.gap;
-    // What the subtractions may lose: far less than 1e-6 of their operands.
-    const FloatLanes doubt = (first.gap + last.gap + rise * limit) * splat_float(1e-6f);
-    const auto apart =
-        (first.gap > zero) & ((fall <= zero) | ((last.gap > zero) & (lowest > most(doubt, zero))));
-    const auto used = node.low[0] <= node.high[0];
-    const FloatLanes key = (first.gap > zero) ? first.gap / fall : zero;
-    return (used & ~apart) ? key : never;
-}
 
 }  // namespace tactus

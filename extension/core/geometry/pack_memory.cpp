@@ -1,99 +1,44 @@
 #include "core/geometry/pack_memory.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <utility>
 
 namespace tactus {
 
 namespace {
 
-// Packs that lie side by side have numbers side by side (Fibonacci hashing).
-std::size_t place_of(std::uint32_t pack) {
-    return (pack * 2'654'435'769u) >> 23;
-}
+// A pack that a way may meet, and when at the earliest.
+struct Candidate {
+    double t;
+    std::size_t index;
+};
 
 }  // namespace
 
-void PackMemory::set_plane(std::size_t index, const PackPlane& plane) {
-    Block& block = blocks_[index / lane_count];
-    const std::size_t lane = index % lane_count;
-    block.normal.x[lane] = plane.normal.x;
-    block.normal.y[lane] = plane.normal.y;
-    block.normal.z[lane] = plane.normal.z;
-    block.offset[lane] = plane.offset;
-}
-
-PackBound PackMemory::look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
-                              double odometer) {
-    Remembered& remembered = packs_[index];
-    if (remembered.known >= 0 && remembered.looked_at == odometer) {
-        return tangents_of(remembered);
-    }
-    const TrianglePack& triangles = tree.pack(remembered.pack);
-    const PackBound tangents = bound_from(offset_from_triangles(triangles, point), point);
-    const Lanes exact = least_distances(tangents, point);
-    const PackPlane plane = plane_before(triangles, tangents, exact);
-    if (remembered.known < 0 && known_count_ < known_capacity) {
-        remembered.known = static_cast<std::int32_t>(known_count_++);
-    }
-    if (remembered.known >= 0) {
-        (*known_)[static_cast<std::size_t>(remembered.known)] = {tangents, plane};
-        remembered.looked_at = odometer;
-    }
-    set_plane(index, plane);
-    set_clear(index, odometer + smallest(exact));
-    return tangents;
-}
-
-// The end is looked at first: what is learnt there is asked again as soon as the proxy has arrived. Of old
-// tangents and those at the end, the start is seldom needed, too.
-bool PackMemory::may_meet(std::size_t index, const TriangleTree& tree, const LanesVec3& from,
-                          const LanesVec3& to, double length, double limit, double odometer) {
-    const Remembered& remembered = packs_[index];
-    const Lanes near = splat(limit);
-    if (remembered.known < 0) {
-        look_at(index, tree, from, odometer);
-        return remembered.known < 0 || may_meet(index, tree, from, to, length, limit, odometer);
-    }
-    const PackBound old = tangents_of(remembered);
-    const bool is_from_start = remembered.looked_at == odometer;
-    if (!any(lanes_min(least_distances(old, from), least_distances(old, to)) <= near)) {
-        return false;
-    }
-    const PackBound last = look_at(index, tree, to, odometer + length);
-    set_clear(index, odometer + smallest(least_distances(last, to)) - length);
-    const bool meets = any(least_between(old, last, from, to) <= near);
-    if (is_from_start || !meets) {
-        return meets;
-    }
-    const PackBound first = bound_from(offset_from_triangles(tree.pack(remembered.pack), from), from);
-    return any(least_between(first, last, from, to) <= near);
-}
-
-void PackMemory::remember_known() {
-    std::memset(table_.data(), 0xff, sizeof(table_));  // no pack, known -1
+void PackMemory::gather(const TriangleTree& tree, const Vec3& center, double radius, double away,
+                        double odometer, WorkBudget& work) {
+    std::array<FoundPack, capacity> found;
+    const FoundPacks packs = tree.packs_around(center, radius, work, found);
+    last_packs_ = packs_;
+    last_seen_ = seen_;
+    const std::size_t last_count = std::exchange(count_, packs.count);
+    center_ = center;
+    radius_ = packs.radius;
+    clear_until_.fill(splat(std::numeric_limits<double>::infinity()));
+    std::size_t next = 0;  // both gatherings come node by node: after a pack mostly the same one follows
     for (std::size_t i = 0; i < count_; ++i) {
-        if (packs_[i].known < 0) {
-            continue;
+        packs_[i] = found[i].pack;
+        seen_[i].at = -1.0;
+        for (std::size_t k = 0; k < last_count; ++k) {
+            const std::size_t last = next + k < last_count ? next + k : next + k - last_count;
+            if (last_packs_[last] == packs_[i]) {
+                seen_[i] = last_seen_[last];
+                next = last + 1;
+                break;
+            }
         }
-        std::size_t place = place_of(packs_[i].pack);
-        while (table_[place].known >= 0) {
-            place = (place + 1) % table_size;
-        }
-        table_[place] = {packs_[i].pack, packs_[i].known};
+        set_clear(i, odometer + static_cast<double>(found[i].distance) - away);
     }
-    std::swap(known_, old_known_);
-}
-
-std::int32_t PackMemory::remembered(std::uint32_t pack) const {
-    std::size_t place = place_of(pack);
-    while (table_[place].known >= 0 && table_[place].pack != pack) {
-        place = (place + 1) % table_size;
-    }
-    return table_[place].known;
 }
 
 double PackMemory::covered_share(const Vec3& start, const Vec3& motion, double reach) const {
@@ -109,47 +54,18 @@ double PackMemory::covered_share(const Vec3& start, const Vec3& motion, double r
     return (std::sqrt(along * along + squared * inside) - along) / std::max(squared, 1e-300);
 }
 
-bool PackMemory::gather(const TriangleTree& tree, const Vec3& center, double radius, const Vec3& point,
-                        double soon, double odometer, WorkBudget& work) {
-    std::array<FoundPack, capacity> found;
-    const FoundPacks packs = tree.packs_within(center, radius, point, found);
-    work.spend(static_cast<std::int64_t>(packs.count) * cost::pack_look + cost::box_node);
-    if (!packs.complete) {
-        clear();
-        return false;
+const PackBound& PackMemory::look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
+                                     double odometer) {
+    Seen& seen = seen_[index];
+    if (seen.at != odometer) {
+        seen = {bound_from(offset_from_triangles(tree.pack(packs_[index]), point), point), odometer};
     }
-    remember_known();
-    count_ = packs.count;
-    known_count_ = 0;
-    center_ = center;
-    radius_ = radius;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < count_; ++i) {
-        const double distance = static_cast<double>(found[i].distance);
-        const std::uint32_t pack = found[i].pack;
-        std::int32_t known = remembered(pack);
-        PackPlane plane{Vec3(0.0), -infinity};
-        if (known >= 0) {
-            const Known& old = (*old_known_)[static_cast<std::size_t>(known)];
-            plane = old.plane;
-            known = static_cast<std::int32_t>(known_count_++);
-            (*known_)[static_cast<std::size_t>(known)] = old;
-        } else if (distance <= soon) {
-            tree.fetch_pack(pack);
-        }
-        packs_[i] = {pack, known, -1.0};
-        set_plane(i, plane);
-        set_clear(i, odometer + distance);
-    }
-    for (std::size_t i = count_; i % lane_count != 0; ++i) {
-        set_plane(i, {Vec3(0.0), -infinity});
-        set_clear(i, infinity);
-    }
-    return true;
+    return seen.tangents;
 }
 
-// Of two ways to the same end, the tangents at the start tell when a pack can be met at the earliest: the
-// earliest are swept first, and end the search for most of the others.
+// Tangents from before tell when a pack can be met at the earliest: the earliest are swept first, and end the
+// search for most of the others. Each is looked at from the end of the way then: what is learnt there is
+// asked again as soon as the sphere has arrived, and mostly leaves no room for a hit on the way.
 Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double limit, double odometer,
                       WorkBudget& work) {
     const double reach = way.distance + way.slack;
@@ -158,39 +74,39 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
     const LanesVec3 direction = splat(way.motion);
     std::array<Candidate, capacity> candidates;
     std::size_t count = 0;
-    visit_between(from, splat(way.start + way.motion * limit), length * limit, reach, odometer,
-                  [&](std::size_t i) {
-                      const PackBound at =
-                          packs_[i].known >= 0 ? tangents_of(packs_[i]) : look_at(i, tree, from, odometer);
-                      const double t = earliest_below(at, from, direction, reach);
-                      if (t <= limit) {
-                          candidates[count++] = {t, static_cast<std::uint32_t>(i)};
-                      }
-                  });
+    visit_on_way(length * limit, reach, odometer, [&](std::size_t i) {
+        const PackBound& at = seen_[i].at >= 0.0 ? seen_[i].tangents : look_at(i, tree, from, odometer);
+        const double t = earliest_below(at, from, direction, reach);
+        if (t <= limit) {
+            std::size_t place = count++;
+            for (; place > 0 && t < candidates[place - 1].t; --place) {
+                candidates[place] = candidates[place - 1];
+            }
+            candidates[place] = {t, i};
+        }
+    });
     work.spend(static_cast<std::int64_t>(count_ / lane_count + count * cost::pack_look));
     Hit hit;
     hit.t = limit;
-    const auto later = [](const Candidate& p, const Candidate& q) { return p.t > q.t; };
-    const auto first = candidates.begin();
-    std::make_heap(first, first + static_cast<std::ptrdiff_t>(count), later);
-    for (; count > 0 && candidates[0].t <= hit.t; --count) {
-        const Candidate next = candidates[0];
+    for (std::size_t k = 0; k < count && candidates[k].t <= hit.t; ++k) {
+        const auto [earliest, i] = candidates[k];
         if (work.is_gone()) {
-            return {next.t, false, false, Hit::no_triangle};
+            return {earliest, false, false, Hit::no_triangle};
         }
-        std::pop_heap(first, first + static_cast<std::ptrdiff_t>(count), later);
+        work.spend(cost::pack_look);
         const LanesVec3 to = splat(way.start + way.motion * hit.t);
-        work.spend(2 * cost::pack_look);
-        if (!may_meet(next.index, tree, from, to, length * hit.t, reach, odometer)) {
+        const PackBound before = seen_[i].tangents;
+        const PackBound& last = look_at(i, tree, to, odometer + length * hit.t);
+        set_clear(i, odometer + smallest(least_distances(last, to)) - length * hit.t);
+        if (!any(least_between(before, last, from, to) <= splat(reach))) {
             continue;
         }
-        const std::uint32_t pack = packs_[next.index].pack;
-        const PackHit met = sweep_to_triangles(tree.pack(pack), way, hit.t);
+        const PackHit met = sweep_to_triangles(tree.pack(packs_[i]), way, hit.t);
         work.spend(met.looks * cost::pack_look);
         if (met.found()) {
             hit.t = met.t;
             hit.found = true;
-            hit.triangle = pack * lane_count + static_cast<std::uint32_t>(met.lane);
+            hit.triangle = packs_[i] * lane_count + static_cast<std::uint32_t>(met.lane);
         }
     }
     return hit;

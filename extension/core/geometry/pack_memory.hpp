@@ -1,11 +1,9 @@
 // What is remembered about the triangles around a sphere. Consecutive ticks ask almost the same question: the
-// packs found in one ball answer for every place until the sphere's own ball leaves it.
+// packs found around one place answer for every place until the sphere's own ball leaves what they cover.
 //
-// Each pack is known by four ever better bounds, and asked only as far as needed: how far the sphere must
-// travel before it can touch it; a plane that has the whole pack behind it, found when it was last looked at;
-// the tangents of its triangles then, true everywhere and nearly exact while the sphere slides along the
-// surface; and its triangles. The first two are held side by side for four packs at once: most packs that are
-// near are lateral, and cost no more than that.
+// Of each pack is known how far the sphere must travel before it can touch it, and the tangents of its
+// triangles when it was last looked at: true everywhere, and nearly exact while the sphere slides along the
+// surface. Most questions end there.
 //
 // Travel is measured by an odometer that only grows: the length of the sphere's path relative to the mesh.
 #pragma once
@@ -23,24 +21,17 @@ namespace tactus {
 
 class PackMemory {
 public:
-    PackMemory() = default;
-    PackMemory(const PackMemory&) = delete;
-    PackMemory& operator=(const PackMemory&) = delete;
+    static constexpr std::size_t capacity = 64;
 
-    static constexpr std::size_t capacity = 768;
-
-    // All packs in the ball of the given radius around `center`, for a sphere at `point`. False where they
-    // are too many: nothing is then remembered, and the tree itself must be asked. Packs up to `soon` from
-    // the point are fetched from memory: they will be looked at next.
-    bool gather(const TriangleTree& tree, const Vec3& center, double radius, const Vec3& point, double soon,
-                double odometer, WorkBudget& work);
-
+    // The packs nearest to `center`, up to `radius` or as many as fit. The sphere is `away` from the center
+    // at most, at that reading of its odometer (unit: meters).
+    void gather(const TriangleTree& tree, const Vec3& center, double radius, double away, double odometer,
+                WorkBudget& work);
     // Empty, for another mesh.
     void clear() {
-        count_ = known_count_ = 0;
+        count_ = 0;
         radius_ = -1.0;
     }
-    std::size_t count() const { return count_; }
 
     // Every pack is known that is nearer to the point than this (unit: meters). Negative: not even there.
     double covered_around(const Vec3& point) const { return radius_ - glm::distance(point, center_); }
@@ -58,83 +49,39 @@ public:
               WorkBudget& work);
 
 private:
-    static constexpr std::size_t known_capacity = 256;
-
-    struct Remembered {
-        std::uint32_t pack;
-        std::int32_t known;  // what is known from a look, -1: nothing
-        double looked_at;    // odometer reading at that look
-    };
-    // Of a pack that has been looked at.
-    struct Known {
+    struct Seen {
         PackBound tangents;
-        PackPlane plane;
-    };
-    // Of four packs: no triangle is nearer to x than normal . x + offset, nor than clear_until - odometer.
-    struct Block {
-        LanesVec3 normal;
-        Lanes offset;       // (unit: meters)
-        Lanes clear_until;  // odometer + distance (unit: meters); infinite beyond count_
-    };
-    // A pack that a way may meet, and when at the earliest.
-    struct Candidate {
-        double t;
-        std::uint32_t index;
+        double at = -1.0;  // odometer reading at that look; below 0: none yet
     };
 
-    // Calls visit(index) for every pack that may have a triangle within `limit` of a place between two points
-    // that are `length` apart, the sphere being at the first. Returns a lower bound of the distance of all
-    // other packs that are known.
+    // Calls visit(index) for every pack that may have a triangle within `limit` of a place on a way of that
+    // length. Returns a lower bound of the distance of all other packs that are known.
     template <class Visit>
-    double visit_between(const LanesVec3& from, const LanesVec3& to, double length, const double& limit,
-                         double odometer, Visit&& visit);
-    // The tangents at `point`, where the sphere is at that odometer reading.
-    PackBound look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point, double odometer);
-    // False where no triangle of the pack can be within `limit` of any place between two points that are
-    // `length` apart; the sphere is at the first.
-    bool may_meet(std::size_t index, const TriangleTree& tree, const LanesVec3& from, const LanesVec3& to,
-                  double length, double limit, double odometer);
-
+    double visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const;
+    // The tangents at `point`, where the sphere is once its odometer has that reading.
+    const PackBound& look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
+                             double odometer);
     void set_clear(std::size_t index, double until) {
-        blocks_[index / lane_count].clear_until[index % lane_count] = until;
+        clear_until_[index / lane_count][index % lane_count] = until;
     }
-    void set_plane(std::size_t index, const PackPlane& plane);
-    PackBound& tangents_of(const Remembered& remembered) {
-        return (*known_)[static_cast<std::size_t>(remembered.known)].tangents;
-    }
-    void remember_known();
-    std::int32_t remembered(std::uint32_t pack) const;
 
-    std::array<Block, capacity / lane_count> blocks_;
-    std::array<Remembered, capacity> packs_;
-    using Knowledge = std::array<Known, known_capacity>;
-    Knowledge both_[2];
-    Knowledge* known_ = &both_[0];
     std::size_t count_ = 0;
-    std::size_t known_count_ = 0;
     Vec3 center_{0.0};
     double radius_ = -1.0;
-
-    // Of the last gathering, by pack: what was learnt then is still true.
-    static constexpr std::size_t table_size = 512;  // a power of two, twice known_capacity
-    struct Entry {
-        std::uint32_t pack;
-        std::int32_t known;
-    };
-    std::array<Entry, table_size> table_;
-    Knowledge* old_known_ = &both_[1];
+    std::array<Lanes, capacity / lane_count> clear_until_;  // odometer + distance; infinite beyond count_
+    std::array<std::uint32_t, capacity> packs_;
+    std::array<Seen, capacity> seen_;
+    std::array<std::uint32_t, capacity>
+        last_packs_;  // of the gathering before: what was seen then still holds
+    std::array<Seen, capacity> last_seen_;
 };
 
 template <class Visit>
-double PackMemory::visit_between(const LanesVec3& from, const LanesVec3& to, double length,
-                                 const double& limit, double odometer, Visit&& visit) {
-    const double travelled = odometer + length;
+double PackMemory::visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const {
+    const Lanes travelled = splat(odometer + length);
     Lanes least = splat(std::numeric_limits<double>::infinity());
     for (std::size_t first = 0; first < count_; first += lane_count) {
-        const Block& block = blocks_[first / lane_count];
-        // A plane is linear: on a way it is lowest at an end.
-        const Lanes above = lanes_min(dot(block.normal, from), dot(block.normal, to)) + block.offset;
-        const Lanes bound = lanes_max(above, block.clear_until - splat(travelled));
+        const Lanes bound = clear_until_[first / lane_count] - travelled;
         const LaneMask reached = bound <= splat(limit);
         least = lanes_min(least, select(reached, least, bound));
         for (unsigned left = lane_bits(reached); left != 0; left &= left - 1) {
@@ -149,20 +96,21 @@ double PackMemory::visit_near(const TriangleTree& tree, const Vec3& point, const
                               double odometer, WorkBudget& work, Visit&& visit) {
     const LanesVec3 center = splat(point);
     double passed_by = std::numeric_limits<double>::infinity();
-    const double others = visit_between(center, center, 0.0, limit, odometer, [&](std::size_t i) {
+    const double others = visit_on_way(0.0, limit, odometer, [&](std::size_t i) {
         work.spend(cost::pack_look);
-        if (packs_[i].known >= 0) {
-            const double least = smallest(least_distances(tangents_of(packs_[i]), center));
+        if (seen_[i].at >= 0.0) {
+            const double least = smallest(least_distances(seen_[i].tangents, center));
             if (least > limit) {
                 set_clear(i, odometer + least);
                 passed_by = std::min(passed_by, least);
                 return;
             }
         }
-        const PackBound tangents = look_at(i, tree, center, odometer);
+        const PackBound& tangents = look_at(i, tree, center, odometer);
         const Lanes distances = least_distances(tangents, center);
+        set_clear(i, odometer + smallest(distances));
         passed_by = std::min(passed_by, smallest(distances));
-        visit(packs_[i].pack, tangents, distances);
+        visit(packs_[i], tangents, distances);
     });
     return std::min(others, passed_by);
 }

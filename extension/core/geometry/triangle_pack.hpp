@@ -110,24 +110,6 @@ inline Lanes least_distances(const PackBound& bound, const LanesVec3& point) {
     return dot(bound.normal, point) + bound.offset;
 }
 
-// A plane that has the whole pack behind it: no triangle is nearer to a point x than normal . x + offset.
-struct PackPlane {
-    Vec3 normal;    // no longer than 1
-    double offset;  // (unit: meters)
-};
-
-// Across the tangent of the nearest triangle, which is the best of such planes for a smooth surface.
-inline PackPlane plane_before(const TrianglePack& t, const PackBound& tangents, const Lanes& distances) {
-    int nearest = 0;
-    for (int i = 1; i < lane_count; ++i) {
-        nearest = distances[i] < distances[nearest] ? i : nearest;
-    }
-    const Vec3 normal = lane(tangents.normal, nearest);
-    const LanesVec3 across = splat(normal);
-    const Lanes lowest = lanes_max(lanes_max(dot(across, t.a), dot(across, t.b)), dot(across, t.c));
-    return {normal, smallest(-lowest)};
-}
-
 // A lower bound of the distances on the way between two points, from any tangents and those at the end: the
 // distance lies above both, and the lowest place of the larger is at an end or where they cross.
 inline Lanes least_between(const PackBound& first, const PackBound& last, const LanesVec3& from,

@@ -8,14 +8,6 @@
 
 namespace tactus {
 
-namespace {
-
-// Deep enough for every tree the builder makes: its depth is at most 24 wide levels, each leaving 7 siblings
-// behind.
-constexpr int stack_size = 24 * (node_width - 1) + 1;
-
-}  // namespace
-
 // A query point is rounded to float by at most 2^-24 of itself, its difference to a box side by 2^-24 of
 // both; sqrt(3) for three axes. What is relative to the distance is taken off where distances are compared.
 double TriangleTree::float_slack(const Vec3& relative) const {
@@ -23,49 +15,33 @@ double TriangleTree::float_slack(const Vec3& relative) const {
     return 1.75 * 0x1p-24 * (2.0 * largest + extent_);
 }
 
-// The dot product with a slab's normal: the point's rounding, that of three products and of two sums, 2^-24
-// of the largest term each.
-double TriangleTree::slab_slack(const Vec3& relative) const {
+// 2^-24 of each coordinate, and of the middle of a box as it is computed.
+double TriangleTree::point_rounding(const Vec3& relative) const {
     const double largest = std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z)});
-    return 8.0 * 0x1p-24 * (largest + extent_);
+    return 1.75 * 0x1p-24 * largest;
 }
 
-FoundPacks TriangleTree::packs_within(const Vec3& center, double radius, const Vec3& point,
+FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudget& work,
                                       std::span<FoundPack> out) const {
+    const Vec3 relative = point - origin_;
+    const double slack = float_slack(relative);
+    const FloatPoint at = to_float_point(relative);
+    const auto rounding = static_cast<float>(point_rounding(relative));
+    const auto distance = [&](float squared) {
+        return std::max(0.0, std::sqrt(static_cast<double>(squared)) * (1.0 - 1e-6) - slack);
+    };
     FoundPacks found;
-    const double slack = std::max(float_slack(center - origin_), float_slack(point - origin_));
-    const FloatPoint middle = to_float_point(center - origin_);
-    const FloatPoint at = to_float_point(point - origin_);
-    const float limit = square_up(radius + slack);
-    const float rounding = static_cast<float>(slack * (1.0 + 1e-6));
-    const auto slab_rounding =
-        static_cast<float>(std::max(slab_slack(center - origin_), slab_slack(point - origin_)));
-
-    std::uint32_t stack[stack_size];
-    int depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0) {
-        const std::uint32_t place = stack[--depth];
-        const BoxNode& node = nodes_[place];
-        const SlabNode& slabs = slabs_[place];
-        const FloatLanes squared = squared_distance(node, slabs, at, slab_rounding);
-        for (unsigned near = lanes_up_to(squared_distance(node, slabs, middle, slab_rounding), limit);
-             near != 0; near &= near - 1) {
-            const int i = std::countr_zero(near);
-            const std::uint32_t child = node.child[i];
-            if (!(child & BoxNode::leaf_bit)) {
-                fetch_early(&nodes_[child], sizeof(BoxNode));
-                fetch_early(&slabs_[child], sizeof(SlabNode));
-                stack[depth++] = child;
-            } else if (found.count < out.size()) {
-                const float distance = std::sqrt(squared[i]) * (1.0f - 1e-6f) - rounding;
-                out[found.count++] = {child & ~BoxNode::leaf_bit, std::max(distance, 0.0f)};
-            } else {
-                found.complete = false;
-                return found;
-            }
-        }
-    }
+    float limit = square_up(radius + slack);
+    const float left_out = visit_best_first(
+        limit, work,
+        [&](const BoxNode& node, const TurnedNode& turned) {
+            return squared_distance(node, turned, at, rounding);
+        },
+        [&](std::uint32_t pack, float squared) {
+            out[found.count++] = {pack, static_cast<float>(distance(squared) * (1.0 - 1e-7))};
+            limit = found.count < out.size() ? limit : -1.0f;
+        });
+    found.radius = std::min(radius, distance(left_out));
     return found;
 }
 
@@ -113,21 +89,22 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
     const double reach = way.distance + way.slack + rounding;
     // The rate at which a box is neared errs by the rounding of its few operations, and by the angle by which
     // a rounded offset of at least `distance` is turned.
-    const double blur = glm::length(way.motion) * (1e-6 + 2.0 * rounding / way.distance);
-    const FloatWay boxes{to_float_point(start),      to_float_point(end),
-                         to_float_point(way.motion), static_cast<float>(reach * (1.0 + 1e-6)),
-                         static_cast<float>(blur),   static_cast<float>(limit)};
-    const auto slab_rounding = static_cast<float>(std::max(slab_slack(start), slab_slack(end)));
+    const double blur = glm::length(way.motion) * (4e-6 + 2.0 * rounding / way.distance);
+    const FloatWay boxes{to_float_point(start),
+                         to_float_point(end),
+                         to_float_point(way.motion),
+                         static_cast<float>(reach * (1.0 + 1e-6)),
+                         static_cast<float>(blur),
+                         static_cast<float>(limit),
+                         static_cast<float>(std::max(point_rounding(start), point_rounding(end)))};
     Hit hit;
     hit.t = limit;
     const auto a_little_more = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
     float bound = a_little_more(limit);
     const float left_out = visit_best_first(
         bound, work,
-        [&](const BoxNode& node, const SlabNode& slabs) {
-            return earliest_meeting(node, slabs, boxes, slab_rounding);
-        },
-        [&](std::uint32_t pack) {
+        [&](const BoxNode& node, const TurnedNode& turned) { return earliest_meeting(node, turned, boxes); },
+        [&](std::uint32_t pack, float) {
             const PackHit met = sweep_to_triangles(packs_[pack], way, hit.t);
             work.spend(met.looks * cost::pack_look);
             if (met.found()) {
@@ -148,7 +125,7 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
 }
 
 std::size_t TriangleTree::bytes() const {
-    return nodes_.size() * (sizeof(BoxNode) + sizeof(SlabNode)) +
+    return nodes_.size() * (sizeof(BoxNode) + sizeof(TurnedNode)) +
            ids_.size() * (packs_.bytes_each() + sizeof(PackIds));
 }
 

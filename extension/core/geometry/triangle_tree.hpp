@@ -17,9 +17,9 @@
 #include "core/geometry/inside_test.hpp"
 #include "core/geometry/pack_store.hpp"
 #include "core/geometry/parallel.hpp"
-#include "core/geometry/slab_node.hpp"
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
+#include "core/geometry/turned_node.hpp"
 #include "core/geometry/work.hpp"
 
 namespace tactus {
@@ -42,7 +42,7 @@ using PackIds = std::array<std::uint32_t, lane_count>;
 
 struct FoundPacks {
     std::size_t count = 0;  // packs written
-    bool complete = true;   // false: there were more than fit
+    double radius = 0.0;    // every pack that is nearer than this is among them (unit: meters)
 };
 
 struct NearestTriangle {
@@ -73,13 +73,10 @@ public:
     // True where both hold the same triangles at the same places of the tree, one as it is refitted.
     bool is_refit_of(const TriangleTree& other) const { return lineage_ == other.lineage_; }
 
-    // Every pack with a triangle in the ball around `center`, by its box: cheap, and with some that have
-    // none. Their distances are those from `point`.
-    FoundPacks packs_within(const Vec3& center, double radius, const Vec3& point,
+    // The packs around a point by their boxes, nearest nodes first: as many as fit, up to the
+    // radius.
+    FoundPacks packs_around(const Vec3& point, double radius, WorkBudget& work,
                             std::span<FoundPack> out) const;
-    FoundPacks packs_within(const Vec3& point, double reach, std::span<FoundPack> out) const {
-        return packs_within(point, reach, point, out);
-    }
 
     // The nearest triangle, looked for up to the distance `far`. Where the budget ends the search, the answer
     // is not complete: a nearer one may exist.
@@ -123,7 +120,7 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
-    double slab_slack(const Vec3& relative) const;
+    double point_rounding(const Vec3& relative) const;
     bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
     NearestTriangle search(const Vec3& point, double far, double share, double& least,
                            WorkBudget& work) const;
@@ -132,12 +129,12 @@ private:
     void place_nodes(const TriangleMesh& mesh, const CornerExtent& extent, const ParallelRunner& run);
     void place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
-    void fit_slabs(const ParallelRunner& run);
+    void fit_turned_boxes(const ParallelRunner& run);
     std::size_t packs_below(std::uint32_t child, std::span<std::uint32_t> out) const;
 
-    std::vector<BoxNode> nodes_;   // parents before children
-    std::vector<SlabNode> slabs_;  // one a node
-    PackStore packs_;              // as many as ids_
+    std::vector<BoxNode> nodes_;      // parents before children
+    std::vector<TurnedNode> turned_;  // one a node
+    PackStore packs_;                 // as many as ids_
     std::vector<PackIds> ids_;
     Vec3 origin_{0.0};
     double radius_ = 0.0;
@@ -209,7 +206,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
         }
         work.spend(cost::box_node);
         const BoxNode& node = nodes_[entry.node];
-        const FloatLanes key = keys(node, slabs_[entry.node]);
+        const FloatLanes key = keys(node, turned_[entry.node]);
         const auto within = key <= splat_float(limit);
         beyond = within ? beyond : box_detail::least(beyond, key);
         VisitQueue::Entry packs[node_width];
@@ -226,7 +223,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
                 packs[place] = child;
             } else {
                 fetch_early(&nodes_[child.node], sizeof(BoxNode));
-                fetch_early(&slabs_[child.node], sizeof(SlabNode));
+                fetch_early(&turned_[child.node], sizeof(TurnedNode));
                 if (!queue.push(child)) {
                     left_out = std::min(left_out, child.key);
                 }
@@ -234,7 +231,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
         }
         for (int i = 0; i < count; ++i) {
             if (packs[i].key <= limit) {
-                visit(packs[i].node & ~BoxNode::leaf_bit);
+                visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key);
             } else {
                 left_out = std::min(left_out, packs[i].key);
             }
@@ -252,14 +249,14 @@ double TriangleTree::visit_near(const Vec3& point, const double& limit, WorkBudg
     const Vec3 relative = point - origin_;
     const double slack = float_slack(relative);
     const FloatPoint at = to_float_point(relative);
-    const auto rounding = static_cast<float>(slab_slack(relative));
+    const auto rounding = static_cast<float>(point_rounding(relative));
     float bound = square_up(limit + slack);
     const float left_out = visit_best_first(
         bound, work,
-        [&](const BoxNode& node, const SlabNode& slabs) {
-            return squared_distance(node, slabs, at, rounding);
+        [&](const BoxNode& node, const TurnedNode& turned) {
+            return squared_distance(node, turned, at, rounding);
         },
-        [&](std::uint32_t pack) {
+        [&](std::uint32_t pack, float) {
             visit(pack);
             bound = square_up(limit + slack);
         });

@@ -152,7 +152,7 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
     extent_ = std::max({largest.x, largest.y, largest.z});
     radius_ = std::sqrt(all.squared_radius);
     magnitude_ = all.magnitude;
-    fit_slabs(run);
+    fit_turned_boxes(run);
 }
 
 TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {

@@ -6,8 +6,6 @@
 
 namespace tactus {
 
-namespace {}  // namespace
-
 HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds, const SafeWalls& safe) {
     HandForce force;

@@ -242,7 +242,8 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
         follow(hand_, given_way, changed, tick);
     }
     // The work may have ended before it was lifted out of what it begins too deep in: it begins later, then.
-    if (appears && contacts_hold_ && contacts_.min_gap() < -tolerances().skin) {
+    const bool is_deep = contacts_.min_gap() < -tolerances().skin || !surroundings_.saw_all();
+    if (appears && contacts_hold_ && is_deep) {
         restart();
         put(hand_);
         tick = {};

@@ -17,14 +17,6 @@ constexpr double ticks_remembered = 2.5;
 constexpr double strides_remembered = 2.0;
 // Share of that by which its ball is put ahead of the sphere: most ways go on as they began.
 constexpr double ahead_share = 0.6;
-// About as many packs as are looked through in the time of one search of the tree.
-constexpr double comfortable = 256.0;
-// So few that more of them cost next to nothing.
-constexpr double few = 48.0;
-// Less than this share of the wanted margin would be used up too soon.
-constexpr double least_margin = 1.0 / 16.0;
-// What was crowded is believed to be so a little less each time it is left to the tree.
-constexpr double forgetting = 0.95;
 
 }  // namespace
 
@@ -54,20 +46,18 @@ bool Surroundings::counts(std::uint32_t part, double length, int except) const {
            !passed_.contains(static_cast<int>(body));
 }
 
-// The memory of a part: its own, or the one that was least recently used.
-std::size_t Surroundings::owner_of(std::uint32_t part) {
+// Who has a part's memory: its own, or the one that was least recently used.
+Surroundings::Owner& Surroundings::owner_of(std::uint32_t part) {
     const std::uint32_t stamp = broad_phase_.stamp(part);
-    for (std::size_t i = 0; i < max_memories; ++i) {
-        if (owners_[i].part == part && owners_[i].stamp == stamp) {
-            owners_[i].used_at = ticks_;
-            return i;
-        }
+    auto owner = std::ranges::find_if(
+        owners_, [&](const Owner& own) { return own.part == part && own.stamp == stamp; });
+    if (owner == owners_.end()) {
+        owner = std::ranges::min_element(owners_, {}, &Owner::used_at);
+        *owner = {part, stamp};
+        memories_[static_cast<std::size_t>(owner - owners_.begin())].clear();
     }
-    const auto least_recent = std::ranges::min_element(owners_, {}, &Owner::used_at);
-    const auto oldest = static_cast<std::size_t>(least_recent - owners_.begin());
-    owners_[oldest] = {part, stamp, ticks_};
-    memories_[oldest].clear();
-    return oldest;
+    owner->used_at = ticks_;
+    return *owner;
 }
 
 // A ball that holds for some ticks; over rough ground, for some strides.
@@ -77,39 +67,26 @@ double Surroundings::wanted_margin() const {
 }
 
 // The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of
-// the given length from there. Null where they are too many to be worth it: the tree is asked itself then.
-PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way, bool may_gather) {
-    const double now = broad_phase_.reading(index);
+// the given length from there. Null where they are too many: the tree is asked itself then.
+PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way) {
     const double needed = rest() + tolerances().reach + way;
-    const std::size_t place = owner_of(index);
-    Owner& owner = owners_[place];
-    PackMemory& memory = memories_[place];
-    if (memory.covered_around(local) >= needed) {
-        return &memory;
+    Owner& owner = owner_of(index);
+    PackMemory& memory = memories_[static_cast<std::size_t>(&owner - owners_.data())];
+    if (memory.covered_around(local) < needed && owner.crowded_at != ticks_) {
+        const ScenePart& placed = scene_->parts()[index];
+        const Vec3& last_way = broad_phase_.last_way();
+        const double length = glm::length(last_way);
+        const double margin = wanted_margin();
+        const double ahead = length > tolerances().reach ? ahead_share * margin : 0.0;
+        const Vec3 heading = direction_to_local(placed.pose, last_way / std::max(length, 1e-300));
+        memory.gather(*placed.part->tree(), local + heading * ahead, needed + 2.0 * margin, ahead,
+                      broad_phase_.reading(index), work_);
     }
-    if (!may_gather) {
+    if (memory.covered_around(local) < needed) {
+        owner.crowded_at = ticks_;
         return nullptr;
     }
-    // Of a smooth surface a ball holds as many packs as it reaches beyond the nearest of them.
-    const double depth = needed - rest() - broad_phase_.clearance(index);
-    const double room = comfortable / owner.density - depth;
-    if (room < least_margin * wanted_margin()) {
-        owner.density *= forgetting;
-        return nullptr;
-    }
-    const ScenePart& placed = scene_->parts()[index];
-    const Vec3& last_way = broad_phase_.last_way();
-    const double length = glm::length(last_way);
-    const Vec3 heading =
-        length > tolerances().reach ? direction_to_local(placed.pose, last_way / length) : Vec3(0.0);
-    const double cheap = owner.density > 0.0 ? few / owner.density - depth : 0.0;
-    const double margin = std::min(room, std::max(wanted_margin(), cheap));
-    const Vec3 center = local + heading * (ahead_share * margin);
-    const bool gathered =
-        memory.gather(*placed.part->tree(), center, needed + margin, local, needed, now, work_);
-    const double packs = gathered ? static_cast<double>(memory.count()) : PackMemory::capacity;
-    owner.density = std::max(packs, 0.25 * few) / std::max(depth + margin, tolerances().reach);
-    return gathered ? &memory : nullptr;
+    return &memory;
 }
 
 bool Surroundings::is_clear(double length) const {
@@ -118,23 +95,14 @@ bool Surroundings::is_clear(double length) const {
                                [&](std::uint32_t part) { return broad_phase_.is_clear(part, length); });
 }
 
-// Within what is remembered, only packs that the way can reach before the earliest hit so far are looked at.
-// A way that leads out of it is answered by gathering farther, or, where it is long, by the tree itself.
+// What is remembered answers for a way as far as it covers it, the tree itself for a long one.
 Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double limit) {
     const TriangleTree& tree = *scene_->parts()[index].part->tree();
-    const double length = glm::length(way.motion);
-    for (const double ahead : {0.0, length * limit}) {
-        if (ahead > 2.0 * wanted_margin()) {
-            break;
-        }
-        PackMemory* const memory = memory_around(index, way.start, ahead);
-        if (!memory) {
-            break;
-        }
-        const double reached = memory->covered_share(way.start, way.motion, way.distance + way.slack);
-        const Hit hit =
-            memory->sweep(tree, way, std::min(limit, reached), broad_phase_.reading(index), work_);
-        if (!hit.is_free() || reached >= limit) {
+    const double length = glm::length(way.motion) * limit;
+    if (PackMemory* const memory = memory_around(index, way.start, std::min(length, wanted_margin()))) {
+        const double known = memory->covered_share(way.start, way.motion, way.distance + way.slack);
+        const Hit hit = memory->sweep(tree, way, std::min(limit, known), broad_phase_.reading(index), work_);
+        if (!hit.is_free() || known >= limit) {
             return hit;
         }
     }

@@ -33,6 +33,10 @@ public:
     // `beyond` above rest.
     void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0);
 
+    // False where the work did not suffice for everything that the sphere overlaps, when they were found
+    // last.
+    bool saw_all() const { return saw_all_; }
+
     // For a close look at contacts around the centre.
     ContactLook look_from(const Vec3& center) { return {*scene_, center, rest(), tolerances().same, work_}; }
 
@@ -83,19 +87,18 @@ private:
     // Whose triangles a PackMemory holds.
     struct Owner {
         std::uint32_t part = 0;
-        std::uint32_t stamp = 0;    // of the part, when it was asked; another: the memory is void
-        std::uint64_t used_at = 0;  // tick
-        double density = 0.0;       // packs for each meter that a ball reaches beyond the nearest; 0: unknown
+        std::uint32_t stamp = 0;       // of the part, when it was asked; another: the memory is void
+        std::uint64_t used_at = 0;     // tick
+        std::uint64_t crowded_at = 0;  // tick in which more were near than it holds
     };
 
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
-    std::size_t owner_of(std::uint32_t part);
+    Owner& owner_of(std::uint32_t part);
     double wanted_margin() const;
-    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way, bool may_gather = true);
+    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
-    void find_tree_contacts(std::uint32_t part, const Vec3& local, double beyond, double& limit,
-                            ContactList& out);
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
     void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);
     void add_insisted(const Vec3& center, ContactList& out);
@@ -106,6 +109,7 @@ private:
     double stride_ = 0.0;
     BroadPhase broad_phase_;
     WorkBudget work_{0};
+    bool saw_all_ = true;
     std::uint64_t ticks_ = 0;
     PassedBodies passed_;
     std::array<FeatureId, max_in_mind> in_mind_{};

@@ -18,6 +18,7 @@ double limit_from(double nearest, double rest, double reach, double limit) {
 
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
+    saw_all_ = true;
     broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center);
     double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
@@ -27,7 +28,7 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
         const ScenePart& placed = scene_->parts()[part];
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
-            find_tree_contacts(part, local, beyond, limit, out);
+            find_tree_contacts(part, local, limit, out);
         } else {
             find_solid_contact(part, local, limit, out);
         }
@@ -56,7 +57,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, do
     }
 }
 
-void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double beyond, double& limit,
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double& limit,
                                       ContactList& out) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = *placed.part->tree();
@@ -80,7 +81,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     double others = 0.0;
     bool is_known = false;
     // Above a surface a ball around the sphere ends before the surface begins.
-    if (PackMemory* const memory = memory_around(index, local, 0.0, beyond <= wanted_margin())) {
+    if (PackMemory* const memory = memory_around(index, local, 0.0)) {
         others = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
         // What is remembered ends somewhere: in free space before the surface begins.
         const double covered = memory->covered_around(local);
@@ -97,6 +98,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
             take(pack, tangents, least_distances(tangents, center));
         });
+        saw_all_ = saw_all_ && others >= rest();
     }
     broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
 }

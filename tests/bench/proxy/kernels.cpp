@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/geometry/pack_memory.hpp"
 #include "core/geometry/triangle_tree.hpp"
 #include "core/haptics/constrained_step.hpp"
 #include "core/haptics/nearest_in_halfspaces.hpp"
@@ -86,8 +87,9 @@ void measure_kernels(const shared::SpanClock& clock, int rounds, shared::Report&
     kernels.measure("tree_nearest", [&](int i) { return tree.nearest(way(i).start, 2.0 * radius).distance; });
     kernels.measure("tree_least_distance", [&](int i) { return tree.least_distance(1.5 * way(i).start); });
     kernels.measure("tree_gather", [&](int i) {
-        std::array<FoundPack, 1024> packs;
-        return static_cast<double>(tree.packs_within(way(i).start, 1.02 * radius, packs).count);
+        std::array<FoundPack, PackMemory::capacity> packs;
+        WorkBudget work(plenty);
+        return tree.packs_around(way(i).start, 1.02 * radius, work, packs).radius;
     });
     kernels.measure("tree_sweep", [&](int i) {
         WorkBudget work(plenty);

@@ -72,6 +72,8 @@ Extent extent_of(const TriangleMesh& mesh) {
     return {0.5 * (low + high), 0.5 * glm::length(high - low)};
 }
 
+constexpr std::int64_t plenty = 1'000'000;
+
 double rounding(const TriangleTree& tree) {
     return 1e-14 * std::max(1.0, tree.magnitude());
 }
@@ -92,14 +94,15 @@ TEST(TriangleTree, NearestDistanceIsThatOfBruteForce) {
 TEST(TriangleTree, FindsEveryPackWithinReach) {
     RandomValues random(42);
     std::vector<FoundPack> found(4096);
+    WorkBudget work(plenty);
     for (const Sample& sample : samples()) {
         const TriangleTree tree = TriangleTree::build(sample.mesh);
         const Extent extent = extent_of(sample.mesh);
         for (int i = 0; i < 100; ++i) {
             const Vec3 p = extent.center + random.in_ball(1.5 * extent.radius);
             const double reach = extent.radius * random.magnitude(1e-3, 1.0);
-            const FoundPacks result = tree.packs_within(p, reach, found);
-            ASSERT_TRUE(result.complete);
+            const FoundPacks result = tree.packs_around(p, reach, work, found);
+            ASSERT_GE(result.radius, reach * (1.0 - 1e-6));
             std::set<std::uint32_t> ids;
             for (std::size_t k = 0; k < result.count; ++k) {
                 const auto lanes = tree.triangle_ids(found[k].pack);
@@ -158,10 +161,45 @@ TEST(TriangleTree, AVertexThatNoTriangleUsesCostsNoPrecision) {
     EXPECT_LT(tree.radius(), 1.3);
 }
 
-TEST(TriangleTree, SaysWhenThereWereMorePacksThanRoom) {
-    const TriangleTree tree = TriangleTree::build(shared::icosphere(3, 1.0));
-    std::vector<FoundPack> room(3);
-    EXPECT_FALSE(tree.packs_within(Vec3(0.0), 1.1, room).complete);
+// What does not fit, or is not looked at, lies beyond the radius that is said.
+TEST(TriangleTree, SaysHowFarThePacksThatFitReach) {
+    RandomValues random(47);
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        for (int i = 0; i < 50; ++i) {
+            const Vec3 p = extent.center + random.in_ball(1.5 * extent.radius);
+            std::vector<FoundPack> room(static_cast<std::size_t>(1 + random.below(12)));
+            WorkBudget work(random.flip() ? plenty : 30);
+            const FoundPacks result = tree.packs_around(p, extent.radius, work, room);
+            std::set<std::uint32_t> ids;
+            for (std::size_t k = 0; k < result.count; ++k) {
+                const auto lanes = tree.triangle_ids(room[k].pack);
+                ids.insert(lanes.begin(), lanes.end());
+            }
+            for (std::size_t t = 0; t < sample.mesh.triangles.size(); ++t) {
+                const bool is_found = ids.contains(static_cast<std::uint32_t>(t));
+                ASSERT_TRUE(is_found || shared::slow_distance(p, shared::corners_of(sample.mesh, t)) >=
+                                            result.radius - rounding(tree))
+                    << sample.name << ", triangle " << t;
+            }
+        }
+    }
+}
+
+// Of a fine surface only what is about as near as the nearest, whichever way it faces: not all that boxes
+// around its pieces protrude to.
+TEST(TriangleTree, BesideATouchFewPacksAreFound) {
+    constexpr double radius = 0.05;
+    RandomValues random(48);
+    const TriangleTree tree = TriangleTree::build(shared::icosphere(6, 1.0));
+    std::vector<FoundPack> found(4096);
+    for (int i = 0; i < 100; ++i) {
+        WorkBudget work(plenty);
+        const Vec3 center = (1.0 + radius) * random.direction();
+        const FoundPacks packs = tree.packs_around(center, radius * (1.0 + 1e-3), work, found);
+        EXPECT_LE(packs.count, 8u);  // it touches one, and reaches an edge of 0.018 in the next ones
+    }
 }
 
 TEST(TriangleTree, LeastDistanceIsALowerBoundAndAtLeastHalf) {
@@ -281,8 +319,9 @@ TEST(TriangleTree, TheRunnerDoesNotChangeTheTree) {
     std::vector<FoundPack> first(4096), second(4096);
     for (int i = 0; i < 500; ++i) {
         const Vec3 p(random.between(-5.0, 5.0), random.between(-1.0, 1.0), random.between(-5.0, 5.0));
-        const FoundPacks a = serial.packs_within(p, 0.3, first);
-        const FoundPacks b = parallel.packs_within(p, 0.3, second);
+        WorkBudget work(plenty);
+        const FoundPacks a = serial.packs_around(p, 0.3, work, first);
+        const FoundPacks b = parallel.packs_around(p, 0.3, work, second);
         ASSERT_EQ(a.count, b.count);
         ASSERT_EQ(serial.nearest(p, 1.0).distance, parallel.nearest(p, 1.0).distance);
         for (std::size_t k = 0; k < a.count; ++k) {
