@@ -10,6 +10,7 @@
 #include "devices/driver_device.hpp"
 #include "devices/falcon/falcon_driver.hpp"
 #include "platform/sleep.hpp"
+#include "played/played_stall.hpp"
 #include "played/played_usb.hpp"
 
 namespace tactus {
@@ -120,6 +121,24 @@ TEST(PlayedFalcon, AStalledLoopLetsTheHandGo) {
     }
     EXPECT_EQ(usb.force(), Vec3(0.0));
     EXPECT_TRUE(usb.running());
+}
+
+// Whatever its thread was just doing, and also where the force was let go of and on again a moment before.
+TEST(PlayedFalcon, AStalledDriverIsLetGoOfEachTime) {
+    shared::PlayedUsbSettings played;
+    played.falcon.torque_time = 3'600'000 * ms;  // it is no other's doing
+    PlayedUsb usb(played);
+    usb.plug();
+    const auto device = falcon();
+    RandomValues random(11);
+    for (int times = 0; times < 40; ++times) {
+        ASSERT_TRUE(
+            tick_until(*device, {0.0, 3.0, 0.0}, [&](const DeviceSample&) { return usb.force().y > 2.5; }));
+        const Nanoseconds end = monotonic_now() + static_cast<Nanoseconds>(random.between(1e6, 4e6));
+        tick_until(*device, {0.0, 3.0, 0.0}, [end](const auto&) { return monotonic_now() > end; });
+        const shared::StalledThread stalled("tactus-device");
+        ASSERT_TRUE(tick_until(*device, {0.0, 3.0, 0.0}, [&](const auto&) { return usb.is_let_go(); }));
+    }
 }
 
 TEST(PlayedFalcon, StartsWhereAThirdOfAllTransfersFail) {
