@@ -130,7 +130,7 @@ TEST(PlayedFalcon, AStalledDriverIsLetGoOfEachTime) {
     PlayedUsb usb(played);
     usb.plug();
     const auto device = falcon();
-    RandomValues random(11);
+    shared::RandomValues random(11);
     for (int times = 0; times < 40; ++times) {
         ASSERT_TRUE(
             tick_until(*device, {0.0, 3.0, 0.0}, [&](const DeviceSample&) { return usb.force().y > 2.5; }));
@@ -179,6 +179,8 @@ TEST(PlayedFalcon, TwoOfThemAreTwoHands) {
     right.plug();
     left.mean({-0.02, 0.0, 0.0});
     right.mean({0.02, 0.0, 0.0});
+    const auto on_neither = falcon(with_firmware("usb1-9"));
+    EXPECT_TRUE(says(*on_neither, "set 'device_id' to one of usb1-1, usb1-2"));
     const auto on_second = falcon(with_firmware("usb1-2"));
     EXPECT_TRUE(tick_until(*on_second, Vec3(0.0), [](const DeviceSample& sample) {
         return sample.connected && sample.position.x > 0.015;
