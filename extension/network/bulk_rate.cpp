@@ -35,7 +35,7 @@ void BulkRate::adapt(Endpoint& link, Nanoseconds now, bool wanted) {
             rate_ = std::max(min_rate, 0.5 * rate_);
             changed_at_ = now;
         }
-    } else if (used_up_) {
+    } else if (used_up_ && way.waiting <= queue) {
         rise(link);
         changed_at_ = now;
         used_up_ = false;

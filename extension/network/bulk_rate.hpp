@@ -1,9 +1,9 @@
 // How fast a side sends what can wait, the descriptions, so that it queues up before nothing that cannot.
 //
-// The rate rises until requests for the time find a queue (queue_watch.hpp), and is halved then. What a rate
-// does shows in requests that were sent a while after it, and is known when three of them have been answered:
-// after T. A rise by the share g makes at most g T of queue until then, so at first g is what makes 20 ms of
-// it, and once a queue has been met an eighth.
+// The rate rises until requests for the time find a queue (queue_watch.hpp), and is halved then; while what
+// they find may be chance it stays. What a rate does shows in requests that were sent a while after it, and
+// is known when three of them have been answered: after T. A rise by the share g makes at most g T of queue
+// until then, so at first g is what makes 20 ms of it, and once a queue has been met an eighth.
 #pragma once
 
 #include <cstddef>

@@ -87,8 +87,8 @@ void ClockSync::keep(const Kept& sample) {
         }
         return;
     }
-    newest_ = count_ == 0 ? 0 : (newest_ + 1) % most_kept;
-    count_ = std::min(count_ + 1, most_kept);
+    newest_ = count_ == 0 ? 0 : (newest_ + 1) % max_kept;
+    count_ = std::min(count_ + 1, max_kept);
     kept_[newest_] = sample;
     stretch_began_ = sample.here;
 }
@@ -97,7 +97,7 @@ void ClockSync::keep(const Kept& sample) {
 const ClockSync::Kept& ClockSync::best() const {
     const Kept* found = &kept_[newest_];
     for (std::size_t back = 1; back < count_; ++back) {
-        const Kept& kept = kept_[(newest_ + most_kept - back) % most_kept];
+        const Kept& kept = kept_[(newest_ + max_kept - back) % max_kept];
         found = kept.delay < found->delay ? &kept : found;
     }
     return *found;

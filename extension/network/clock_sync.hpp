@@ -66,7 +66,7 @@ private:
         Nanoseconds delay = 0;
     };
 
-    static constexpr std::size_t most_kept = 16;
+    static constexpr std::size_t max_kept = 16;
 
     Nanoseconds offset_at(Nanoseconds here) const;
     bool contradicts(const Kept& sample) const;
@@ -77,7 +77,7 @@ private:
     void note_delay(Nanoseconds delay);
 
     Nanoseconds stretch_;
-    std::array<Kept, most_kept> kept_{};  // a ring: the best of each stretch
+    std::array<Kept, max_kept> kept_{};  // a ring: the best of each stretch
     std::size_t count_ = 0;
     std::size_t newest_ = 0;
     Nanoseconds stretch_began_ = 0;

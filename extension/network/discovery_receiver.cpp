@@ -7,7 +7,7 @@
 namespace tactus {
 namespace {
 
-constexpr std::size_t most_removals_remembered = 65'536;
+constexpr std::size_t max_removals_remembered = 65'536;
 
 }  // namespace
 
@@ -97,7 +97,7 @@ void DiscoveryReceiver::take_fragment(const Piece& piece) {
         return;
     }
     object->touched = pieces_taken_;
-    const std::uint32_t number = piece.offset / most_fragment_bytes;
+    const std::uint32_t number = piece.offset / max_fragment_bytes;
     if (object->pieces.contains(number)) {
         ++counts_.repeated;
         return;
@@ -107,8 +107,8 @@ void DiscoveryReceiver::take_fragment(const Piece& piece) {
         return;
     }
     object->pieces[number].assign(piece.bytes.begin(), piece.bytes.begin() + piece.size);
-    incomplete_bytes_ += most_fragment_bytes;
-    if (object->pieces.size() == (piece.total_bytes + most_fragment_bytes - 1) / most_fragment_bytes) {
+    incomplete_bytes_ += max_fragment_bytes;
+    if (object->pieces.size() == (piece.total_bytes + max_fragment_bytes - 1) / max_fragment_bytes) {
         begin_reading(piece.object, *object);
     }
 }
@@ -152,11 +152,11 @@ void DiscoveryReceiver::no_room_for(const Piece& piece) {
 // For another object (null), or for a piece of `object`.
 bool DiscoveryReceiver::has_room(const Object* object) const {
     if (object == nullptr) {
-        return objects_.size() < settings_.most_objects;
+        return objects_.size() < settings_.max_objects;
     }
-    const bool has_most = object->pieces.size() * most_fragment_bytes > settings_.most_incomplete_bytes / 2;
-    const std::size_t room = settings_.most_incomplete_bytes + (has_most ? object->total_bytes : 0);
-    return incomplete_bytes_ + most_fragment_bytes <= room;
+    const bool has_most = object->pieces.size() * max_fragment_bytes > settings_.max_incomplete_bytes / 2;
+    const std::size_t room = settings_.max_incomplete_bytes + (has_most ? object->total_bytes : 0);
+    return incomplete_bytes_ + max_fragment_bytes <= room;
 }
 
 bool DiscoveryReceiver::make_room(const Object* object) {
@@ -180,7 +180,7 @@ bool DiscoveryReceiver::make_room(const Object* object) {
 
 // Forgets the pieces of what is incomplete.
 void DiscoveryReceiver::release(Object& object) {
-    incomplete_bytes_ -= object.pieces.size() * most_fragment_bytes;
+    incomplete_bytes_ -= object.pieces.size() * max_fragment_bytes;
     object.pieces.clear();
 }
 
@@ -204,7 +204,7 @@ void DiscoveryReceiver::begin_reading(ObjectId id, Object& object) {
 void DiscoveryReceiver::read(Reading& reading) {
     std::vector<std::byte> bytes(reading.total_bytes);
     for (const auto& [number, piece] : reading.pieces) {
-        std::memcpy(bytes.data() + number * most_fragment_bytes, piece.data(), piece.size());
+        std::memcpy(bytes.data() + number * max_fragment_bytes, piece.data(), piece.size());
     }
     if (content_hash(bytes) == reading.hash) {
         reading.result = understand(bytes, reading) ? Reading::Result::good : Reading::Result::refused;
@@ -224,7 +224,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::take_read() {
     while (!readings_.empty() && readings_.front()->done.load(std::memory_order_acquire)) {
         const std::shared_ptr<Reading> reading = std::move(readings_.front());
         readings_.pop_front();
-        incomplete_bytes_ -= reading->pieces.size() * most_fragment_bytes;
+        incomplete_bytes_ -= reading->pieces.size() * max_fragment_bytes;
         if (std::optional<DiscoveryEvent> event = accept(*reading)) {
             return event;
         }
@@ -261,7 +261,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::remove(const Piece& piece) {
     if (is_outdated(piece)) {
         return std::nullopt;
     }
-    if (removed_.size() >= most_removals_remembered) {
+    if (removed_.size() >= max_removals_remembered) {
         removed_.erase(removed_.begin());
     }
     removed_[piece.object] = piece.revision;

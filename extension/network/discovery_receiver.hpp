@@ -24,9 +24,9 @@ namespace tactus {
 
 struct DiscoverySettings {
     std::size_t pieces_waiting = 256;  // between haptic thread and owner; the rest is sent again
-    std::size_t most_objects = 4096;   // known or incomplete at once
+    std::size_t max_objects = 4096;    // known or incomplete at once
     // Of pieces of all descriptions that are not read yet. One that has got most of it may go on to its end.
-    std::size_t most_incomplete_bytes = 6 << 20;
+    std::size_t max_incomplete_bytes = 6 << 20;
 };
 
 struct DiscoveryEvent {
@@ -92,7 +92,7 @@ private:
         std::uint32_t total_bytes = 0;
         std::uint32_t offset = 0;
         std::uint32_t size = 0;
-        std::array<std::byte, most_fragment_bytes> bytes;
+        std::array<std::byte, max_fragment_bytes> bytes;
     };
 
     // Pieces that have come, by their number.

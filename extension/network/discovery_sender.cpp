@@ -145,7 +145,7 @@ void DiscoverySender::fill(Entry& entry, Nanoseconds now, Message& message) {
     entry.under_way = prepared.content->size();
     under_way_ += entry.under_way;
     const auto total = static_cast<std::uint32_t>(prepared.content->size());
-    const auto size = std::min(static_cast<std::uint32_t>(most_fragment_bytes), total - entry.offset);
+    const auto size = std::min(static_cast<std::uint32_t>(max_fragment_bytes), total - entry.offset);
     message = DiscoveryFragment{prepared.object, entry.revision,
                                 prepared.hash,   total,
                                 entry.offset,    std::span(*prepared.content).subspan(entry.offset, size)};

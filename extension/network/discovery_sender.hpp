@@ -35,7 +35,7 @@ struct DiscoveryCounts {
 
 class DiscoverySender {
 public:
-    explicit DiscoverySender(std::size_t most_objects = 4096) { entries_.reserve(most_objects); }
+    explicit DiscoverySender(std::size_t max_objects = 4096) { entries_.reserve(max_objects); }
 
     // Describes a new object, or a known one anew. `prepared` comes back with what is to be destroyed off the
     // loop. False where there is no room. An id that was withdrawn may be described again: another object.

@@ -71,7 +71,7 @@ void Doorman::answer(Nanoseconds now) {
         return;
     }
     next_look_ = now + look_every;
-    std::array<std::byte, most_datagram_bytes> bytes;
+    std::array<std::byte, max_datagram_bytes> bytes;
     IpAddress from;
     for (int i = 0; i < answers_a_look; ++i) {
         const std::size_t came = receive_udp_from(socket_, bytes, from);

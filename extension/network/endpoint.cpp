@@ -41,7 +41,7 @@ void Endpoint::begin_tick(Nanoseconds now) {
 }
 
 const Endpoint::Received* Endpoint::receive() {
-    while (taken_this_tick_ < most_datagrams_per_tick) {
+    while (taken_this_tick_ < max_datagrams_per_tick) {
         const ReceivedDatagram datagram = link_.receive(buffer_, now_);
         if (!datagram) {
             return nullptr;
@@ -128,7 +128,7 @@ bool Endpoint::admit_epoch(const PacketHeader& header) {
 // An epoch is over for good when another one has proved itself: until then it may come back.
 void Endpoint::end_epoch_before() {
     if (epoch_before_ != 0) {
-        past_[past_count_++ % most_past] = {std::exchange(epoch_before_, 0), now_};
+        past_[past_count_++ % max_past] = {std::exchange(epoch_before_, 0), now_};
     }
 }
 
@@ -274,7 +274,7 @@ void Endpoint::note_one_way(Nanoseconds sent_at, Nanoseconds arrived) {
 }
 
 bool Endpoint::send(const Message& message) {
-    std::array<std::byte, most_message_bytes> bytes;
+    std::array<std::byte, max_message_bytes> bytes;
     const std::size_t size = encode({settings_.epoch, sequence_ + 1, local_now_}, message, bytes);
     if (size == 0 || !link_.send(std::span(bytes).first(size), now_)) {
         ++statistics_.not_sent;

@@ -76,7 +76,7 @@ struct LinkStatistics {
 class Endpoint {
 public:
     // At most so many datagrams are taken in one tick; the rest waits.
-    static constexpr int most_datagrams_per_tick = 128;
+    static constexpr int max_datagrams_per_tick = 128;
     // Between two requests for the time, where it is asked for often.
     static constexpr Nanoseconds often_every = 20'000'000;
 
@@ -122,6 +122,7 @@ public:
     std::uint64_t epoch() const { return settings_.epoch; }
     std::uint64_t peer_epoch() const { return statistics_.peer_epoch; }
     const ClockSync& clock() const { return clock_; }
+    std::size_t overhead() const { return link_.overhead(); }  // of a packet (unit: bytes)
     const LinkStatistics& statistics() const { return statistics_; }
 
 private:
@@ -155,15 +156,15 @@ private:
     std::uint64_t epoch_packets_ = 0;   // of the far side's present epoch that have come
     std::uint64_t reported_packets_ = 0, reported_sequence_ = 0;  // by its last hello
     Received received_;
-    std::array<std::byte, most_datagram_bytes> buffer_;
+    std::array<std::byte, max_datagram_bytes> buffer_;
 
     // Epochs that are over: a packet of theirs that was held up somewhere brings none of them back.
-    static constexpr std::size_t most_past = 32;
+    static constexpr std::size_t max_past = 32;
     struct PastEpoch {
         std::uint64_t epoch = 0;
         Nanoseconds over_at = 0;
     };
-    std::array<PastEpoch, most_past> past_{};
+    std::array<PastEpoch, max_past> past_{};
     std::size_t past_count_ = 0;
     std::uint64_t epoch_before_ = 0;  // the one before the present one, which has not proved itself; 0: none
 

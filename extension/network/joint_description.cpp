@@ -8,7 +8,7 @@ namespace tactus {
 namespace {
 
 // More than any of them: three numbers, two poses, a kind, twelve limits, a motor and a flag.
-constexpr std::size_t most_bytes = 256;
+constexpr std::size_t max_bytes = 256;
 
 void range_fields(auto& s, auto& range, double most) {
     s.real(range.lower, -most, most);
@@ -48,7 +48,7 @@ void joint_fields(Stream& s, auto& described) {
 }  // namespace
 
 std::vector<std::byte> encode_joint(const ObjectJoint& joint) {
-    std::vector<std::byte> bytes(most_bytes);
+    std::vector<std::byte> bytes(max_bytes);
     WireWriter writer(bytes);
     joint_fields(writer, joint);
     bytes.resize(writer.good() ? writer.written() : 0);

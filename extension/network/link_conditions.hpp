@@ -69,9 +69,9 @@ struct LinkConditions {
     Nanoseconds reorder_by = 10'000'000;  // >= 0
 
     // The rate of the narrowest place (unit: bits of datagram a second); 0: no limit. What would have to wait
-    // there longer than `most_waiting` is lost.
+    // there longer than `max_waiting` is lost.
     double rate = 0.0;
-    Nanoseconds most_waiting = 200'000'000;
+    Nanoseconds max_waiting = 200'000'000;
 };
 
 }  // namespace tactus

@@ -15,7 +15,7 @@ struct LinkEmulator::Luck {
 
 namespace {
 
-constexpr int most_at_once = 1024;
+constexpr int max_at_once = 1024;
 constexpr Nanoseconds beginning = std::numeric_limits<Nanoseconds>::min();
 
 // splitmix64 (Steele, Lea & Flood 2014), begun anew for every datagram from the seed and its number.
@@ -93,7 +93,7 @@ ReceivedDatagram LinkEmulator::receive(std::span<std::byte> into, Nanoseconds no
 // Takes over what the link below has; a flood is spread over ticks. One slot stays free to look at the next
 // datagram in.
 void LinkEmulator::admit(Nanoseconds now) {
-    for (int i = 0; i < most_at_once; ++i) {
+    for (int i = 0; i < max_at_once; ++i) {
         const std::uint32_t slot = free_.back();
         Datagram& datagram = slots_[slot];
         const ReceivedDatagram received = inner_.receive(datagram.bytes, now);
@@ -158,7 +158,7 @@ bool LinkEmulator::pass_narrow_place(std::size_t bytes, Nanoseconds& time) {
         return true;
     }
     const Nanoseconds begins = std::max(time, line_free_);
-    if (begins - time > conditions_.most_waiting) {
+    if (begins - time > conditions_.max_waiting) {
         return false;
     }
     line_free_ = begins + from_seconds(8.0 * static_cast<double>(bytes) / conditions_.rate);

@@ -12,7 +12,7 @@
 namespace tactus {
 
 struct Datagram {
-    std::array<std::byte, most_datagram_bytes> bytes;
+    std::array<std::byte, max_datagram_bytes> bytes;
     std::size_t size = 0;
     Nanoseconds arrived = 0;
 };
@@ -38,7 +38,7 @@ inline ReceivedDatagram take_oldest(DatagramRing& ring, std::span<std::byte> int
 
 // False where `datagram` is empty, too long or finds no room.
 inline bool put_newest(DatagramRing& ring, std::span<const std::byte> datagram, Nanoseconds arrived) {
-    if (datagram.empty() || datagram.size() > most_datagram_bytes) {
+    if (datagram.empty() || datagram.size() > max_datagram_bytes) {
         return false;
     }
     Datagram newest;

@@ -74,12 +74,12 @@ void fields(Stream& s, auto& m, const DiscoveryFragment&) {
     hash_fields(s, m.hash);
     s.integer(m.total_bytes);
     s.integer(m.offset);
-    s.require(m.object != no_object && m.total_bytes >= 1 && m.total_bytes <= most_description_bytes);
-    s.require(m.offset < m.total_bytes && m.offset % most_fragment_bytes == 0);
+    s.require(m.object != no_object && m.total_bytes >= 1 && m.total_bytes <= max_description_bytes);
+    s.require(m.offset < m.total_bytes && m.offset % max_fragment_bytes == 0);
     if (!s.good()) {
         return;
     }
-    const std::size_t size = std::min<std::size_t>(most_fragment_bytes, m.total_bytes - m.offset);
+    const std::size_t size = std::min<std::size_t>(max_fragment_bytes, m.total_bytes - m.offset);
     if constexpr (Stream::reads) {
         m.bytes = s.bytes(size);
     } else {
@@ -109,7 +109,7 @@ void fields(Stream& s, auto& m, const ObjectStates&) {
     s.time_near(m.true_at);
     s.varint(m.newest_operator_sample);
     s.integer(m.count);
-    s.require(m.count <= ObjectStates::most && m.newest_operator_sample <= plausible::max_sequence);
+    s.require(m.count <= ObjectStates::max_count && m.newest_operator_sample <= plausible::max_sequence);
     for (std::size_t i = 0; s.good() && i < m.count; ++i) {
         object_state_fields(s, m.states[i]);
     }
@@ -121,7 +121,7 @@ void fields(Stream& s, auto& m, const OperatorSamples&) {
     s.varint(period);
     s.require(period > 0 && period <= static_cast<std::uint64_t>(plausible::max_period));
     s.integer(m.count);
-    s.require(m.count >= 1 && m.count <= OperatorSamples::most);
+    s.require(m.count >= 1 && m.count <= OperatorSamples::max_count);
     if constexpr (Stream::reads) {
         m.period = s.good() ? static_cast<Nanoseconds>(period) : 1;
     }
@@ -131,7 +131,7 @@ void fields(Stream& s, auto& m, const OperatorSamples&) {
 template <typename Stream>
 void fields(Stream& s, auto& m, const ForceSamples&) {
     s.integer(m.count);
-    s.require(m.count >= 1 && m.count <= ForceSamples::most);
+    s.require(m.count >= 1 && m.count <= ForceSamples::max_count);
     for (std::size_t i = 0; s.good() && i < m.count; ++i) {
         force_sample_fields(s, m.samples[i]);
     }
@@ -206,7 +206,7 @@ Vec3 velocity_as_sent(const Vec3& velocity) {
 }
 
 std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into) {
-    WireWriter writer(into.first(std::min(into.size(), most_message_bytes)));
+    WireWriter writer(into.first(std::min(into.size(), max_message_bytes)));
     writer.integer(packet_magic);
     writer.integer(wire_version);
     writer.integer(static_cast<std::uint8_t>(message.index() + 1));
@@ -227,7 +227,7 @@ Refusal decode(std::span<const std::byte> datagram, Packet& packet) {
     if (reader.good() && (version < oldest_wire_version || version > wire_version)) {
         return Refusal::wrong_version;
     }
-    if (datagram.size() > most_message_bytes) {
+    if (datagram.size() > max_message_bytes) {
         return Refusal::oversized;
     }
     reader.integer(type);

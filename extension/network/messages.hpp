@@ -24,9 +24,9 @@
 
 namespace tactus {
 
-inline constexpr std::uint8_t wire_version = 2;
+inline constexpr std::uint8_t wire_version = 3;
 // The oldest one that is still understood, both as reader and as writer.
-inline constexpr std::uint8_t oldest_wire_version = 2;
+inline constexpr std::uint8_t oldest_wire_version = 3;
 
 // Given by the teleoperator. One that was removed may be given to another object, with a higher revision.
 using ObjectId = std::uint32_t;
@@ -84,17 +84,17 @@ struct ClockAnswer {
 // 128 bits of BLAKE2b over the bytes of a description: what was described, and whether all of it arrived.
 using ContentHash = std::array<std::uint8_t, 16>;
 
-// A piece of an encoded ObjectDescription. All pieces but the last are of most_fragment_bytes.
+// A piece of an encoded ObjectDescription. All pieces but the last are of max_fragment_bytes.
 struct DiscoveryFragment {
     ObjectId object = no_object;
     std::uint32_t revision = 0;  // the highest for an object is the one that holds
     ContentHash hash{};
-    std::uint32_t total_bytes = 0;     // of the whole description, 1 … most_description_bytes
-    std::uint32_t offset = 0;          // of this piece in it, a multiple of most_fragment_bytes
+    std::uint32_t total_bytes = 0;     // of the whole description, 1 … max_description_bytes
+    std::uint32_t offset = 0;          // of this piece in it, a multiple of max_fragment_bytes
     std::span<const std::byte> bytes;  // points into the datagram
 };
-inline constexpr std::size_t most_fragment_bytes = 1024;
-inline constexpr std::uint32_t most_description_bytes = 16u << 20;
+inline constexpr std::size_t max_fragment_bytes = 1024;
+inline constexpr std::uint32_t max_description_bytes = 16u << 20;
 
 // The object does not exist any more. `hash`: of its last description.
 struct ObjectRemoval {
@@ -127,12 +127,12 @@ struct ObjectState {
 // Newest wins, for each object: the one with the later `true_at`. States of more objects than one message
 // holds follow in further messages of the same times.
 struct ObjectStates {
-    static constexpr std::size_t most = 16;
+    static constexpr std::size_t max_count = 16;
 
     Nanoseconds true_at = 0;                            // after the tick of this time
     SampleSequence newest_operator_sample = no_sample;  // that had been applied by then
-    std::uint8_t count = 0;                             // 0 … most
-    std::array<ObjectState, most> states{};
+    std::uint8_t count = 0;                             // 0 … max_count
+    std::array<ObjectState, max_count> states{};
 };
 
 // The hand at one tick of the operator.
@@ -162,11 +162,11 @@ Vec3 velocity_as_sent(const Vec3& velocity);
 // Of any pointers: the newest sample and, where the sender wants to survive losses, some older ones. What
 // follows a sample of the same pointer is told as what differs from it: newest first takes fewest bytes.
 struct OperatorSamples {
-    static constexpr std::size_t most = 16;
+    static constexpr std::size_t max_count = 16;
 
     Nanoseconds period = 1'000'000;  // of the sender's tick, > 0
-    std::uint8_t count = 0;          // 1 … most
-    std::array<OperatorSample, most> samples{};
+    std::uint8_t count = 0;          // 1 … max_count
+    std::array<OperatorSample, max_count> samples{};
 };
 
 // The force that the far side gives back to a pointer (scenarios 2 and 3).
@@ -180,10 +180,10 @@ struct ForceSample {
 };
 
 struct ForceSamples {
-    static constexpr std::size_t most = 16;
+    static constexpr std::size_t max_count = 16;
 
-    std::uint8_t count = 0;  // 1 … most
-    std::array<ForceSample, most> samples{};
+    std::uint8_t count = 0;  // 1 … max_count
+    std::array<ForceSample, max_count> samples{};
 };
 
 // A fingertip of another operator in the same environment: something to be seen, nothing to be felt.
@@ -235,7 +235,7 @@ struct RefusalCounts {
     std::uint64_t total() const;  // without `none`
 };
 
-// The bytes written, at most most_message_bytes; 0 where `into` is too short or the message breaks a range
+// The bytes written, at most max_message_bytes; 0 where `into` is too short or the message breaks a range
 // that is documented above (a NaN from a broken device must not travel).
 std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into);
 
@@ -245,16 +245,16 @@ Refusal decode(std::span<const std::byte> datagram, Packet& packet);
 // Everything the far side needs to build an object of its own.
 struct ObjectDescription {
     ObjectId object = no_object;
-    std::string name;  // UTF-8, at most most_name_bytes: the node's path below its HapticWorld
+    std::string name;  // UTF-8, at most max_name_bytes: the node's path below its HapticWorld
     BodyDescription body;
     std::vector<PlacedShape> touch_shapes;  // what is touched, in the body's frame; empty: the body's shapes
     TouchMaterial touch;                    // its texture, if any, points to `texture`
     std::shared_ptr<const HeightImage> texture;
 };
-inline constexpr std::size_t most_name_bytes = 1024;
+inline constexpr std::size_t max_name_bytes = 1024;
 
 // Off the loop. Empty where the description breaks a range (see docs/wire_format.md) or would be longer than
-// most_description_bytes.
+// max_description_bytes.
 std::vector<std::byte> encode_description(const ObjectDescription& description);
 
 // Off the loop. `description` is valid only where the result is none.

@@ -11,8 +11,8 @@
 namespace tactus {
 namespace {
 
-constexpr double no_limit = 1e12;          // above every stiffness, mass and friction there is
-constexpr std::size_t most_shapes = 4096;  // of one body
+constexpr double no_limit = 1e12;         // above every stiffness, mass and friction there is
+constexpr std::size_t max_shapes = 4096;  // of one body
 constexpr std::size_t least_bytes_per_shape = 57;
 constexpr std::size_t bytes_per_corner = 24;
 constexpr std::size_t bytes_per_triangle = 12;
@@ -41,9 +41,9 @@ bool is_utf8(std::string_view text) {
 template <typename Stream>
 void texts(Stream& s, auto& text) {
     auto size = static_cast<std::uint16_t>(text.size());
-    s.require(text.size() <= most_name_bytes);
+    s.require(text.size() <= max_name_bytes);
     s.integer(size);
-    s.require(size <= most_name_bytes);
+    s.require(size <= max_name_bytes);
     if constexpr (Stream::reads) {
         const std::span<const std::byte> bytes = s.bytes(s.good() ? size : 0);
         text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -79,12 +79,12 @@ void make_room([[maybe_unused]] auto& list, [[maybe_unused]] std::size_t size) {
 
 template <typename Stream>
 void mesh_fields(Stream& s, auto& mesh) {
-    const std::size_t corners = count(s, mesh.vertices.size(), most_description_bytes, bytes_per_corner);
+    const std::size_t corners = count(s, mesh.vertices.size(), max_description_bytes, bytes_per_corner);
     make_room<Stream>(mesh.vertices, corners);
     for (auto& corner : mesh.vertices) {
         s.vector(corner);
     }
-    const std::size_t triangles = count(s, mesh.triangles.size(), most_description_bytes, bytes_per_triangle);
+    const std::size_t triangles = count(s, mesh.triangles.size(), max_description_bytes, bytes_per_triangle);
     make_room<Stream>(mesh.triangles, triangles);
     for (auto& triangle : mesh.triangles) {
         for (auto& index : triangle) {
@@ -129,7 +129,7 @@ std::size_t grid_size(Stream& s, auto& columns, auto& rows, std::uint32_t least)
     s.integer(columns);
     s.integer(rows);
     const std::uint64_t size = std::uint64_t{columns} * rows;
-    s.require(columns >= least && rows >= least && size <= most_description_bytes);
+    s.require(columns >= least && rows >= least && size <= max_description_bytes);
     return s.good() ? static_cast<std::size_t>(size) : 0;
 }
 
@@ -189,7 +189,7 @@ void placed_shape(Stream& s, auto& placed) {
 
 template <typename Stream>
 void shape_list(Stream& s, auto& shapes) {
-    make_room<Stream>(shapes, count(s, shapes.size(), most_shapes, least_bytes_per_shape));
+    make_room<Stream>(shapes, count(s, shapes.size(), max_shapes, least_bytes_per_shape));
     for (auto& shape : shapes) {
         if (s.good()) {
             placed_shape(s, shape);
@@ -288,7 +288,7 @@ void description_fields(Stream& s, auto& description) {
 }  // namespace
 
 std::vector<std::byte> encode_description(const ObjectDescription& description) {
-    WireWriter measure = WireWriter::measuring(most_description_bytes);
+    WireWriter measure = WireWriter::measuring(max_description_bytes);
     description_fields(measure, description);
     if (!measure.good()) {
         return {};
@@ -300,7 +300,7 @@ std::vector<std::byte> encode_description(const ObjectDescription& description) 
 }
 
 Refusal decode_description(std::span<const std::byte> bytes, ObjectDescription& description) {
-    if (bytes.size() > most_description_bytes) {
+    if (bytes.size() > max_description_bytes) {
         return Refusal::oversized;
     }
     description = {};

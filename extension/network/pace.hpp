@@ -2,7 +2,8 @@
 //
 // Halved where what is on its way queues up and goes on doing so, or where much is lost and that makes it
 // less: of losses that stay as they are who sends is not the cause, and more packets are what helps. Doubled
-// again when neither has been so for two seconds, or longer where that was too much the last time.
+// again when neither has been so for two seconds, or longer where that was too much the last time; what then
+// queues up is halved twice.
 #pragma once
 
 #include "network/endpoint.hpp"

@@ -1,6 +1,6 @@
 // The fields of what is sent many times a second, in few bytes: positions in whole nanometers and the like,
 // as numbers of as many bytes as they need, and a sample that follows another one as what differs from it.
-// Private to messages.cpp; docs/wire_format.md, kinds 8 to 10.
+// Private to messages.cpp; docs/wire_format.md, kinds 8 to 11.
 #pragma once
 
 #include <array>
@@ -185,17 +185,42 @@ void ghost_fields(Stream& s, auto& m) {
     }
 }
 
-// A sample in whole numbers, as the next one of its pointer is told from it.
+// A sample in whole numbers.
 struct WholeSample {
     WholeVector position{}, velocity{}, force{}, relative{};
 };
 
-// Where the hand was `later` nanoseconds before, had it kept its velocity: 1e-6 m/s · 1e-9 s = 1e-6 · 1e-9 m.
-inline WholeVector carried_back(const WholeSample& sample, std::int64_t later) {
-    constexpr std::int64_t per_quantum = 1'000'000;
+// What a packet has told so far of a pointer, the newest first: the next sample is told from it.
+struct ToldSamples {
+    WholeSample last, before;
+    std::int64_t apart = 0;  // of the two (unit: samples); 0: `last` is the first
+};
+
+// What has changed evenly goes on doing so.
+inline WholeVector carried_on(const WholeVector& last, const WholeVector& before, bool evenly) {
+    WholeVector result = last;
+    for (std::size_t i = 0; evenly && i < 3; ++i) {
+        result[i] += last[i] - before[i];
+    }
+    return result;
+}
+
+inline WholeSample expected_from(const ToldSamples& told, std::int64_t apart) {
+    const bool evenly = told.apart == apart;
+    WholeSample expected;
+    expected.velocity = carried_on(told.last.velocity, told.before.velocity, evenly);
+    expected.force = carried_on(told.last.force, told.before.force, evenly);
+    expected.relative = carried_on(told.last.relative, told.before.relative, evenly);
+    return expected;
+}
+
+// Where the hand was `later` nanoseconds before, had its velocity changed evenly since: 1e-6 m/s times 1e-9 s
+// is a millionth of 1e-9 m.
+inline WholeVector carried_back(const WholeSample& from, const WholeVector& velocity, std::int64_t later) {
+    constexpr std::int64_t per_quantum = 2'000'000;  // of the sum of two velocities
     WholeVector result{};
     for (std::size_t i = 0; i < 3; ++i) {
-        result[i] = sample.position[i] - sample.velocity[i] * later / per_quantum;
+        result[i] = from.position[i] - (from.velocity[i] + velocity[i]) * later / per_quantum;
     }
     return result;
 }
@@ -207,7 +232,8 @@ enum SampleFlag : std::uint8_t {
     sample_force = 8,
     sample_nearest = 16,
     sample_time = 32,  // is not taken when its place in the sequence says
-    sample_known = 63,
+    sample_next = 64,  // follows, and is of the tick just before
+    sample_known = 127,
 };
 
 // The farthest that a sample is told from another one (unit: nanoseconds).
@@ -220,7 +246,7 @@ inline bool can_follow(const OperatorSample& before, const OperatorSample& sampl
 
 // One sample; `before`: the one that stands before it in the packet, null for the first.
 template <typename Stream, typename Sample>
-void operator_sample(Stream& s, Sample& m, const OperatorSample* before, WholeSample& number,
+void operator_sample(Stream& s, Sample& m, const OperatorSample* before, ToldSamples& told,
                      Nanoseconds period) {
     std::uint8_t flags = 0;
     Nanoseconds expected_time = s.sent_at();
@@ -231,20 +257,23 @@ void operator_sample(Stream& s, Sample& m, const OperatorSample* before, WholeSa
         expected_time = follows ? before->time - apart * period : expected_time;
         flags = static_cast<std::uint8_t>(
             (m.connected ? sample_connected : 0) | (follows ? sample_follows : 0) |
-            (m.buttons != 0 ? sample_buttons : 0) | (m.force != Vec3(0.0) ? sample_force : 0) |
-            (m.nearest_object != no_object ? sample_nearest : 0) |
+            (apart == 1 ? sample_next : 0) | (m.buttons != 0 ? sample_buttons : 0) |
+            (m.force != Vec3(0.0) ? sample_force : 0) | (m.nearest_object != no_object ? sample_nearest : 0) |
             (m.time != expected_time ? sample_time : 0));
     }
     s.integer(flags);
     s.require((flags & ~sample_known) == 0);
     const bool follows = (flags & sample_follows) != 0;
-    s.require(!follows || before != nullptr);
+    const bool is_next = (flags & sample_next) != 0;
+    s.require((!follows || before != nullptr) && (follows || !is_next));
     std::uint64_t pointer = m.pointer;
-    std::uint64_t place = follows ? static_cast<std::uint64_t>(apart) : m.sequence;
+    std::uint64_t place = is_next ? 1 : follows ? static_cast<std::uint64_t>(apart) : m.sequence;
     if (follows && s.good()) {
-        s.varint(place);
-        s.require(place >= 1 && place <= static_cast<std::uint64_t>(max_sample_step / period) &&
-                  place < before->sequence);
+        if (!is_next) {
+            s.varint(place);
+            s.require(place >= 2);
+        }
+        s.require(place <= static_cast<std::uint64_t>(max_sample_step / period) && place < before->sequence);
     } else {
         s.varint(pointer);
         s.varint(place);
@@ -270,25 +299,26 @@ void operator_sample(Stream& s, Sample& m, const OperatorSample* before, WholeSa
     if constexpr (Stream::reads) {
         m.time = s.good() ? expected_time + beside : 0;
     }
-    const WholeSample from = follows ? number : WholeSample{};
-    whole_fields(s, m.position, number.position, carried_back(from, apart * period), position_quantum,
-                 plausible::max_position);
-    whole_fields(s, m.velocity, number.velocity, from.velocity, velocity_quantum, plausible::max_speed);
+    const WholeSample expected = follows ? expected_from(told, apart) : WholeSample{};
+    WholeSample number;
+    whole_fields(s, m.velocity, number.velocity, expected.velocity, velocity_quantum, plausible::max_speed);
+    const WholeVector place_then =
+        follows ? carried_back(told.last, number.velocity, apart * period) : WholeVector{};
+    whole_fields(s, m.position, number.position, place_then, position_quantum, plausible::max_position);
     std::uint64_t buttons = m.buttons;
     if ((flags & sample_buttons) != 0) {
         s.varint(buttons);
         s.require(buttons >= 1 && buttons <= 0xffff'ffffu);
     }
-    number.force = {};
     if ((flags & sample_force) != 0) {
-        whole_fields(s, m.force, number.force, from.force, force_quantum, plausible::max_force);
+        whole_fields(s, m.force, number.force, expected.force, force_quantum, plausible::max_force);
     }
-    number.relative = {};
     if ((flags & sample_nearest) != 0) {
         object_fields(s, m.nearest_object);
-        whole_fields(s, m.position_in_object, number.relative, from.relative, position_quantum,
+        whole_fields(s, m.position_in_object, number.relative, expected.relative, position_quantum,
                      plausible::max_position);
     }
+    told = {number, told.last, apart};
     if constexpr (Stream::reads) {
         m.buttons = (flags & sample_buttons) != 0 ? static_cast<std::uint32_t>(buttons) : 0;
         m.force = (flags & sample_force) != 0 ? m.force : Vec3(0.0);
@@ -299,9 +329,9 @@ void operator_sample(Stream& s, Sample& m, const OperatorSample* before, WholeSa
 
 template <typename Stream>
 void operator_sample_fields(Stream& s, auto& m) {
-    WholeSample number;
+    ToldSamples told;
     for (std::size_t i = 0; s.good() && i < m.count; ++i) {
-        operator_sample(s, m.samples[i], i > 0 ? &m.samples[i - 1] : nullptr, number, m.period);
+        operator_sample(s, m.samples[i], i > 0 ? &m.samples[i - 1] : nullptr, told, m.period);
     }
 }
 

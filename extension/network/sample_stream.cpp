@@ -36,7 +36,10 @@ bool is_plausible(const OperatorSample& sample) {
 }  // namespace
 
 SampleStream::SampleStream(const SampleStreamSettings& settings)
-    : settings_(settings), pointers_(std::max(1u, settings.max_pointers)) {}
+    : settings_(settings),
+      pointers_(std::max(1u, settings.max_pointers)),
+      repeats_(least_repeats),
+      affordable_(least_repeats) {}
 
 void SampleStream::add(const OperatorSample& sample) {
     if (sample.pointer >= pointers_.size() || !is_plausible(sample)) {
@@ -55,9 +58,9 @@ void SampleStream::end_tick(Endpoint& link, Nanoseconds now) {
     pace_.adapt(link, now);
     // Where a queue is the trouble, repeats make it longer.
     const std::uint32_t wanted = repeats_for(link.statistics().lost_there);
-    repeats_ = pace_.queues() ? 0 : std::min(settings_.max_repeats, wanted);
+    repeats_ = pace_.queues() ? 0 : std::min({settings_.max_repeats, wanted, affordable_});
     if (++tick_ % pace_.stride() == 0) {
-        send(link);
+        keep_to_budget(send(link));
     }
 }
 
@@ -66,7 +69,23 @@ void SampleStream::restart() {
         pointer.count = pointer.waiting = 0;
     }
     pace_.restart();
-    repeats_ = least_repeats;
+    repeats_ = affordable_ = least_repeats;
+}
+
+// One more or less of each sample than last time.
+void SampleStream::keep_to_budget(const Sent& sent) {
+    if (sent.samples == 0) {
+        return;
+    }
+    const double seconds = to_seconds(settings_.period) * pace_.stride();
+    const double allowed = settings_.max_bits_per_s / 8.0 * seconds * sent.pointers;
+    const auto bytes = static_cast<double>(sent.bytes);
+    const double of_a_sample = bytes / sent.samples;
+    if (bytes > allowed) {
+        affordable_ -= affordable_ > 0 ? 1 : 0;
+    } else if (bytes + of_a_sample * pace_.stride() * sent.pointers <= allowed) {
+        affordable_ = std::min(affordable_ + 1, settings_.max_repeats);
+    }
 }
 
 // Samples of earlier packets in one of `stride` ticks. Who asks whether sending less helps sends half as many
@@ -78,7 +97,10 @@ std::uint32_t SampleStream::older() const {
     return repeats_ * pace_.stride();
 }
 
-void SampleStream::send(Endpoint& link) {
+SampleStream::Sent SampleStream::send(Endpoint& link) {
+    const std::uint64_t bytes_before = link.statistics().bytes_sent;
+    const std::uint64_t packets_before = link.statistics().packets_sent;
+    Sent sent;
     OperatorSamples message;
     message.period = settings_.period;
     for (Pointer& pointer : pointers_) {
@@ -86,15 +108,20 @@ void SampleStream::send(Endpoint& link) {
             continue;
         }
         const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + older());
-        if (message.count + wanted > OperatorSamples::most) {
+        if (message.count + wanted > OperatorSamples::max_count) {
             send_message(link, message);
         }
-        const auto room = std::min<std::uint32_t>(wanted, OperatorSamples::most);
+        const auto room = std::min<std::uint32_t>(wanted, OperatorSamples::max_count);
         std::copy_n(pointer.samples.begin(), room, message.samples.begin() + message.count);
         message.count = static_cast<std::uint8_t>(message.count + room);
         pointer.waiting = 0;
+        ++sent.pointers;
+        sent.samples += room;
     }
     send_message(link, message);
+    const LinkStatistics& now = link.statistics();
+    sent.bytes = now.bytes_sent - bytes_before + (now.packets_sent - packets_before) * link.overhead();
+    return sent;
 }
 
 // What does not fit at its longest goes in two.

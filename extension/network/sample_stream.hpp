@@ -2,8 +2,9 @@
 // ticks when the network cannot take so many, each with as many older samples as losses ask for.
 //
 // Of older samples so many are repeated that all packets with a sample are lost at most once in ten thousand
-// times, were losses independent: two where nothing is lost, since a loss is known only later. No tick's
-// sample is left out by sending fewer packets (pace.hpp).
+// times, were losses independent: some where nothing is lost, since a loss is known only later. A hand that
+// moves unevenly takes more bytes: of its samples no more are repeated than the budget has room for. No
+// tick's sample is left out by sending fewer packets (pace.hpp).
 //
 // Belongs to whoever ticks; allocates nothing after its constructor.
 #pragma once
@@ -17,9 +18,11 @@
 namespace tactus {
 
 struct SampleStreamSettings {
-    std::uint32_t max_repeats = 8;   // older samples in a packet, at most
-    std::uint32_t max_pointers = 8;  // > 0
-    Nanoseconds period = 1'000'000;  // of a tick, > 0
+    std::uint32_t max_repeats = OperatorSamples::max_count - 1;  // older samples in a packet
+    std::uint32_t max_pointers = 8;                              // > 0
+    Nanoseconds period = 1'000'000;                              // of a tick, > 0
+    // Of a pointer, with all that IP, UDP and a seal add; what it has to say anew is always said.
+    double max_bits_per_s = 1.45e6;
 };
 
 class SampleStream {
@@ -43,19 +46,27 @@ public:
 
 private:
     struct Pointer {
-        std::array<OperatorSample, OperatorSamples::most> samples{};  // newest first
+        std::array<OperatorSample, OperatorSamples::max_count> samples{};  // newest first
         std::uint32_t count = 0;
         std::uint32_t waiting = 0;  // of them have not been sent yet
     };
 
+    // What a tick has sent.
+    struct Sent {
+        std::uint32_t pointers = 0, samples = 0;
+        std::size_t bytes = 0;  // with all that is added on the way
+    };
+
     std::uint32_t older() const;
-    void send(Endpoint& link);
+    Sent send(Endpoint& link);
     void send_message(Endpoint& link, OperatorSamples& message) const;
+    void keep_to_budget(const Sent& sent);
 
     SampleStreamSettings settings_;
     std::vector<Pointer> pointers_;
     Pace pace_{PaceSettings{0.1, 8}};
-    std::uint32_t repeats_ = 2;
+    std::uint32_t repeats_ = 0;
+    std::uint32_t affordable_ = 0;  // repeats
     std::uint64_t tick_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace {
 using namespace sealed_format;
 
 static_assert(tag_bytes == crypto_aead_chacha20poly1305_ietf_ABYTES);
-static_assert(SecureSession::overhead + most_message_bytes <= most_datagram_bytes);
+static_assert(SecureSession::overhead + max_message_bytes <= max_datagram_bytes);
 static_assert(sizeof(SecretKey) == crypto_aead_chacha20poly1305_ietf_KEYBYTES);
 static_assert(salt_at + sizeof(SecureIdentity::salt) == public_key_at);
 static_assert(public_key_at + sizeof(SecureIdentity::public_key) == greeting_bytes);

@@ -99,7 +99,7 @@ private:
     };
 
     static constexpr Nanoseconds stranger_every = 200'000;  // no faster than that
-    static constexpr std::int64_t most_strangers = 32;      // at once
+    static constexpr std::int64_t max_strangers = 32;       // at once
     static constexpr std::size_t max_past = 256;  // restarts of the far side that one start of this side sees
 
     Session* session_of(std::span<const std::byte> datagram);
@@ -128,7 +128,7 @@ private:
     bool answers_known_ = false;   // it knows this one: no stranger comes before it
     std::uint64_t seen_ = 0;       // the start that greeted last
     bool confirm_ = false;         // so that the far side can believe this one at once
-    RateLimit strangers_{stranger_every, most_strangers};
+    RateLimit strangers_{stranger_every, max_strangers};
     Nanoseconds strangers_again_ = 0;  // when they are listened to again
     Nanoseconds opened_at_ = 0;        // a packet of the session, last
     Nanoseconds next_greeting_ = 0;

@@ -222,7 +222,7 @@ std::size_t UdpLink::receive_from(std::size_t which) {
     const Nanoseconds arrived = monotonic_now();
     for (std::size_t i = 0; i < batch_.size(); ++i) {
         const std::span<const std::byte> datagram = batch_[i];
-        if (datagram.size() > most_datagram_bytes) {
+        if (datagram.size() > max_datagram_bytes) {
             oversized_.fetch_add(1, std::memory_order_relaxed);
         } else if (!datagram.empty()) {
             take(which, datagram, arrived);

@@ -54,7 +54,7 @@ struct UdpFigures {
     std::uint64_t received = 0;           // given to the haptic thread's ring
     std::uint64_t no_room_to_send = 0;    // lost: the ring or the system was full
     std::uint64_t no_room_to_take = 0;    // lost: the haptic thread did not come to take them
-    std::uint64_t oversized = 0;          // longer than most_datagram_bytes, dropped
+    std::uint64_t oversized = 0;          // longer than max_datagram_bytes, dropped
     std::uint64_t unreachable = 0;        // times that the far machine said so
     std::uint64_t too_many = 0;           // came faster than any honest side sends, dropped
     std::uint64_t refused = 0;            // times that the far side said that it expects somebody else
@@ -118,8 +118,8 @@ private:
     std::unique_ptr<DatagramRing> incoming_;
 
     // Of the network thread.
-    DatagramBatch batch_{most_datagram_bytes};
-    std::array<std::byte, most_datagram_bytes> sealed_;
+    DatagramBatch batch_{max_datagram_bytes};
+    std::array<std::byte, max_datagram_bytes> sealed_;
     std::array<Doorman, 2> doormen_;         // of each socket
     std::unique_ptr<SecureSession> secure_;  // null: no secret
     std::unique_ptr<JobThread> jobs_;        // makes its keys

@@ -1,9 +1,12 @@
 #include "nodes/ghost_view.hpp"
 
+#include <algorithm>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/sphere_mesh.hpp>
 
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_drawing.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -29,17 +32,23 @@ MeshInstance3D* make_picture(Node& parent) {
 }  // namespace
 
 void GhostView::show(Node& parent, const SeenGhosts& ghosts) {
-    while (pictures_.size() < ghosts.count) {
-        pictures_.push_back(make_picture(parent));
-    }
+    pictures_.resize(std::max(pictures_.size(), ghosts.count));
     for (std::size_t i = 0; i < pictures_.size(); ++i) {
         const bool is_there = i < ghosts.count;
-        pictures_[i]->set_visible(is_there);
+        auto* picture = node_of_id<MeshInstance3D>(pictures_[i]);
+        if (picture == nullptr && is_there) {
+            picture = make_picture(parent);
+            pictures_[i] = picture->get_instance_id();
+        }
+        if (picture == nullptr) {
+            continue;
+        }
         if (is_there) {
             const auto size = static_cast<real_t>(ghosts.ghosts[i].radius);
-            pictures_[i]->set_global_transform(Transform3D(Basis::from_scale(Vector3(size, size, size)),
-                                                           to_godot(ghosts.ghosts[i].position)));
+            picture->set_global_transform(Transform3D(Basis::from_scale(Vector3(size, size, size)),
+                                                      to_godot(ghosts.ghosts[i].position)));
         }
+        picture->set_visible(is_there);  // last: whoever is told may free it
     }
 }
 

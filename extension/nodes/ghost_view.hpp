@@ -1,7 +1,7 @@
 // Where the operator is: the fingertips of other operators in the same environment, shown. Main thread only.
 #pragma once
 
-#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <cstdint>
 #include <godot_cpp/classes/node.hpp>
 #include <vector>
 
@@ -11,11 +11,11 @@ namespace tactus {
 
 class GhostView {
 public:
-    // Pictures are children of `parent`, made when they are needed first.
+    // Pictures are children of `parent`, made when they are needed: first, or since a script has freed them.
     void show(godot::Node& parent, const SeenGhosts& ghosts);
 
 private:
-    std::vector<godot::MeshInstance3D*> pictures_;
+    std::vector<std::uint64_t> pictures_;  // ids
 };
 
 }  // namespace tactus

@@ -135,8 +135,8 @@ void HapticWorld::start() {
     RunSettings settings;
     settings.real_time = clock_ == CLOCK_REAL_TIME;
     settings.session.period = nanoseconds_per_second / tick_rate_;
-    settings.session.most_bodies = static_cast<std::uint32_t>(max_bodies_);
-    settings.session.most_parts = 4 * settings.session.most_bodies;
+    settings.session.max_bodies = static_cast<std::uint32_t>(max_bodies_);
+    settings.session.max_parts = 4 * settings.session.max_bodies;
     settings.session.physics.gravity = from_godot(gravity_);
     settings.links = MMTLink::of(*this);
     // Both sides of a teleoperation have to come to the same result.

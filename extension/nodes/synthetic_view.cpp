@@ -34,7 +34,7 @@ void SyntheticView::collect(Node& root, const Node* without, std::vector<MeshIns
         }
         auto* const drawn = Object::cast_to<MeshInstance3D>(&node);
         if (drawn != nullptr && drawn->get_mesh().is_valid() && drawn->is_visible_in_tree() &&
-            found.size() < most_shown_bodies) {
+            found.size() < max_shown_bodies) {
             found.push_back(drawn);
         }
         return Walk::on;

@@ -49,7 +49,7 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     : world_(world),
       running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
                plans_of(settings.links)),
-      bodies_(world, settings.session.most_bodies, settings.real_time, complaints_) {
+      bodies_(world, settings.session.max_bodies, settings.real_time, complaints_) {
     for (const MMTLink* link : settings.links) {
         link_nodes_.push_back(link->get_instance_id());
     }

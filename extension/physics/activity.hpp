@@ -67,7 +67,7 @@ public:
 private:
     struct Entry {
         JPH::BodyID id;
-        std::array<std::byte, most_bytes_of_a_body> state;
+        std::array<std::byte, max_bytes_of_a_body> state;
     };
 
     JPH::PhysicsSystem& system_;

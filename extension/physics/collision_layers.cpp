@@ -4,7 +4,7 @@
 
 namespace tactus {
 
-CollisionTable::CollisionTable(std::size_t max_pairs) : entries_(std::min(max_pairs, most_pairs)) {}
+CollisionTable::CollisionTable(std::size_t max_pairs) : entries_(std::min(max_pairs, max_table_pairs)) {}
 
 std::size_t CollisionTable::take(const CollisionLayers& pair) {
     std::size_t vacant = used_;

@@ -35,7 +35,7 @@ constexpr std::size_t pair_of(JPH::ObjectLayer layer) {
 }
 
 // What 16 bits of object layer leave room for; the last one means "none" to Jolt.
-constexpr std::size_t most_pairs = 16383;
+constexpr std::size_t max_table_pairs = 16383;
 
 class LayerInterface final : public JPH::BroadPhaseLayerInterface {
 public:

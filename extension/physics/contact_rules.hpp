@@ -13,7 +13,7 @@ namespace tactus {
 
 // Jolt keeps one number for each; a negative one stands for rough or absorbent, as inside Godot.
 inline float stored_friction(const SurfaceMaterial& material) {
-    const double friction = std::min(material.friction, limits::most_friction);
+    const double friction = std::min(material.friction, limits::max_friction);
     return static_cast<float>(material.rough ? -friction : friction);
 }
 inline float stored_restitution(const SurfaceMaterial& material) {

@@ -30,8 +30,8 @@ FarIslands::FarIslands(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& rec
     : system_(system), records_(records), full_rate_(full_rate) {
     if (full_rate_ == 0)
         return;
-    constexpr std::size_t most_hands = 64;
-    hands_.reserve(most_hands);
+    constexpr std::size_t max_hands = 64;
+    hands_.reserve(max_hands);
     kept_.resize(records.size());
     for (Turn& turn : turn_list_) {
         turn.bodies.reserve(records.size());

@@ -20,10 +20,10 @@ constexpr double strongest = 1e7;                   // (unit: newtons, newton me
 constexpr double weakest = 1e-12;                   // of a hand's spring (unit: newtons)
 constexpr double stiffest = 1e9;                    // (unit: newtons per meter; newton seconds per meter)
 constexpr double lightest = 1e-6, heaviest = 1e12;  // (unit: kilograms)
-constexpr double least_inertia = 1e-18, most_inertia = 1e18;  // (unit: kilogram square meters)
-constexpr double most_gravity = 1e5;                          // (unit: meters per square second)
-constexpr double most_gravity_scale = 1e4;                    // (dimensionless)
-constexpr double most_friction = 1e3;                         // (dimensionless)
+constexpr double least_inertia = 1e-18, max_inertia = 1e18;  // (unit: kilogram square meters)
+constexpr double max_gravity = 1e5;                          // (unit: meters per square second)
+constexpr double max_gravity_scale = 1e4;                    // (dimensionless)
+constexpr double max_friction = 1e3;                         // (dimensionless)
 constexpr double shortest_way = 1e-6;  // in time, that a body can be told (unit: seconds)
 
 inline bool is_number(const Vec3& v) {

@@ -12,7 +12,7 @@
 namespace tactus {
 
 // Jolt's whole state of one body; 197 bytes in 5.6.0 with double precision.
-constexpr std::size_t most_bytes_of_a_body = 232;
+constexpr std::size_t max_bytes_of_a_body = 232;
 
 class MemoryWriter final : public JPH::StateRecorder {
 public:

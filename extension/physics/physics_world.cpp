@@ -181,7 +181,7 @@ std::size_t PhysicsWorld::body_count() const {
 void PhysicsWorld::set_gravity(const Vec3& gravity) {
     if (!limits::is_number(gravity))
         return;
-    impl_->settings.gravity = limits::cut(gravity, limits::most_gravity);
+    impl_->settings.gravity = limits::cut(gravity, limits::max_gravity);
     impl_->system.SetGravity(units::vector(impl_->settings.gravity));
 }
 
@@ -268,7 +268,7 @@ void PhysicsWorld::set_gravity_scale(BodyId id, double scale) {
     if (body == nullptr || !body->CanBeKinematicOrDynamic() || std::isnan(scale))
         return;
     body->GetMotionPropertiesUnchecked()->SetGravityFactor(
-        static_cast<float>(limits::cut(scale, limits::most_gravity_scale)));
+        static_cast<float>(limits::cut(scale, limits::max_gravity_scale)));
     wake(id);
 }
 

@@ -27,7 +27,7 @@ bool not_negative(double value) {
 }
 
 bool is_inertia(double value) {
-    return value >= limits::least_inertia && value <= limits::most_inertia;
+    return value >= limits::least_inertia && value <= limits::max_inertia;
 }
 
 bool may_turn_dynamic(const BodyDescription& description) {
@@ -193,7 +193,7 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.mMaxLinearVelocity = units::length(limits::fastest);
     settings.mMaxAngularVelocity = static_cast<float>(limits::fastest_spin);
     settings.mGravityFactor =
-        static_cast<float>(limits::cut(description.gravity_scale, limits::most_gravity_scale));
+        static_cast<float>(limits::cut(description.gravity_scale, limits::max_gravity_scale));
     record->body = body_factory().AllocateBody(settings);
     return PreparedBody(std::move(record));
 }

@@ -217,11 +217,11 @@ ShapeConversion of(const HeightFieldShape& field, bool may_turn_dynamic) {
             return failure("height " + std::to_string(i) + " is not a finite number");
 
     // Padding a long strip to a square would cost more than its triangles do.
-    constexpr std::size_t most_padding = 4;
+    constexpr std::size_t max_padding = 4;
     constexpr std::uint32_t block = 2;
     const std::uint32_t longest = std::max(field.columns, field.rows);
     const std::uint32_t side = std::max(2 * block, (longest + block - 1) / block * block);
-    if (static_cast<std::size_t>(side) * side > most_padding * samples && samples > 64)
+    if (static_cast<std::size_t>(side) * side > max_padding * samples && samples > 64)
         return strip_as_mesh(field);
 
     // Jolt cuts its cells along the other diagonal than Godot and touch do: of its mirror image it cuts the

@@ -103,7 +103,7 @@ void PhysicsWorld::take_state(BodyId id, const PhysicsWorld& other) {
         return;
     const LoopMemoryScope scope(impl_->memory);
     impl_->far.release(*body, false);
-    std::array<std::byte, most_bytes_of_a_body> state;
+    std::array<std::byte, max_bytes_of_a_body> state;
     MemoryWriter writer(state);
     other.impl_->system.SaveBodyState(*same, writer);
     MemoryReader reader(state);

@@ -21,8 +21,7 @@ namespace tactus {
 
 class SoundPlaces {
 public:
-    SoundPlaces(JPH::PhysicsSystem& system, std::size_t most_bodies)
-        : system_(system), places_(most_bodies) {}
+    SoundPlaces(JPH::PhysicsSystem& system, std::size_t max_bodies) : system_(system), places_(max_bodies) {}
 
     // The body is about to be moved.
     void keep(const JPH::Body& body) {

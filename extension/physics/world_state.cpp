@@ -37,13 +37,13 @@ PhysicsSettings within_range(PhysicsSettings settings) {
     settings.max_joints = std::clamp(settings.max_joints, 1u, 32768u);
     settings.sub_steps = std::clamp(settings.sub_steps, 1, 16);
     settings.gravity = limits::is_number(settings.gravity)
-                           ? limits::cut(settings.gravity, limits::most_gravity)
+                           ? limits::cut(settings.gravity, limits::max_gravity)
                            : Vec3(0.0, -9.81, 0.0);
     return settings;
 }
 
 // More hands and contacts than a scene has.
-constexpr std::size_t most_pushes = 64;
+constexpr std::size_t max_pushes = 64;
 
 // Only what can move can be asleep.
 class MovingOnly final : public JPH::BroadPhaseLayerFilter {
@@ -69,7 +69,7 @@ PhysicsWorld::Impl::Impl(const PhysicsSettings& wanted)
       journal(system, settings.remembered_wakings),
       activity(trees, journal, far, places, moved),
       joints(system, settings.max_joints),
-      pushes(most_pushes) {
+      pushes(max_pushes) {
     constexpr JPH::uint one_mutex = 1;
     system.Init(settings.max_bodies, one_mutex, settings.max_touching_pairs, settings.max_contacts,
                 layer_interface, broad_phase_filter, layers);

@@ -9,8 +9,8 @@ namespace tactus {
 
 class CarriedPointer {
 public:
-    void take_room(std::size_t most_parts) {
-        slot_.proxy = std::make_unique<Proxy>(most_parts, ProxySettings{});
+    void take_room(std::size_t max_parts) {
+        slot_.proxy = std::make_unique<Proxy>(max_parts, ProxySettings{});
     }
     bool has_room() const { return slot_.proxy != nullptr; }
 

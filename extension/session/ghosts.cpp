@@ -34,7 +34,7 @@ const Ghosts* GhostTeller::due(SessionLoop& loop, const PointerShare& share, con
         return nullptr;
     }
     Ghosts there;
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (share.has(i) || !slot.present() || slot.idle) {
             continue;

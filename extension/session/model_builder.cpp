@@ -48,8 +48,7 @@ bool ModelBuilder::update(Nanoseconds now, const LinkStatistics& link) {
         follow_gravity(now, link.peer_hello.gravity);
     }
     bool changed = add_prepared();
-    for (std::size_t taken = 0; taken < most_built_at_once && preparing_.size() < most_built_at_once;
-         ++taken) {
+    for (std::size_t taken = 0; taken < max_built_at_once && preparing_.size() < max_built_at_once; ++taken) {
         std::optional<DiscoveryEvent> event = port_->discovery.next();
         if (!event) {
             break;

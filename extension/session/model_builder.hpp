@@ -63,7 +63,7 @@ public:
 private:
     // Where the caller prepares bodies himself: a tree takes milliseconds for a large mesh, and a frame
     // should not take much longer for it.
-    static constexpr std::size_t most_built_at_once = 32;
+    static constexpr std::size_t max_built_at_once = 32;
 
     static constexpr Nanoseconds settling = 200'000'000;
     static constexpr Nanoseconds patience = 2'000'000'000;

@@ -5,7 +5,7 @@ namespace tactus {
 void ModelPast::note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds now) {
     Moment& moment = moments_[sample % moments_.size()];
     moment.time = now;
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
         moment.hands[i] = {slot.hand, slot.hand_velocity, slot.idle};
     }

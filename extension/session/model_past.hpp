@@ -20,7 +20,7 @@ public:
     };
     struct Moment {
         Nanoseconds time = 0;
-        std::array<Hand, most_proxies> hands;
+        std::array<Hand, max_proxies> hands;
     };
 
     ModelPast(std::size_t places, std::size_t samples)

@@ -7,9 +7,9 @@
 namespace tactus {
 
 void OperatorSide::acknowledge() {
-    constexpr int most_a_tick = 8;
+    constexpr int max_a_tick = 8;
     DiscoveryAcknowledgement acknowledgement;
-    for (int i = 0; i < most_a_tick && channel_.port().discovery.next_acknowledgement(acknowledgement); ++i) {
+    for (int i = 0; i < max_a_tick && channel_.port().discovery.next_acknowledgement(acknowledgement); ++i) {
         channel_.send(acknowledgement);
     }
 }

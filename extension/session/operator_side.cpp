@@ -12,27 +12,27 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
                            const EndpointSettings& endpoint)
     : room_(room),
       channel_(settings, link, std::move(port), endpoint),
-      samples_({std::max(1u, settings.repeats) - 1, most_proxies, session.period}),
+      samples_({std::max(1u, settings.repeats) - 1, max_proxies, session.period}),
       seconds_(to_seconds(session.period)),
-      truths_(session.most_bodies, room.most_tracked),
-      past_(room.most_tracked, room.samples),
+      truths_(session.max_bodies, room.max_tracked),
+      past_(room.max_tracked, room.samples),
       resimulator_(session, room.samples, room.samples_a_memento, room.memento_bytes, room.replays),
-      estimates_(room.most_tracked, ParameterEstimate(settings.estimate)),
-      alone_since_(room.most_tracked, 0),
-      filters_(session.most_bodies),
-      body_of_object_(session.most_bodies, no_handle),
-      object_of_body_(session.most_bodies, no_object) {
-    pupils_.reserve(room.most_tracked);
-    targets_.reserve(session.most_bodies);
-    hands_.reserve(most_proxies);
+      estimates_(room.max_tracked, ParameterEstimate(settings.estimate)),
+      alone_since_(room.max_tracked, 0),
+      filters_(session.max_bodies),
+      body_of_object_(session.max_bodies, no_handle),
+      object_of_body_(session.max_bodies, no_object) {
+    pupils_.reserve(room.max_tracked);
+    targets_.reserve(session.max_bodies);
+    hands_.reserve(max_proxies);
     for (std::size_t i = 0; i < std::min(room.pointers, pointers_.size()); ++i) {
-        pointers_[i].carried.take_room(session.most_parts);
+        pointers_[i].carried.take_room(session.max_parts);
     }
 }
 
 void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     changed_ = loop.take_touch_change();
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         changed_ = changed_ || has_leapt(loop, loop.proxy(i).state);
     }
     if (channel_.begin_tick(now)) {
@@ -42,7 +42,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     round_hands(loop);
     past_.note_hands(loop, sample_, now);
     hands_.clear();
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
             hands_.push_back(slot.hand);
         }
@@ -64,7 +64,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
 // What the far side is told of a hand is rounded (as_sent): the model is touched by the same hand.
 void OperatorSide::round_hands(SessionLoop& loop) const {
     const Pose& frame = settings().frame;
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         if (SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
             slot.hand = to_parent(frame, position_as_sent(to_local(frame, slot.hand)));
             slot.hand_velocity =
@@ -98,7 +98,7 @@ void OperatorSide::forget_past() {
 
 // The pointers go on from where the far side had them, so that a hand that presses goes on pressing.
 void OperatorSide::begin_model(SessionLoop& loop) {
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.proxy && traditional_.far(i).sample != no_sample) {
             ProxyMemory memory;
@@ -307,7 +307,7 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
 }
 
 void OperatorSide::take(const ForceSample& force) {
-    if (force.pointer >= most_proxies || force.newest_operator_sample > sample_) {
+    if (force.pointer >= max_proxies || force.newest_operator_sample > sample_) {
         return;
     }
 
@@ -361,7 +361,7 @@ bool OperatorSide::is_news(SessionLoop& loop, SessionHandle body) const {
 }
 
 bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.present() && !slot.proxy->touching().empty()) {
             return false;
@@ -458,7 +458,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
             resimulator_.remember(loop, sample_);
         }
     }
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         if (loop.proxy(i).present()) {
             note_given(loop, i);
             send_sample(loop, i, now);

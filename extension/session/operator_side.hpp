@@ -23,7 +23,7 @@
 namespace tactus {
 
 struct OperatorRoom {
-    std::size_t most_tracked = 64;      // moving bodies that are compared with the past; others are put where
+    std::size_t max_tracked = 64;       // moving bodies that are compared with the past; others are put where
                                         // the far side saw them
     std::size_t samples = 1024;         // of the past; more delay than this is not corrected
     std::size_t samples_a_memento = 8;  // a replay does up to so many ticks more
@@ -56,14 +56,14 @@ private:
     struct Pointer {
         FeltPointer felt;
         CarriedPointer carried;
-        Vec3 uncorrected{0.0};      // force in this tick if nothing were corrected (unit: newtons)
-        Vec3 modelled{0.0};         // by the model, one tick ago (unit: newtons)
-        Vec3 modelled_before{0.0};  // two ticks ago, or the same where a change was in between
-        Vec3 hand{0.0};             // one tick ago (unit: meters)
-        Vec3 force{0.0};            // given to the hand, one tick ago (unit: newtons)
-        TouchedBody touched;        // one tick ago
-        bool known = false;         // there was such a tick
-        bool answered = false;      // traditional: what the far side said last still held then
+        SessionLoop::SceneForce uncorrected;  // in this tick if nothing were corrected
+        Vec3 modelled{0.0};                   // by the model, one tick ago (unit: newtons)
+        Vec3 modelled_before{0.0};            // two ticks ago, or the same where a change was in between
+        Vec3 hand{0.0};                       // one tick ago (unit: meters)
+        Vec3 force{0.0};                      // given to the hand, one tick ago (unit: newtons)
+        TouchedBody touched;                  // one tick ago
+        bool known = false;                   // there was such a tick
+        bool answered = false;                // traditional: what the far side said last still held then
         OperatorPassivity passivity;
         PassiveUpdate update;
         // Sending.
@@ -120,9 +120,10 @@ private:
     bool lands(SessionLoop& loop, Nanoseconds now);
     void correct(SessionLoop& loop, Nanoseconds now);
     void charge_motion(SessionLoop& loop, const Target& target);
-    Vec3 force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
-                           Nanoseconds now) const;
-    Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, Nanoseconds now);
+    SessionLoop::SceneForce force_uncorrected(SessionLoop& loop, Pointer& pointer,
+                                              SessionLoop::ProxySlot& slot, Nanoseconds now) const;
+    Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, bool changed,
+                        Nanoseconds now);
     void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
                       bool changed);
     Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
@@ -154,11 +155,10 @@ private:
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there
-    std::array<Pointer, most_proxies> pointers_;
+    std::array<Pointer, max_proxies> pointers_;
     std::vector<Target> targets_;  // of this tick
     bool corrected_ = false;       // in this tick
     bool changed_ = false;  // something else than a correction has changed what is touched in this tick
-    Vec3 gravity_{0.0};     // of the model (unit: meters per second squared)
     TeleopStatistics statistics_;
     bool restart_waits_ = false;  // the owner has not been told yet
 };

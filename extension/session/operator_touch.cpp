@@ -68,7 +68,7 @@ constexpr double usual_silence = 0.5;
 // something: a correction would have to hide a force that nobody has felt yet; it waits for the next tick.
 bool OperatorSide::lands(SessionLoop& loop, Nanoseconds now) {
     bool any = false;
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (!slot.present()) {
             continue;
@@ -77,25 +77,25 @@ bool OperatorSide::lands(SessionLoop& loop, Nanoseconds now) {
         const Proxy& proxy = pointer.carried.apart() ? *pointer.carried.slot().proxy : *slot.proxy;
         const bool was_free = proxy.touching().empty();
         pointer.uncorrected = force_uncorrected(loop, pointer, slot, now);
-        any = any || (was_free && glm::length(pointer.uncorrected) > no_force);
+        any = any || (was_free && glm::length(pointer.uncorrected.force) > no_force);
     }
     return any && is_stealthy(settings().correction);
 }
 
 // The pointers are left as they were.
-Vec3 OperatorSide::force_uncorrected(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
-                                     Nanoseconds now) const {
+SessionLoop::SceneForce OperatorSide::force_uncorrected(SessionLoop& loop, Pointer& pointer,
+                                                        SessionLoop::ProxySlot& slot, Nanoseconds now) const {
     const auto try_out = [&](SessionLoop::ProxySlot& tried) {
         const ProxyMemory memory = tried.proxy->memory();
         const EffectMemory effects = tried.effects;
         const Vec3 before = tried.force;
         tried.force_before = before;
         loop.touch(tried, now);
-        const Vec3 force = tried.force;
+        const SessionLoop::SceneForce found = tried.scene_force();
         tried.proxy->recall(memory);
         tried.effects = effects;
         tried.force = before;
-        return force;
+        return found;
     };
     if (!pointer.carried.apart()) {
         return try_out(slot);
@@ -120,7 +120,7 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
             charge_motion(loop, target);
         }
         bool rides = false;
-        for (std::size_t i = 0; i < most_proxies && is_carrying(settings().correction); ++i) {
+        for (std::size_t i = 0; i < max_proxies && is_carrying(settings().correction); ++i) {
             if (const SessionLoop::ProxySlot& slot = loop.proxy(i);
                 slot.present() && pointers_[i].carried.has_room()) {
                 rides |= pointers_[i].carried.carry(loop, slot, target, motion, turns,
@@ -132,7 +132,7 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
     }
     // The pointers that press go on from where the replay has led them.
     const bool replayed = std::ranges::any_of(targets_, &Target::previous_known);
-    for (std::size_t i = 0; i < most_proxies && replayed; ++i) {
+    for (std::size_t i = 0; i < max_proxies && replayed; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.proxy && resimulator_.twin()->proxy(i).proxy) {
             slot.proxy->recall(resimulator_.twin()->proxy(i).proxy->memory());
@@ -145,7 +145,7 @@ void OperatorSide::charge_motion(SessionLoop& loop, const Target& target) {
     const Vec3 before = loop.motion(target.body).linear_velocity;
     const Vec3& after = target.motion.linear_velocity;
     const double energy = 0.5 * loop.mass(target.body) * (glm::dot(after, after) - glm::dot(before, before));
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.present() && loop.rests_on(*slot.proxy, target.body)) {
             pointers_[i].update.sped_up(energy);
@@ -158,7 +158,7 @@ void OperatorSide::charge_motion(SessionLoop& loop, const Target& target) {
 void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
     statistics_.offset = 0.0;
     statistics_.energy = {};  // the sum over all pointers
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         Pointer& pointer = pointers_[i];
         if (!slot.present()) {
@@ -166,20 +166,33 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
             pointer.carried.forget();
             pointer.update.forget();
             pointer.known = false;
+            slot.fading.clear();
             continue;
         }
         feel(loop, i, slot, now);
     }
 }
 
+// What touch leaps by, a pointer that slips off an edge, say, fades as it does where the scene is. What a
+// correction or another change makes of the force is hidden instead: it is no leap of touch.
 Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot,
-                                  Nanoseconds now) {
+                                  bool changed, Nanoseconds now) {
     CarriedPointer& carried = pointer.carried;
-    if (!carried.apart()) {
-        return slot.force;
+    const bool apart = carried.apart();
+    if (apart) {
+        carried.touch(loop, slot, now);
     }
-    carried.touch(loop, slot, now);
-    const Vec3 force = carried.slot().force;
+    const SessionLoop::SceneForce touched = apart ? carried.slot().scene_force() : slot.scene_force();
+    SessionLoop::SceneForce& expected = pointer.uncorrected;
+    if (!corrected_) {
+        expected = touched;
+    }
+    const double limit = loop.force_limit(slot);
+    expected.force = slot.fading.felt(expected.force, limit, expected.jumped && !changed, expected.step);
+    const Vec3 force = slot.fading.goes_on_with(touched.force, limit);
+    if (!apart) {
+        return force;
+    }
     const double stiffness = std::max(stiffness_under(loop, carried.slot().state), usual_stiffness);
     const double way = carried.slot().state.contact_count == 0
                            ? settings().stealth.free_speed * seconds_
@@ -188,8 +201,9 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
     slot.state.hand = slot.hand;
     carried.fade(way);
     if (!carried.apart()) {
-        pointer.felt.hide(force, slot.force);
-        return slot.force;
+        const Vec3 together = slot.fading.goes_on_with(slot.force, limit);
+        pointer.felt.hide(force, together);
+        return together;
     }
     return force;
 }
@@ -263,7 +277,7 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         traditional_.describe(index, slot, in.modelled);
         in.stiffness = glm::length(in.modelled) > no_force ? usual_stiffness : 0.0;
     } else {
-        in.modelled = modelled_force(loop, pointer, slot, now);
+        in.modelled = modelled_force(loop, pointer, slot, changed, now);
         in.stiffness = stiffness_under(loop, slot.state);
     }
     hide_changes(pointer, in.modelled, in.stiffness, way, changed);
@@ -297,7 +311,7 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
                                 bool changed) {
     if (changed && pointer.known) {
         const Vec3 expected = pointer.modelled + (pointer.modelled - pointer.modelled_before);
-        const Vec3& uncorrected = corrected_ ? pointer.uncorrected : modelled;
+        const Vec3& uncorrected = corrected_ ? pointer.uncorrected.force : modelled;
         const double natural = 2.0 * stiffness * glm::length(way) + no_force;
         if (glm::distance(expected, uncorrected) > natural) {
             pointer.felt.hide(expected, uncorrected);
@@ -305,13 +319,14 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
     }
     if (corrected_) {
         CorrectionCost& cost = statistics_.cost;
-        const Vec3 before = pointer.uncorrected + pointer.felt.hidden();
+        const Vec3& uncorrected = pointer.uncorrected.force;
+        const Vec3 before = uncorrected + pointer.felt.hidden();
         if (settings().correction == Correction::stealthy_direction) {
-            pointer.felt.hide(pointer.uncorrected, modelled);
+            pointer.felt.hide(uncorrected, modelled);
         } else if (settings().correction == Correction::stealthy_magnitude) {
-            pointer.felt.hide_size(pointer.uncorrected, modelled);
+            pointer.felt.hide_size(uncorrected, modelled);
         } else if (settings().correction == Correction::passive) {
-            pointer.update.changed(pointer.uncorrected, modelled, stiffness);
+            pointer.update.changed(uncorrected, modelled, stiffness);
         }
         cost.force_step = std::max(cost.force_step, glm::distance(modelled + pointer.felt.hidden(), before));
     }

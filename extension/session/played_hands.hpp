@@ -63,7 +63,7 @@ private:
     std::size_t pointers_;
     double seconds_;
     Nanoseconds period_ = 0;  // of a tick of the operator
-    std::array<JitterBuffer<OperatorSample>, most_proxies> buffers_;
+    std::array<JitterBuffer<OperatorSample>, max_proxies> buffers_;
 };
 
 }  // namespace tactus

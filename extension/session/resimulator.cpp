@@ -12,10 +12,10 @@ Resimulator::Resimulator(const SessionSettings& session, std::size_t samples, st
     }
     twin_ = std::make_unique<SessionLoop>(session, nobody_looks_);
     const std::size_t count = std::max<std::size_t>(1, samples / samples_a_memento_);
-    mementos_.assign(count, LoopMemento(session.most_bodies, memento_bytes));
+    mementos_.assign(count, LoopMemento(session.max_bodies, memento_bytes));
     memento_of_.assign(count, no_sample);
-    plan_.reserve(session.most_bodies);
-    put_in_.assign(session.most_bodies, no_sample);
+    plan_.reserve(session.max_bodies);
+    put_in_.assign(session.max_bodies, no_sample);
 }
 
 void Resimulator::remember(SessionLoop& loop, SampleSequence sample) {
@@ -92,7 +92,7 @@ void Resimulator::tick(const TruthStore& truths, ModelPast& past) {
     twin_->begin_replay_tick();
     put_in();
     const ModelPast::Moment& moment = past.moment(++replayed_);
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         SessionLoop::ProxySlot& slot = twin_->proxy(i);
         slot.hand = moment.hands[i].position;
         slot.hand_velocity = moment.hands[i].velocity;

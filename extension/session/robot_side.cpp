@@ -28,8 +28,8 @@ RobotBody body_of(const DeviceCapabilities& robot) {
 RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                      std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
     : channel_(settings, link, std::move(port), endpoint),
-      telling_(session.most_bodies),
-      hands_(channel_, most_proxies, to_seconds(session.period)),
+      telling_(session.max_bodies),
+      hands_(channel_, max_proxies, to_seconds(session.period)),
       seconds_(to_seconds(session.period)) {}
 
 void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
@@ -37,7 +37,7 @@ void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     telling_.take_orders(channel_.port());
     receive();
     hands_.follow(channel_, changed);
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
             play(loop, i, slot);
         }
@@ -117,7 +117,7 @@ Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, co
 }
 
 void RobotSide::set_forces(SessionLoop& loop, Nanoseconds) {
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         const Pointer& pointer = pointers_[i];
         if (slot.proxy) {
@@ -137,7 +137,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
         telling_.describe(channel_, now);
         statistics_.discovery = telling_.counts();
     }
-    for (std::size_t i = 0; i < most_proxies; ++i) {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
         Pointer& pointer = pointers_[i];
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
             statistics_.energy.far_J +=
@@ -151,7 +151,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
 
 void RobotSide::send_forces(SessionLoop& loop, Nanoseconds now) {
     ForceSamples message;
-    for (std::size_t i = 0; i < most_proxies && message.count < ForceSamples::most; ++i) {
+    for (std::size_t i = 0; i < max_proxies && message.count < ForceSamples::max_count; ++i) {
         const Pointer& pointer = pointers_[i];
         const bool due = force_needs_sending(settings().deadband, pointer.force_sent, pointer.contact) ||
                          now - pointer.force_sent_at >= settings().deadband.longest_silence;

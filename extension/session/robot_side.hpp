@@ -50,7 +50,7 @@ private:
     BodyTelling telling_;
     PlayedHands hands_;
     double seconds_;  // of a tick
-    std::array<Pointer, most_proxies> pointers_;
+    std::array<Pointer, max_proxies> pointers_;
     TeleopStatistics statistics_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t ring_capacity = 1024;
 
 // The longest way that a body can be told (unit: seconds).
-constexpr double most_seconds = 1e5;
+constexpr double max_seconds = 1e5;
 
 // Hands out the numbers 0 … count - 1, the lowest free one first.
 class HandlePool {
@@ -57,9 +57,9 @@ private:
     std::vector<bool> in_use_;
 };
 
-SessionSnapshot empty_snapshot(std::size_t most_bodies) {
+SessionSnapshot empty_snapshot(std::size_t max_bodies) {
     SessionSnapshot snapshot;
-    snapshot.bodies.resize(most_bodies);
+    snapshot.bodies.resize(max_bodies);
     return snapshot;
 }
 
@@ -120,13 +120,13 @@ std::uint32_t share_of_tick(const Command& command) {
 struct Session::Impl {
     explicit Impl(const SessionSettings& s)
         : settings(s),
-          snapshots(empty_snapshot(s.most_bodies)),
+          snapshots(empty_snapshot(s.max_bodies)),
           commands(ring_capacity),
           retired(ring_capacity),
           loop(s, snapshots),
-          bodies(s.most_bodies),
-          devices(most_devices),
-          proxies(most_proxies),
+          bodies(s.max_bodies),
+          devices(max_devices),
+          proxies(max_proxies),
           joints(s.physics.max_joints) {}
 
     void send(Command&& command) {
@@ -234,7 +234,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
         return {no_handle, "the world already holds its limit of " +
-                               std::to_string(impl_->settings.most_bodies) +
+                               std::to_string(impl_->settings.max_bodies) +
                                " bodies: raise the limit or remove some"};
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
@@ -265,7 +265,7 @@ void Session::teleport_body(SessionHandle body, const Pose& pose) {
 }
 
 void Session::move_body(SessionHandle body, const Pose& pose, double seconds) {
-    if (limits::is_pose(pose) && std::abs(seconds) <= most_seconds) {
+    if (limits::is_pose(pose) && std::abs(seconds) <= max_seconds) {
         impl_->send(command::MoveBody{body, pose, seconds});
     }
 }
@@ -343,7 +343,7 @@ AddResult Session::add_device(Device& device, const Workspace& workspace) {
     }
     const SessionHandle handle = impl_->devices.take();
     if (handle == no_handle) {
-        return {no_handle, "a world takes at most " + std::to_string(most_devices) + " devices: remove one"};
+        return {no_handle, "a world takes at most " + std::to_string(max_devices) + " devices: remove one"};
     }
     impl_->send(command::AddDevice{handle, &device, workspace});
     return {handle, {}};
@@ -367,10 +367,10 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
     }
     const SessionHandle handle = impl_->proxies.take();
     if (handle == no_handle) {
-        return {no_handle, "a world takes at most " + std::to_string(most_proxies) + " proxies: remove one"};
+        return {no_handle, "a world takes at most " + std::to_string(max_proxies) + " proxies: remove one"};
     }
     const auto make = [&] {
-        return std::make_unique<Proxy>(impl_->settings.most_parts, description.settings);
+        return std::make_unique<Proxy>(impl_->settings.max_parts, description.settings);
     };
     impl_->send(command::AddProxy{handle, make(), impl_->has_twin ? make() : nullptr, description});
     return {handle, {}};

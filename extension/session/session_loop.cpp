@@ -1,14 +1,11 @@
 #include "session/session_loop.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 #include <span>
 
 #include "core/geometry/surface_query.hpp"
-#include "physics/limits.hpp"
 #include "realtime/thread_role.hpp"
 
 namespace tactus {
@@ -17,30 +14,9 @@ namespace {
 
 PhysicsSettings with_room(const SessionSettings& settings) {
     PhysicsSettings physics = settings.physics;
-    physics.max_bodies = settings.most_bodies;
+    physics.max_bodies = settings.max_bodies;
     physics.full_rate_bodies = settings.full_rate_bodies;
     return physics;
-}
-
-// Without a far side nothing comes over a link: a device's longest force is limit enough.
-constexpr double no_limit = std::numeric_limits<double>::infinity();
-constexpr ForceLimits local_touch{no_limit, no_limit, no_limit};
-
-SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& workspace,
-                           const ForceLimits& side, bool drives) {
-    SafetySettings settings;
-    settings.limits = {std::min(side.slew, device.max_slew), std::min(side.energy, device.max_energy),
-                       std::min(side.power, device.max_power)};
-    settings.max_force = std::min(workspace.force_limit, device.max_force);
-    settings.torque_limits = {device.max_torque_slew, device.max_energy, device.max_power};
-    settings.max_torque = device.max_torque;
-    settings.max_speed = device.max_speed;
-    settings.ramp = device.ramp;
-    settings.dead_man = workspace.dead_man;
-    settings.passive = device.feels && !drives;
-    settings.damping = device.damping;
-    settings.max_damping = device.max_damping;
-    return settings;
 }
 
 // The pose that is one of `ticks` equal parts of the way on.
@@ -56,21 +32,21 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     : settings_(settings),
       seconds_(to_seconds(settings.period)),
       snapshots_(snapshots),
-      scene_(settings.most_bodies, settings.most_parts),
+      scene_(settings.max_bodies, settings.max_parts),
       physics_(with_room(settings)),
-      bodies_(settings.most_bodies),
-      handle_of_slot_(settings.most_bodies, no_handle),
-      handle_of_id_(settings.most_bodies, no_handle),
-      state_changes_(settings.most_bodies),
-      state_of_(settings.most_bodies, no_handle),
+      bodies_(settings.max_bodies),
+      handle_of_slot_(settings.max_bodies, no_handle),
+      handle_of_id_(settings.max_bodies, no_handle),
+      state_changes_(settings.max_bodies),
+      state_of_(settings.max_bodies, no_handle),
       gravity_(settings.physics.gravity) {
-    travelling_.reserve(settings.most_bodies);
-    forming_.reserve(settings.most_bodies);
-    magnets_.reserve(settings.most_bodies);
-    pushed_.reserve(settings.most_bodies);
+    travelling_.reserve(settings.max_bodies);
+    forming_.reserve(settings.max_bodies);
+    magnets_.reserve(settings.max_bodies);
+    pushed_.reserve(settings.max_bodies);
     joints_.resize(settings.physics.max_joints);
-    states_.reserve(settings.most_bodies);
-    hands_.reserve(most_proxies);
+    states_.reserve(settings.max_bodies);
+    hands_.reserve(max_proxies);
 }
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
@@ -181,47 +157,6 @@ void SessionLoop::travel() {
     }
 }
 
-void SessionLoop::read_devices(Nanoseconds now) {
-    for (DeviceSlot& slot : devices_) {
-        if (!slot.device) {
-            continue;
-        }
-        const DeviceSample sample = slot.device->read(now);
-        slot.heard = sample;
-        slot.capabilities = slot.device->capabilities();
-        if (limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
-            limits::is_rotation(sample.rotation)) {
-            slot.sample = sample;
-        } else {
-            slot.sample.velocity = Vec3(0.0);  // nonsense: it stays where it was
-            slot.sample.connected = false;
-        }
-        place_hand(slot);
-        slot.force = Vec3(0.0);
-    }
-    for (ProxySlot& slot : proxies_) {
-        if (slot.proxy && slot.description.device < most_devices) {
-            slot.hand = devices_[slot.description.device].hand;
-            slot.hand_velocity = devices_[slot.description.device].hand_velocity;
-        }
-    }
-}
-
-void SessionLoop::place_hand(DeviceSlot& slot) const {
-    const Vec3 reached = into_scene(slot.workspace, slot.sample.position);
-    const bool held = slot.workspace.clutch;
-    Vec3 drift(0.0);
-    if (held && slot.was_held) {
-        slot.offset = slot.hand - reached;
-    } else if (!held && slot.sample.connected) {
-        drift = drift_at_edge(slot.workspace, slot.capabilities.radius, slot.sample.position);
-        slot.offset += drift * seconds_;
-    }
-    slot.was_held = held;
-    slot.hand = reached + slot.offset;
-    slot.hand_velocity = held ? Vec3(0.0) : velocity_in_scene(slot.workspace, slot.sample.velocity) + drift;
-}
-
 void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
         for (ProxySlot& slot : proxies_) {
@@ -237,22 +172,22 @@ void SessionLoop::touch_all(Nanoseconds now) {
     }
 }
 
-// A side has a way of its own to hide what it changes.
 void SessionLoop::fade_jumps() {
     for (ProxySlot& slot : proxies_) {
-        if (!slot.proxy || slot.description.device >= most_devices) {
-            continue;
+        if (slot.proxy && slot.description.device < max_devices) {
+            slot.state.force = slot.fading.felt(slot.force, force_limit(slot), slot.jumped, slot.step);
         }
-        FadingForce::Step step{slot.hand, slot.hand_velocity};
-        for (const Touch& contact : slot.proxy->touching()) {
-            const TouchMaterial& material = scene_.body(contact.body).material;
-            step.stiffness = std::max(step.stiffness, material.stiffness);
-            step.damping = std::max(step.damping, material.damping);
-        }
-        const Workspace& workspace = devices_[slot.description.device].workspace;
-        const double limit = workspace.force_limit / workspace.force_scale;
-        slot.state.force = slot.fading.felt(slot.force, limit, slot.jumped, step);
     }
+}
+
+FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
+    FadingForce::Step step{slot.hand, slot.hand_velocity};
+    for (const Touch& contact : slot.proxy->touching()) {
+        const TouchMaterial& material = scene_.body(contact.body).material;
+        step.stiffness = std::max(step.stiffness, material.stiffness);
+        step.damping = std::max(step.damping, material.damping);
+    }
+    return step;
 }
 
 // Bodies get their part only now: what a correction of this tick changes is in it.
@@ -267,11 +202,12 @@ void SessionLoop::press_all() {
 
 void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.parts = {};
-    if (!slot.description.enabled || slot.idle || slot.description.device >= most_devices ||
+    if (!slot.description.enabled || slot.idle || slot.description.device >= max_devices ||
         !devices_[slot.description.device].device) {
         slot.force = Vec3(0.0);
         slot.proxy->restart();
         slot.state = {};
+        slot.step = step_of(slot);
         slot.jumped = true;
         return;
     }
@@ -295,6 +231,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         smooth(force, slot.force_before);
     }
     slot.force = force.total + attract(slot, false);
+    slot.step = step_of(slot);
     slot.jumped = tick.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
@@ -378,105 +315,6 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     }
 }
 
-RobotView SessionLoop::robot(SessionHandle device) const {
-    if (device >= most_devices || !devices_[device].device) {
-        return {};
-    }
-    const DeviceSlot& slot = devices_[device];
-    return {slot.sample.connected, slot.capabilities, slot.workspace};
-}
-
-void SessionLoop::write_devices(Nanoseconds now) {
-    for (const ProxySlot& slot : proxies_) {
-        if (slot.proxy && slot.description.device < most_devices) {
-            devices_[slot.description.device].force += slot.state.force;
-        }
-    }
-    for (std::size_t i = 0; i < devices_.size(); ++i) {
-        DeviceSlot& slot = devices_[i];
-        if (!slot.device) {
-            continue;
-        }
-        const Vec3 asked = slot.force;
-        const SafetySample sample = safety_sample(slot, i);
-        slot.safe =
-            slot.safety.pass(settings_of(slot.capabilities, slot.workspace,
-                                         side_ ? side_->limits() : local_touch, side_ && side_->drives()),
-                             sample);
-        if (slot.safe.force != sample.wanted) {
-            slot.force = force_in_scene(slot.workspace, slot.safe.force);
-        }
-        slot.refused = asked - slot.force;
-        const bool limited = slot.safe.limited != 0;
-        status_ |= limited ? static_cast<TickStatus>(session_force_limited) : 0u;
-        for (ProxySlot& proxy : proxies_) {
-            if (limited && side_ && proxy.proxy && proxy.description.device == i) {
-                proxy.state.status |= felt_limited;
-            }
-        }
-        slot.device->twist(slot.safe.torque);
-        slot.device->write(now, slot.safe.force);
-    }
-}
-
-// What is not pressed by a surface at rest may give energy to the hand: bodies on their way, and what a scene
-// means to add. Over a link without a model nothing is known of that, and everything is held to be passive.
-SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t index) const {
-    SafetySample sample;
-    sample.wanted = force_on_device(slot.workspace, slot.force);
-    sample.torque = direction_to_local(slot.workspace.pose, slot.workspace.torque);
-    sample.rotation = slot.sample.rotation;
-    sample.position = slot.heard.position;
-    sample.velocity = slot.heard.velocity;
-    sample.buttons = slot.heard.buttons;
-    sample.connected = slot.heard.connected;
-    sample.enabled = !slot.workspace.clutch;
-    sample.seconds = seconds_;
-    for (const ProxySlot& proxy : proxies_) {
-        if (proxy.proxy && proxy.description.device == index && (!side_ || side_->simulates())) {
-            const double added = seconds_ * glm::dot(proxy.state.force - proxy.pressed, slot.hand_velocity);
-            sample.source +=
-                energy_on_device(slot.workspace, std::max(0.0, added) + std::max(0.0, proxy.parts.source));
-        }
-        if (proxy.proxy && proxy.description.device == index) {
-            sample.own_change += proxy.own_change;
-        }
-    }
-    return sample;
-}
-
-// For the owner to tell: which wall was not safe.
-void SessionLoop::note_walls(const ProxySlot& slot, DeviceSlot& device) const {
-    for (int i = 0; i < slot.parts.contact_count; ++i) {
-        const ContactForce& part = slot.parts.contacts[i];
-        const TouchMaterial& material = scene_.body(part.body).material;
-        if (part.wall.stiffness < material.stiffness) {
-            device.wanted = {material.stiffness, material.damping};
-            device.used = part.wall;
-        }
-    }
-}
-
-void SessionLoop::rest() {
-    TACTUS_ASSERT_HAPTIC_THREAD();
-    for (DeviceSlot& slot : devices_) {
-        if (slot.device) {
-            slot.force = Vec3(0.0);
-            slot.safety.rest();
-            slot.safe.torque = Vec3(0.0);
-            slot.device->twist(Vec3(0.0));
-            slot.device->write(time_, slot.force);
-        }
-    }
-    for (ProxySlot& slot : proxies_) {
-        slot.force = Vec3(0.0);
-        slot.state.force = Vec3(0.0);
-        slot.fading.clear();
-        slot.rested = true;
-    }
-    publish(time_);
-}
-
 void SessionLoop::step_physics() {
     push_bodies();
     hands_.clear();
@@ -539,7 +377,7 @@ void SessionLoop::publish(Nanoseconds now) {
 }
 
 void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
-    if (recording.proxy >= most_proxies || !proxies_[recording.proxy].proxy) {
+    if (recording.proxy >= max_proxies || !proxies_[recording.proxy].proxy) {
         return;
     }
     const ProxyState& state = proxies_[recording.proxy].state;

@@ -44,6 +44,13 @@ public:
         Vec3 twist{0.0};
     };
 
+    // What touching the scene gives a hand.
+    struct SceneForce {
+        Vec3 force{0.0};         // (unit: newtons)
+        FadingForce::Step step;  // what the hand's own way can have made of it
+        bool jumped = false;     // see ProxyTick
+    };
+
     struct ProxySlot {
         std::unique_ptr<Proxy> proxy;
         ProxyDescription description;
@@ -54,7 +61,8 @@ public:
         Vec3 force_before{0.0};   // one tick ago
         FadingForce fading;       // from `force` to state.force
         double own_change = 0.0;  // see ForceExit::leave
-        bool jumped = false;      // see ProxyTick
+        FadingForce::Step step;   // of `force`, see SceneForce
+        bool jumped = false;
         HandForce parts;
         Vec3 pressed{0.0};  // of `parts`, what surfaces press with (unit: newtons)
         bool sliding = false;
@@ -64,6 +72,7 @@ public:
         ProxyState state;
 
         bool present() const { return proxy && description.enabled; }
+        SceneForce scene_force() const { return {force, step, jumped}; }
     };
 
     SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
@@ -90,12 +99,11 @@ public:
     // --- for a side of teleoperation, inside its three calls (teleop_side.hpp)
 
     double seconds() const { return seconds_; }
-    std::size_t most_bodies() const { return bodies_.size(); }
+    std::size_t max_bodies() const { return bodies_.size(); }
     Body* body(SessionHandle handle);  // null where there is none
     const Body* body(SessionHandle handle) const;
     ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
     const TouchScene& scene() const { return scene_; }
-    SessionHandle handle_of_slot(int slot) const { return handle_of_slot_[static_cast<std::size_t>(slot)]; }
     DeviceSample device_sample(SessionHandle device) const;
     RobotView robot(SessionHandle device) const;
     // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
@@ -122,6 +130,10 @@ public:
 
     // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
     void touch(ProxySlot& slot, Nanoseconds now);
+    // What the hand may be given of a pointer's force (unit: newtons).
+    double force_limit(const ProxySlot& slot) const;
+    // What touch leaps by is spread over many ticks.
+    void fade_jumps();
 
     // One tick of what does not face the world: no devices, no snapshots, no side. Corrections and the slots'
     // hands are set in between.
@@ -196,7 +208,7 @@ private:
     void read_devices(Nanoseconds now);
     void place_hand(DeviceSlot& slot) const;
     void touch_all(Nanoseconds now);
-    void fade_jumps();
+    FadingForce::Step step_of(const ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
     void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
@@ -229,8 +241,8 @@ private:
     ChangeOrder state_changes_;            // of states_
     std::vector<std::uint32_t> state_of_;  // by handle; no_handle: none
     std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
-    std::array<DeviceSlot, most_devices> devices_;
-    std::array<ProxySlot, most_proxies> proxies_;
+    std::array<DeviceSlot, max_devices> devices_;
+    std::array<ProxySlot, max_proxies> proxies_;
     std::unique_ptr<TeleopSide> side_;  // null: nobody at the far side
     std::array<Recording, max_recordings> recordings_;
     std::size_t recording_count_ = 0;

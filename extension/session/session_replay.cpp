@@ -7,7 +7,7 @@
 namespace tactus {
 
 DeviceSample SessionLoop::device_sample(SessionHandle device) const {
-    return device < most_devices && devices_[device].device ? devices_[device].sample : DeviceSample{};
+    return device < max_devices && devices_[device].device ? devices_[device].sample : DeviceSample{};
 }
 
 BodyMotion SessionLoop::motion(SessionHandle handle) {
@@ -32,7 +32,7 @@ double SessionLoop::mass(SessionHandle handle) const {
 }
 
 Vec3 SessionLoop::given_force(const ProxySlot& slot) const {
-    return slot.description.device < most_devices
+    return slot.description.device < max_devices
                ? slot.state.force - devices_[slot.description.device].refused
                : slot.state.force;
 }

@@ -19,14 +19,14 @@ namespace tactus {
 using SessionHandle = std::uint32_t;
 constexpr SessionHandle no_handle = 0xffff'ffffu;
 
-constexpr std::size_t most_devices = 8;
+constexpr std::size_t max_devices = 8;
 constexpr std::size_t max_recordings = 8;
-constexpr std::size_t most_proxies = 16;
+constexpr std::size_t max_proxies = 16;
 
 struct SessionSettings {
-    Nanoseconds period = 1'000'000;    // of a tick, > 0
-    std::uint32_t most_bodies = 4096;  // that may be in the session at once
-    std::uint32_t most_parts = 8192;   // shapes of all of them together
+    Nanoseconds period = 1'000'000;   // of a tick, > 0
+    std::uint32_t max_bodies = 4096;  // that may be in the session at once
+    std::uint32_t max_parts = 8192;   // shapes of all of them together
     // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings).
     std::uint32_t full_rate_bodies = 64;
     // Taken from the owner in one tick; the rest waits for the next. A dynamic body that comes counts as
@@ -125,9 +125,9 @@ struct SessionSnapshot {
     Nanoseconds time = 0;
     std::vector<BodyState> bodies;
     std::size_t body_count = 0;
-    std::array<ProxyState, most_proxies> proxies;
+    std::array<ProxyState, max_proxies> proxies;
     std::size_t proxy_count = 0;
-    std::array<DeviceState, most_devices> devices;
+    std::array<DeviceState, max_devices> devices;
     std::size_t device_count = 0;
     std::size_t awake_bodies = 0;
     std::size_t slowed_bodies = 0;    // of those awake: far from every hand, at a sixteenth of the tick rate

@@ -82,7 +82,7 @@ void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newes
         round_ = every;
         begin_round(loop, channel, now);
     }
-    constexpr std::size_t room = ObjectStates::most;
+    constexpr std::size_t room = ObjectStates::max_count;
     const std::uint64_t packets = (due_.size() + room - 1) / room;
     while (said_ < due_.size() && (tick_ - round_began_) * packets >= said_ / room * round_) {
         const std::size_t count = std::min(room, due_.size() - said_);
@@ -96,7 +96,7 @@ void StateTeller::begin_round(SessionLoop& loop, const Channel& channel, Nanosec
     round_began_ = tick_;
     due_.clear();
     said_ = 0;
-    std::size_t room_for_standing = ObjectStates::most;
+    std::size_t room_for_standing = ObjectStates::max_count;
     for (std::size_t i = 0; i < told_.size(); ++i) {
         const auto body = static_cast<SessionHandle>(i);
         const SessionLoop::Body* const there = loop.body(body);
@@ -141,7 +141,7 @@ void StateTeller::note_where_it_stands(SessionLoop& loop, SessionHandle body) {
 
 // Those that have been said long ago, from where the last turn has ended.
 void StateTeller::take_slow_turn(const SessionLoop& loop) {
-    std::size_t room = ObjectStates::most;
+    std::size_t room = ObjectStates::max_count;
     const std::size_t looked_at = std::min(told_.size(), max_looked_at);
     for (std::size_t looked = 0; looked < looked_at && room > 0; ++looked) {
         const auto body = static_cast<SessionHandle>(turn_at_);
@@ -160,7 +160,7 @@ void StateTeller::take_slow_turn(const SessionLoop& loop) {
 bool StateTeller::has_its_turn(const TeleopSettings& settings, SessionHandle body) const {
     const std::uint64_t refresh = std::uint64_t{std::max(1u, settings.refresh_every)} * pace_.stride();
     const std::uint64_t turns = std::max<std::uint64_t>(1, refresh / round_);
-    return tick_ / round_ % turns == body / ObjectStates::most % turns;
+    return tick_ / round_ % turns == body / ObjectStates::max_count % turns;
 }
 
 bool StateTeller::moves_otherwise(SessionLoop& loop, const TeleopSettings& settings, SessionHandle body,

@@ -50,8 +50,8 @@ struct TeleopSettings {
     DeadbandSettings deadband;
     std::uint32_t buffer_depth = 0;     // samples that the far side keeps in hand at the start, 0 … 200
     std::uint32_t states_every = 5;     // ticks between states of what moves, >= 1
-    std::uint32_t refresh_every = 200;  // ticks between states of everything, >= 1
-    std::uint32_t repeats = 9;          // samples in one packet, the newest and older ones, 1 … 9
+    std::uint32_t refresh_every = 200;  // ticks between states of what rests, >= 1
+    std::uint32_t repeats = 16;         // samples in one packet, the newest and older ones, 1 … 16
     Vec3 gravity{0.0, -9.81, 0.0};      // far side: of its world (unit: meters per square second)
     ClockSkew skew;                     // of this side's clock, as an experiment
     Pose frame;            // of this side's world in its scene: what is sent is relative to it, on both sides
@@ -83,7 +83,7 @@ struct TeleopStatistics {
     CorrectionCost cost;                // of the last tick
     double largest_force_step = 0.0;    // (unit: newtons)
     double offset = 0.0;                // how far the pointers are carried (unit: meters)
-    std::array<FeltFigures, most_proxies> pointers;
+    std::array<FeltFigures, max_proxies> pointers;
     std::uint64_t let_go = 0;  // times that a pointer has begun to let go of what was too large to hide
     EnergyFigures energy;
     std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past

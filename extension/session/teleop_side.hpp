@@ -46,8 +46,8 @@ public:
 
 // A moment of a loop. All memory is taken once.
 struct LoopMemento {
-    LoopMemento(std::size_t most_bodies, std::size_t bytes_of_physics)
-        : places(most_bodies), physics(bytes_of_physics) {}
+    LoopMemento(std::size_t max_bodies, std::size_t bytes_of_physics)
+        : places(max_bodies), physics(bytes_of_physics) {}
 
     struct Place {
         SessionHandle handle = no_handle;
@@ -63,7 +63,7 @@ struct LoopMemento {
     std::vector<Place> places;
     std::size_t physics_bytes = 0;  // 0: nothing is saved here
     std::vector<std::byte> physics;
-    std::array<Pointer, most_proxies> pointers;
+    std::array<Pointer, max_proxies> pointers;
 };
 
 }  // namespace tactus

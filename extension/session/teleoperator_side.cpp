@@ -21,7 +21,7 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
                                    std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint,
                                    const PointerShare& share)
     : channel_(settings, link, std::move(port), endpoint),
-      telling_(session.most_bodies),
+      telling_(session.max_bodies),
       share_(share),
       hands_(channel_, share.most(), to_seconds(session.period)),
       seconds_(to_seconds(session.period)) {}
@@ -207,7 +207,7 @@ void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
         return;
     }
     ForceSamples message;
-    for (std::size_t i = 0; i < share_.most() && message.count < ForceSamples::most; ++i) {
+    for (std::size_t i = 0; i < share_.most() && message.count < ForceSamples::max_count; ++i) {
         if (pointers_[i].holds && slot_of(loop, i).present() && force_is_due(loop, i, now)) {
             message.samples[message.count++] = force_of(loop, i, now);
         }

@@ -17,7 +17,7 @@ struct PointerShare {
     std::size_t proxy_of(std::size_t pointer) const { return first + pointer * every; }
     bool has(std::size_t proxy) const { return proxy >= first && (proxy - first) % every == 0; }
     // Pointers of the operator that can have one.
-    std::size_t most() const { return first < most_proxies ? (most_proxies - first + every - 1) / every : 0; }
+    std::size_t most() const { return first < max_proxies ? (max_proxies - first + every - 1) / every : 0; }
 };
 
 class TeleoperatorSide final : public TeleopSide {
@@ -27,7 +27,7 @@ public:
                      const PointerShare& share = {});
 
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
-    void set_forces(SessionLoop&, Nanoseconds) override {}
+    void set_forces(SessionLoop& loop, Nanoseconds) override { loop.fade_jumps(); }
     void report(SessionLoop& loop, Nanoseconds now) override;
     const ForceLimits& limits() const override { return channel_.settings().limits; }
 
@@ -70,7 +70,7 @@ private:
     double seconds_;  // of a tick
     Pace force_pace_{PaceSettings{}};
     std::uint64_t force_tick_ = 0;
-    std::array<Pointer, most_proxies> pointers_;
+    std::array<Pointer, max_proxies> pointers_;
     SampleSequence newest_applied_ = no_sample;
     TeleopStatistics statistics_;
 };

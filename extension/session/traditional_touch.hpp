@@ -37,7 +37,7 @@ public:
     void forget() { far_ = {}; }
 
 private:
-    std::array<Far, most_proxies> far_;
+    std::array<Far, max_proxies> far_;
 };
 
 }  // namespace tactus

@@ -7,9 +7,9 @@
 
 namespace tactus {
 
-TruthStore::TruthStore(std::size_t most_bodies, std::size_t places)
-    : truths_(most_bodies), place_of_(most_bodies, no_place), body_at_(places, no_handle) {
-    fresh_.reserve(most_bodies);
+TruthStore::TruthStore(std::size_t max_bodies, std::size_t places)
+    : truths_(max_bodies), place_of_(max_bodies, no_place), body_at_(places, no_handle) {
+    fresh_.reserve(max_bodies);
 }
 
 bool TruthStore::take(SessionHandle body, SampleSequence sample, std::uint64_t packet,

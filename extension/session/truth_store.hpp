@@ -28,7 +28,7 @@ class TruthStore {
 public:
     static constexpr std::uint32_t no_place = 0xffff'ffffu;
 
-    TruthStore(std::size_t most_bodies, std::size_t places);
+    TruthStore(std::size_t max_bodies, std::size_t places);
 
     // Newest wins, by the number of the packet that brought it: times are the far side's word. False, and
     // nothing has changed, where it is older than what is known.

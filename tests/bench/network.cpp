@@ -26,8 +26,8 @@ constexpr Nanoseconds tick = 1'000'000;
 
 // What a busy side sends each tick: ten moving objects, or nine samples of the hand.
 Message ten_states(Nanoseconds now) {
-    ObjectStates states{now, 1, ObjectStates::most, {}};
-    for (std::size_t i = 0; i < ObjectStates::most; ++i) {
+    ObjectStates states{now, 1, ObjectStates::max_count, {}};
+    for (std::size_t i = 0; i < ObjectStates::max_count; ++i) {
         states.states[i].object = static_cast<ObjectId>(i);
         states.states[i].pose.position = Vec3(0.1 * static_cast<double>(i));
     }
@@ -35,9 +35,9 @@ Message ten_states(Nanoseconds now) {
 }
 
 Message nine_samples(Nanoseconds now) {
-    OperatorSamples samples{1'000'000, OperatorSamples::most, {}};
-    for (std::size_t i = 0; i < OperatorSamples::most; ++i) {
-        samples.samples[i].sequence = OperatorSamples::most - i;
+    OperatorSamples samples{1'000'000, OperatorSamples::max_count, {}};
+    for (std::size_t i = 0; i < OperatorSamples::max_count; ++i) {
+        samples.samples[i].sequence = OperatorSamples::max_count - i;
         samples.samples[i].time = now;
     }
     return samples;
@@ -119,7 +119,7 @@ bool measure_udp(Report& report, double seconds) {
         return false;
     }
     std::vector<double> ways, sends;
-    std::array<std::byte, most_datagram_bytes> datagram{};
+    std::array<std::byte, max_datagram_bytes> datagram{};
     const SpanClock clock;
     Sleeper sleeper(SleepSettings{});
     const double others_before = time_of_other_threads();

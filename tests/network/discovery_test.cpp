@@ -307,7 +307,7 @@ TEST(Discovery, WhatCannotBeBuiltIsNotRepeated) {
 
 TEST(Discovery, WhatFindsNoRoomIsOfferedAgainSlowly) {
     DiscoverySettings settings;
-    settings.most_objects = 1;
+    settings.max_objects = 1;
     DiscoveryRig rig({}, settings);
     rig.announce(samples::object_of_size(1, 10));
     rig.announce(samples::object_of_size(2, 10));
@@ -326,9 +326,9 @@ TEST(Discovery, WhatFindsNoRoomIsOfferedAgainSlowly) {
 
 TEST(Discovery, IncompleteDescriptionsTakeBoundedMemory) {
     DiscoverySettings settings;
-    settings.most_incomplete_bytes = 100 * most_fragment_bytes;
+    settings.max_incomplete_bytes = 100 * max_fragment_bytes;
     DiscoveryReceiver receiver(settings);
-    const std::vector<std::byte> bytes(most_fragment_bytes);
+    const std::vector<std::byte> bytes(max_fragment_bytes);
     for (ObjectId id = 0; id < 300; ++id) {
         receiver.put(DiscoveryFragment{id, 1, ContentHash{}, 4 << 20, 0, bytes});
         EXPECT_FALSE(receiver.next());
@@ -339,20 +339,20 @@ TEST(Discovery, IncompleteDescriptionsTakeBoundedMemory) {
 // Whoever claims much, and whoever begins ten thousand objects, keeps nobody's own from being described.
 TEST(Discovery, ClaimsKeepNobodyOut) {
     DiscoverySettings settings;
-    settings.most_objects = 64;
-    settings.most_incomplete_bytes = 8 << 20;
+    settings.max_objects = 64;
+    settings.max_incomplete_bytes = 8 << 20;
     DiscoveryReceiver receiver(settings);
-    const std::vector<std::byte> bytes(most_fragment_bytes);
+    const std::vector<std::byte> bytes(max_fragment_bytes);
     const PreparedDiscovery honest = prepared(samples::object_of_size(1, 5000));
     const auto total = static_cast<std::uint32_t>(honest.content->size());
     ASSERT_GT(total, 50'000u);
     bool described = false;
     ObjectId junk = 100;
-    for (std::uint32_t offset = 0; offset < total; offset += most_fragment_bytes) {
+    for (std::uint32_t offset = 0; offset < total; offset += max_fragment_bytes) {
         for (int i = 0; i < 40; ++i) {
-            receiver.put(DiscoveryFragment{junk++, 1, ContentHash{}, most_description_bytes, 0, bytes});
+            receiver.put(DiscoveryFragment{junk++, 1, ContentHash{}, max_description_bytes, 0, bytes});
         }
-        const std::size_t size = std::min<std::size_t>(most_fragment_bytes, total - offset);
+        const std::size_t size = std::min<std::size_t>(max_fragment_bytes, total - offset);
         receiver.put(DiscoveryFragment{1, 7, honest.hash, total, offset,
                                        std::span(*honest.content).subspan(offset, size)});
         while (const auto event = receiver.next()) {
@@ -379,9 +379,9 @@ TEST(Discovery, ManyLargeObjectsGetThroughASmallRoom) {
 // Each piece begins the object anew: that costs no more than the piece.
 TEST(Discovery, RevisionsThatRiseCostNoMoreThanTheirPieces) {
     DiscoveryReceiver receiver;
-    const std::vector<std::byte> bytes(most_fragment_bytes);
+    const std::vector<std::byte> bytes(max_fragment_bytes);
     for (std::uint32_t revision = 1; revision <= 100'000; ++revision) {
-        receiver.put(DiscoveryFragment{1, revision, ContentHash{}, most_description_bytes, 0, bytes});
+        receiver.put(DiscoveryFragment{1, revision, ContentHash{}, max_description_bytes, 0, bytes});
         EXPECT_FALSE(receiver.next());
     }
     EXPECT_EQ(receiver.counts().pieces, 100'000u);

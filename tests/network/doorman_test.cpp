@@ -22,10 +22,10 @@ Bytes greeting_of(std::uint64_t start) {
 
 TEST(Doorman, KnowsAKnockWithAndWithoutAKey) {
     EXPECT_EQ(number_of_knock(greeting_of(77)), 77u);
-    Bytes hello(most_message_bytes);
+    Bytes hello(max_message_bytes);
     hello.resize(encode({99, 1, 0}, Hello{}, hello));
     EXPECT_EQ(number_of_knock(hello), 99u);
-    Bytes request(most_message_bytes);
+    Bytes request(max_message_bytes);
     request.resize(encode({99, 1, 0}, ClockRequest{}, request));
     EXPECT_FALSE(number_of_knock(request));
     for (std::size_t size = 0; size < hello.size(); ++size) {

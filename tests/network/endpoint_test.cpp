@@ -93,7 +93,7 @@ TEST(Endpoint, WhatIsLeftOfAnEarlierEpochIsDropped) {
 TEST(Endpoint, AnOldHelloDoesNotBringAnEpochBack) {
     EndpointRig rig;
     rig.run(300 * ms);
-    std::array<std::byte, most_message_bytes> old;
+    std::array<std::byte, max_message_bytes> old;
     const std::size_t size = encode({22, 500, 0}, Hello{Side::teleoperator_side}, old);
     rig.start_far(99);
     rig.run(300 * ms);
@@ -203,10 +203,10 @@ TEST(Endpoint, NoiseIsCountedByReason) {
     EndpointRig rig;
     rig.run(100 * ms);
     const auto throw_in = [&](std::span<const std::byte> bytes) { rig.far_wire().send(bytes, rig.now()); };
-    std::array<std::byte, most_datagram_bytes> noise{};
+    std::array<std::byte, max_datagram_bytes> noise{};
     throw_in(noise);
     throw_in(std::span(noise).first(1));
-    std::array<std::byte, most_message_bytes> good;
+    std::array<std::byte, max_message_bytes> good;
     const std::size_t size = encode({22, 1'000'000, 0}, force(1.0), good);
     throw_in(std::span(good).first(size - 1));
     good[2] = std::byte{99};
@@ -224,7 +224,7 @@ TEST(Endpoint, NoiseIsCountedByReason) {
 TEST(Endpoint, ItsOwnPacketsComingBackAreStrange) {
     EndpointRig rig;
     rig.run(100 * ms);
-    std::array<std::byte, most_message_bytes> own;
+    std::array<std::byte, max_message_bytes> own;
     const std::size_t size = encode({11, 1, 0}, Hello{}, own);
     rig.far_wire().send(std::span(own).first(size), rig.now());
     rig.run(5 * ms);
@@ -238,7 +238,7 @@ struct Stranger {
     EndpointRig rig;
     Stranger() { rig.run(300 * ms); }
     void say(const PacketHeader& header, const Message& message) {
-        std::array<std::byte, most_message_bytes> bytes;
+        std::array<std::byte, max_message_bytes> bytes;
         const std::size_t size = encode(header, message, bytes);
         ASSERT_GT(size, 0u);
         rig.far_wire().send(std::span(bytes).first(size), rig.now());
@@ -315,7 +315,7 @@ TEST(Endpoint, AFirstSequenceThatWasWrongIsForgotten) {
     EndpointRig rig;
     rig.stop_far();
     rig.run(100 * ms);
-    std::array<std::byte, most_message_bytes> bytes;
+    std::array<std::byte, max_message_bytes> bytes;
     const std::size_t size = encode({22, 1u << 30, 0}, Hello{Side::teleoperator_side}, bytes);
     rig.far_wire().send(std::span(bytes).first(size), rig.now());
     rig.start_far(22);
@@ -357,7 +357,7 @@ TEST(Endpoint, AFloodIsSpreadOverTicks) {
         rig.far().send(force(i));
     }
     rig.run(1 * ms);
-    EXPECT_LE(rig.near_heard().size(), static_cast<std::size_t>(Endpoint::most_datagrams_per_tick));
+    EXPECT_LE(rig.near_heard().size(), static_cast<std::size_t>(Endpoint::max_datagrams_per_tick));
     rig.run(10 * ms);
     EXPECT_EQ(rig.near_heard().size(), 1000u);
 }

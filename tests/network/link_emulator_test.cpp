@@ -28,7 +28,7 @@ std::vector<Arrival> run(const LinkConditions& conditions, std::uint32_t count, 
     LinkEmulator emulator(pair.second(), conditions, seed, 1 << 14);
     std::vector<Arrival> arrivals;
     std::vector<std::byte> datagram(bytes);
-    std::array<std::byte, most_datagram_bytes> buffer;
+    std::array<std::byte, max_datagram_bytes> buffer;
     std::uint32_t sent = 0;
     const Nanoseconds end = count * period + 20'000 * ms;
     for (Nanoseconds now = 0; now < end; now += ms) {
@@ -255,7 +255,7 @@ TEST(LinkEmulator, DoublesItsShare) {
 TEST(LinkEmulator, TheNarrowPlaceLetsItsRatePassAndDropsTheRest) {
     LinkConditions conditions;
     conditions.rate = 400'000.0;  // half of the 800 kbit/s that are sent
-    conditions.most_waiting = 50 * ms;
+    conditions.max_waiting = 50 * ms;
     EmulatorCounts counts;
     const auto arrivals = run(conditions, 4000, 1, ms, 100, &counts);
     EXPECT_NEAR(static_cast<double>(arrivals.size()), 2000.0, 30.0);
@@ -279,7 +279,7 @@ TEST(LinkEmulator, WhatIsUnderWayIsBounded) {
     LinkConditions conditions;
     conditions.delay = 1000 * ms;
     LinkEmulator emulator(pair.second(), conditions, 1, 16);
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     for (int i = 0; i < 100; ++i) {
         pair.first().send(std::span(buffer).first(10), 0);
     }
@@ -297,7 +297,7 @@ TEST(LinkEmulator, ConditionsMayChangeWhileDatagramsAreUnderWay) {
     LinkConditions conditions;
     conditions.delay = 100 * ms;
     LinkEmulator emulator(pair.second(), conditions, 1);
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     pair.first().send(std::span(buffer).first(1), 0);
     EXPECT_FALSE(emulator.receive(buffer, 0));
     conditions.delay = 10 * ms;
@@ -318,7 +318,7 @@ TEST(LinkEmulator, ATickAllocatesLocksAndAsksForNothing) {
     conditions.burst = bursts(0.1, 3.0);
     conditions.rate = 1e7;
     LinkEmulator emulator(pair.second(), conditions, 1);
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     testing::AuditScope audit;
     for (Nanoseconds now = 0; now < 2000 * ms; now += ms) {
         pair.first().send(std::span(buffer).first(200), now);
@@ -354,10 +354,10 @@ TEST(ClockSkew, RunsAheadAndFaster) {
 
 TEST(MemoryLink, RefusesTheEmptyTheTooLongAndTheFull) {
     MemoryLinkPair pair(2);
-    std::array<std::byte, most_datagram_bytes + 1> bytes{};
+    std::array<std::byte, max_datagram_bytes + 1> bytes{};
     EXPECT_FALSE(pair.first().send({}, 0));
     EXPECT_FALSE(pair.first().send(bytes, 0));
-    EXPECT_TRUE(pair.first().send(std::span(bytes).first(most_datagram_bytes), 0));
+    EXPECT_TRUE(pair.first().send(std::span(bytes).first(max_datagram_bytes), 0));
     EXPECT_TRUE(pair.first().send(std::span(bytes).first(1), 5));
     EXPECT_FALSE(pair.first().send(std::span(bytes).first(1), 0));
     EXPECT_EQ(pair.first_refused(), 3u);

@@ -22,7 +22,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 Bytes encoded(const Message& message, const PacketHeader& header = samples::header) {
-    Bytes bytes(most_message_bytes);
+    Bytes bytes(max_message_bytes);
     bytes.resize(encode(header, message, bytes));
     return bytes;
 }
@@ -127,7 +127,7 @@ TEST_P(EveryKind, SurvivesDamageOrIsRefused) {
                 static_cast<std::byte>(random.below(256));
         }
         if (random.below(8) == 0) {
-            bytes.resize(static_cast<std::size_t>(random.below(static_cast<int>(most_datagram_bytes))));
+            bytes.resize(static_cast<std::size_t>(random.below(static_cast<int>(max_datagram_bytes))));
         }
         Packet packet;
         if (decode(bytes, packet) == Refusal::none) {
@@ -163,9 +163,9 @@ TEST(Messages, EveryRefusalHasItsReason) {
     EXPECT_EQ(refusal_of(with(2, 0)), Refusal::wrong_version);
     EXPECT_EQ(refusal_of(with(3, 0)), Refusal::unknown_type);
     EXPECT_EQ(refusal_of(with(3, 12)), Refusal::unknown_type);
-    EXPECT_EQ(refusal_of(Bytes(most_message_bytes + 1)), Refusal::wrong_magic);
+    EXPECT_EQ(refusal_of(Bytes(max_message_bytes + 1)), Refusal::wrong_magic);
     Bytes long_one = good;
-    long_one.resize(most_message_bytes + 1);
+    long_one.resize(max_message_bytes + 1);
     EXPECT_EQ(refusal_of(long_one), Refusal::oversized);
 }
 
@@ -206,30 +206,30 @@ TEST(Messages, ARotationHasUnitLength) {
 }
 
 TEST(Messages, TheFullestMessagesFit) {
-    ObjectStates states{0, 0, ObjectStates::most, {}};
-    for (std::size_t i = 0; i < ObjectStates::most; ++i) {
+    ObjectStates states{0, 0, ObjectStates::max_count, {}};
+    for (std::size_t i = 0; i < ObjectStates::max_count; ++i) {
         states.states[i] = samples::state(static_cast<ObjectId>(i));
     }
     expect_round_trip(states);
-    OperatorSamples hands{1'000'000, OperatorSamples::most, {}};
-    for (std::size_t i = 0; i < OperatorSamples::most; ++i) {
-        hands.samples[i] = samples::hand(OperatorSamples::most - i);
+    OperatorSamples hands{1'000'000, OperatorSamples::max_count, {}};
+    for (std::size_t i = 0; i < OperatorSamples::max_count; ++i) {
+        hands.samples[i] = samples::hand(OperatorSamples::max_count - i);
     }
     expect_round_trip(hands);
-    ForceSamples forces{ForceSamples::most, {}};
+    ForceSamples forces{ForceSamples::max_count, {}};
     expect_round_trip(forces);
-    const Bytes piece(most_fragment_bytes);
-    expect_round_trip(DiscoveryFragment{1, 1, samples::hash(), most_description_bytes, 0, piece});
+    const Bytes piece(max_fragment_bytes);
+    expect_round_trip(DiscoveryFragment{1, 1, samples::hash(), max_description_bytes, 0, piece});
 }
 
 TEST(Messages, CountsBeyondTheLimitAreRefused) {
-    ObjectStates states{0, 0, ObjectStates::most + 1, {}};
+    ObjectStates states{0, 0, ObjectStates::max_count + 1, {}};
     EXPECT_TRUE(encoded(states).empty());
     EXPECT_TRUE(encoded(OperatorSamples{}).empty());
 }
 
 TEST(Messages, AFragmentThatIsNotWhereItSaysIsRefused) {
-    const Bytes piece(most_fragment_bytes);
+    const Bytes piece(max_fragment_bytes);
     const auto fragment = [&](std::uint32_t total, std::uint32_t offset, std::size_t size) {
         return encoded(DiscoveryFragment{1, 1, samples::hash(), total, offset, std::span(piece).first(size)});
     };
@@ -239,7 +239,7 @@ TEST(Messages, AFragmentThatIsNotWhereItSaysIsRefused) {
     EXPECT_TRUE(fragment(2048, 1024, 1000).empty()) << "shorter than its place";
     EXPECT_TRUE(fragment(1000, 0, 1024).empty()) << "longer than the whole";
     EXPECT_TRUE(fragment(0, 0, 0).empty());
-    EXPECT_TRUE(fragment(most_description_bytes + 1, 0, 1024).empty());
+    EXPECT_TRUE(fragment(max_description_bytes + 1, 0, 1024).empty());
 }
 
 // The bytes that docs/wire_format.md describes, for a second implementation to read: tests/tools reads them.

@@ -117,7 +117,7 @@ TEST(NetworkLink, SaysWhatIsWrong) {
     NetworkLink link;
     EXPECT_EQ(link.open(here(0, 9, "short")).find("the key is too short"), 0u);
     EXPECT_NE(link.open(here(0, 0)), "");
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     EXPECT_FALSE(link.send(buffer, 0));
     EXPECT_FALSE(link.receive(buffer, 0));
     EXPECT_EQ(link.figures().udp.state, UdpState::closed);

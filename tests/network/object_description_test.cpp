@@ -103,7 +103,7 @@ TEST(ObjectDescription, ABrokenOneIsNotSent) {
     EXPECT_TRUE(breaks([](auto& d) { d.body.pose.rotation = Quat(0.0, 0.0, 0.0, 0.0); }));
     EXPECT_TRUE(breaks([](auto& d) { d.body.material.restitution = 1.5; }));
     EXPECT_TRUE(breaks([](auto& d) { d.touch.stiffness = -1.0; }));
-    EXPECT_TRUE(breaks([](auto& d) { d.name = std::string(most_name_bytes + 1, 'a'); }));
+    EXPECT_TRUE(breaks([](auto& d) { d.name = std::string(max_name_bytes + 1, 'a'); }));
     EXPECT_TRUE(breaks([](auto& d) { d.name = "\xff"; }));
     EXPECT_TRUE(breaks([](auto& d) { d.name = "\xc3"; }));
     EXPECT_FALSE(breaks([](auto& d) { d.name = "Tisch/Kl\xc3\xb6tzchen"; }));
@@ -141,7 +141,7 @@ TEST(ObjectDescription, APromiseOfGigabytesIsRefusedAtOnce) {
 
 TEST(ObjectDescription, WhatIsTooLongIsNotSent) {
     auto mesh = std::make_shared<TriangleMesh>();
-    mesh->vertices.assign(most_description_bytes / 24 + 1, Vec3(0.0));
+    mesh->vertices.assign(max_description_bytes / 24 + 1, Vec3(0.0));
     ObjectDescription description;
     description.object = 1;
     description.body.shapes = {{MeshShape{mesh, 0.0}, {}}};

@@ -61,7 +61,7 @@ struct SecureRig {
         other(from).inbox.emplace_back(bytes.begin(), bytes.end());
     }
     bool say(Side& from, const Bytes& plain) {
-        std::array<std::byte, most_datagram_bytes> sealed;
+        std::array<std::byte, max_datagram_bytes> sealed;
         const std::size_t size = from.session->seal(plain, sealed);
         if (size > 0) {
             transmit(from, std::span(sealed).first(size));
@@ -69,7 +69,7 @@ struct SecureRig {
         return size > 0;
     }
     void tick(Side& side) {
-        std::array<std::byte, most_datagram_bytes> buffer;
+        std::array<std::byte, max_datagram_bytes> buffer;
         while (!side.inbox.empty()) {
             const Bytes datagram = std::move(side.inbox.front());
             side.inbox.pop_front();
@@ -146,8 +146,8 @@ TEST(SecureSession, EachStartHasKeysOfItsOwn) {
 TEST(SecureSession, TheLongestMessageFits) {
     SecureRig rig;
     rig.run(20 * ms);
-    EXPECT_TRUE(rig.say(rig.near, one(1, most_message_bytes)));
-    EXPECT_FALSE(rig.say(rig.near, one(1, most_datagram_bytes - SecureSession::overhead + 1)));
+    EXPECT_TRUE(rig.say(rig.near, one(1, max_message_bytes)));
+    EXPECT_FALSE(rig.say(rig.near, one(1, max_datagram_bytes - SecureSession::overhead + 1)));
     EXPECT_FALSE(rig.say(rig.near, {}));
     rig.run(2 * ms);
     EXPECT_EQ(rig.far.heard.size(), 1u);
@@ -285,7 +285,7 @@ TEST(SecureSession, WhoOnlyGreetsShutsNobodyOut) {
     SecureRig::Side stranger;
     for (int i = 0; i < 300; ++i) {
         rig.start(stranger, 99);
-        std::array<std::byte, most_datagram_bytes> buffer;
+        std::array<std::byte, max_datagram_bytes> buffer;
         // The stranger hears what near says and answers it: it knows near's start, and not the secret.
         for (const Bytes& heard : rig.near.sent) {
             stranger.session->open(heard, buffer, rig.now);
@@ -394,7 +394,7 @@ TEST(SecureSession, NoiseIsDropped) {
     rig.run(20 * ms);
     shared::RandomValues random(3);
     for (int i = 0; i < 3000; ++i) {
-        Bytes noise(static_cast<std::size_t>(1 + random.below(static_cast<int>(most_datagram_bytes))));
+        Bytes noise(static_cast<std::size_t>(1 + random.below(static_cast<int>(max_datagram_bytes))));
         for (std::byte& byte : noise) {
             byte = static_cast<std::byte>(random.below(256));
         }
@@ -456,7 +456,7 @@ TEST(SecureSession, SealsAsThePublishedVectorsSay) {
     const auto inline_run = [](std::function<void()> job) { job(); };
     SecureSession near(secret(1), published_identity(1), inline_run);
     SecureSession far(secret(1), published_identity(2), inline_run);
-    std::array<std::byte, most_datagram_bytes> wire, plain;
+    std::array<std::byte, max_datagram_bytes> wire, plain;
     std::string greeting;
     for (Nanoseconds now = 0; now < 30 * ms; now += ms) {
         for (SecureSession* side : {&near, &far}) {

@@ -87,10 +87,10 @@ std::vector<std::byte> bytes(std::size_t size, int fill) {
 
 TEST(UdpLink, CarriesDatagramsBothWays) {
     Pair pair;
-    std::array<std::byte, most_datagram_bytes> buffer;
+    std::array<std::byte, max_datagram_bytes> buffer;
     for (UdpLink* from : {&pair.first, &pair.second}) {
         UdpLink& other = from == &pair.first ? pair.second : pair.first;
-        for (const std::size_t size : {std::size_t{1}, std::size_t{100}, most_datagram_bytes}) {
+        for (const std::size_t size : {std::size_t{1}, std::size_t{100}, max_datagram_bytes}) {
             const Nanoseconds before = monotonic_now();
             ASSERT_TRUE(from->send(bytes(size, 7), before));
             ReceivedDatagram received;
@@ -112,7 +112,7 @@ TEST(UdpLink, CarriesDatagramsBothWays) {
 TEST(UdpLink, RefusesTheEmptyAndTheTooLong) {
     Pair pair;
     EXPECT_FALSE(pair.first.send({}, 0));
-    EXPECT_FALSE(pair.first.send(bytes(most_datagram_bytes + 1, 0), 0));
+    EXPECT_FALSE(pair.first.send(bytes(max_datagram_bytes + 1, 0), 0));
     EXPECT_EQ(pair.first.figures().no_room_to_send, 2u);
 }
 
@@ -193,7 +193,7 @@ TEST(UdpLink, AllAddressesOfANameAreTried) {
     settings.remote_address = "localhost";
     ASSERT_EQ(first.open(settings), "");
     ASSERT_EQ(second.open(to(first.local_port(), port)), "");
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     EXPECT_TRUE(eventually([&] {
         first.send(bytes(4, 2), 0);
         return static_cast<bool>(second.receive(buffer, 0));
@@ -266,9 +266,9 @@ TEST(UdpLink, WhoIsNotExpectedIsToldWhy) {
         UdpLink third;
         UdpSettings settings = to(pair.first.local_port());
         ASSERT_EQ(third.open(sealed ? with_secret(settings) : settings), "");
-        std::array<std::byte, most_message_bytes> hello;
+        std::array<std::byte, max_message_bytes> hello;
         const std::size_t size = encode({99, 1, 0}, Hello{}, hello);
-        std::array<std::byte, most_datagram_bytes> buffer{};
+        std::array<std::byte, max_datagram_bytes> buffer{};
         ASSERT_TRUE(eventually([&] {
             third.send(std::span(hello).first(size), 0);
             EXPECT_FALSE(third.receive(buffer, 0));
@@ -289,7 +289,7 @@ TEST(UdpLink, WhoIsNotExpectedIsToldWhy) {
 
 TEST(UdpLink, AClosedLinkTakesNothingAndGivesNothing) {
     UdpLink link;
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     EXPECT_FALSE(link.send(bytes(3, 1), 0));
     EXPECT_FALSE(link.receive(buffer, 0));
     EXPECT_EQ(link.local_port(), 0);
@@ -310,7 +310,7 @@ TEST(UdpLink, AFarSideThatIsNotThereIsNoticedAndMayComeLater) {
     EXPECT_GT(first.figures().unreachable, 0u);
     UdpLink second;
     ASSERT_EQ(second.open(to(first.local_port(), port)), "");
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     EXPECT_TRUE(eventually([&] {
         first.send(bytes(4, 2), 0);
         second.send(bytes(4, 3), 0);
@@ -325,9 +325,9 @@ TEST(UdpLink, StrangersAndGiantsAreDropped) {
     // From the right address, but longer than any of ours: by way of the second link's port.
     const std::uint16_t second_port = pair.second.local_port();
     pair.second.close();
-    send_from(second_port, pair.first.local_port(), {bytes(most_datagram_bytes + 1, 9), {}, bytes(3, 5)});
+    send_from(second_port, pair.first.local_port(), {bytes(max_datagram_bytes + 1, 9), {}, bytes(3, 5)});
 
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     ReceivedDatagram received;
     ASSERT_TRUE(eventually([&] { return (received = pair.first.receive(buffer, 0)).bytes != 0; }));
     EXPECT_EQ(received.bytes, 3u);
@@ -349,7 +349,7 @@ TEST(UdpLink, WhatNobodyTakesIsBounded) {
         second.send(bytes(10, 1), 0);
         return first.figures().no_room_to_take > 0;
     }));
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     int waiting = 0;
     while (first.receive(buffer, 0)) {
         ++waiting;
@@ -372,7 +372,7 @@ TEST(UdpLink, IsTheSameOverTheNewInternet) {
     settings.local_port = first_port;
     settings.remote_port = second.local_port();
     ASSERT_EQ(first.open(settings), "");
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     EXPECT_TRUE(eventually([&] {
         second.send(bytes(10, 1), 0);
         return static_cast<bool>(first.receive(buffer, 0));
@@ -433,7 +433,7 @@ TEST(UdpLink, ClosingSendsWhatWasSaidLast) {
     Pair pair;
     pair.first.send(bytes(5, 42), 0);
     pair.first.close();
-    std::array<std::byte, most_datagram_bytes> buffer{};
+    std::array<std::byte, max_datagram_bytes> buffer{};
     ReceivedDatagram received;
     ASSERT_TRUE(eventually([&] { return (received = pair.second.receive(buffer, 0)).bytes != 0; }));
     EXPECT_EQ(buffer[0], std::byte{42});

@@ -78,7 +78,7 @@ TEST(SupportPlane, AWallIsNone) {
     PlaneSearch search = view.search();
     search.up = Vec3(0.0, 0.0, 1.0);  // as if the camera looked at a wall
     const Vec3 level = view.up();
-    ASSERT_LT(glm::dot(level, search.up), std::cos(search.most_tilt));
+    ASSERT_LT(glm::dot(level, search.up), std::cos(search.max_tilt));
     EXPECT_FALSE(find_plane(noisy_image(view.exact, calibrated(), 1, 0), {}, search));
 }
 

@@ -45,7 +45,7 @@ struct Finger {
 struct Table {
     explicit Table(int fingers = 1) {
         SessionSettings settings;
-        settings.most_bodies = 32;
+        settings.max_bodies = 32;
         session = std::make_unique<Session>(settings);
         for (int i = 0; i < fingers; ++i) {
             finger.push_back(std::make_unique<Finger>(*session));

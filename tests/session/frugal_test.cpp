@@ -136,7 +136,7 @@ TEST(Frugal, WhatIsFalseOfWhatStandsHeals) {
     lie.count = 1;
     lie.states[0].object = object->object;
     lie.states[0].pose.position = place + Vec3(0.0, -0.5, 0.0);
-    std::array<std::byte, most_datagram_bytes> bytes;
+    std::array<std::byte, max_datagram_bytes> bytes;
     const std::uint64_t sequence = rig.far->port->statistics.front().link.packets_sent + 40;
     const std::size_t size = encode({2, sequence, rig.now}, lie, bytes);
     ASSERT_TRUE(rig.wire.second().send(std::span(bytes).first(size), rig.now));

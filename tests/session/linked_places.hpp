@@ -58,7 +58,7 @@ public:
           near(settings_, hands),
           far(settings_, hands) {
         OperatorRoom room;
-        room.most_tracked = tracked;
+        room.max_tracked = tracked;
         near.session.attach(std::make_unique<OperatorSide>(settings_, room, here, at_near_, near.port,
                                                            endpoint(Side::operator_side, 1)));
         far.session.attach(std::make_unique<TeleoperatorSide>(settings_, there, at_far_, far.port,
@@ -125,8 +125,8 @@ public:
 
     static SessionSettings session_settings() {
         SessionSettings settings;
-        settings.most_bodies = 256;
-        settings.most_parts = 512;
+        settings.max_bodies = 256;
+        settings.max_parts = 512;
         settings.full_rate_bodies = 0;
         return settings;
     }

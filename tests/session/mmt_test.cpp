@@ -51,11 +51,27 @@ TeleopCase wrong_box(double milliseconds) {
     return made;
 }
 
+// A fast hand that dips into the ground and slips off a small ball.
+TeleopScene slippery_scene() {
+    TeleopScene made;
+    made.bodies.push_back(body("Ground", BoxShape{{0.2, 0.05, 0.2}}, {0.0, -0.05, 0.0}, Motion::Static));
+    made.bodies.push_back(body("Ball", SphereShape{0.03}, {-0.06, 0.0, 0.0}, Motion::Static));
+    CircleWave path;
+    path.centre = {0.0, 0.03, 0.0};
+    path.radius = 0.06;
+    path.waves = 20;
+    made.path = path;
+    made.force_limit = 10.0;
+    return made;
+}
+
 TEST(Mmt, ARightModelHasNoErrorAtAnyDelay) {
-    for (const double delay : {0.0, 33.3, 100.0, 500.0}) {
-        const TeleopFigures figures = run_teleop(scene(false), with_delay(delay, 4.0));
-        EXPECT_EQ(figures.at("force_error_max_N"), 0.0) << delay << " ms";
-        EXPECT_EQ(figures.at("corrections"), 0.0) << delay << " ms";
+    for (const TeleopScene& touched : {scene(false), slippery_scene()}) {
+        for (const double delay : {0.0, 33.3, 100.0, 500.0}) {
+            const TeleopFigures figures = run_teleop(touched, with_delay(delay, 6.0));
+            EXPECT_EQ(figures.at("force_error_max_N"), 0.0) << delay << " ms";
+            EXPECT_EQ(figures.at("corrections"), 0.0) << delay << " ms";
+        }
     }
 }
 
@@ -143,7 +159,7 @@ TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
     EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
 }
 
-TEST(Mmt, HalfOfAllPacketsLostCostLessThanThriceTheForceError) {
+TEST(Mmt, HalfOfAllPacketsLostCostLessThanTwiceTheForceError) {
     TeleopCase one = wrong_box(100.0);
     const double without = run_teleop(scene(true), one).at("force_error_mean_N");
     one.forth.loss = one.back.loss = 0.5;
@@ -153,7 +169,7 @@ TEST(Mmt, HalfOfAllPacketsLostCostLessThanThriceTheForceError) {
         one.seed = static_cast<std::uint64_t>(7 * seed);
         mean += run_teleop(scene(true), one).at("force_error_mean_N") / seeds;
     }
-    EXPECT_LT(mean, 3.0 * without);
+    EXPECT_LT(mean, 2.0 * without);
 }
 
 TEST(Mmt, AStillModelThatIsWrongIsRightSoonAfterTheFirstTouch) {

@@ -26,8 +26,8 @@ constexpr Nanoseconds ms = 1'000'000;
 
 inline SessionSettings small_session() {
     SessionSettings settings;
-    settings.most_bodies = 64;
-    settings.most_parts = 128;
+    settings.max_bodies = 64;
+    settings.max_parts = 128;
     return settings;
 }
 

@@ -24,7 +24,7 @@ TEST(Session, HandlesComeBackOnlyAfterTheLoopHasLetGo) {
 
 TEST(Session, AFullWorldSaysSo) {
     SessionSettings settings;
-    settings.most_bodies = 2;
+    settings.max_bodies = 2;
     Session session(settings);
     EXPECT_EQ(session.add_body(ground()).error, "");
     EXPECT_EQ(session.add_body(ground()).error, "");
@@ -33,8 +33,8 @@ TEST(Session, AFullWorldSaysSo) {
 
 TEST(Session, PartsThatFindNoPlaceAreReportedAndGivenBack) {
     SessionSettings settings;
-    settings.most_bodies = 8;
-    settings.most_parts = 1;
+    settings.max_bodies = 8;
+    settings.max_parts = 1;
     Session session(settings);
     const SessionHandle first = session.add_body(ground()).handle;
     const SessionHandle second = session.add_body(ground()).handle;

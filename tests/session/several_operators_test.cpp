@@ -112,7 +112,7 @@ TEST(SeveralOperators, EachHasPointersOfItsOwn) {
     EXPECT_EQ(first.most(), 6u);
     EXPECT_EQ(last.most(), 5u);
     EXPECT_EQ(last.proxy_of(last.most() - 1), 14u);
-    EXPECT_EQ(alone.most(), most_proxies);
+    EXPECT_EQ(alone.most(), max_proxies);
 }
 
 TEST(SeveralOperators, AreGhostsToEachOther) {

@@ -76,8 +76,8 @@ private:
 
 SessionSettings small_session() {
     SessionSettings settings;
-    settings.most_bodies = 16;
-    settings.most_parts = 64;
+    settings.max_bodies = 16;
+    settings.max_parts = 64;
     return settings;
 }
 

@@ -12,7 +12,7 @@ using namespace session_test;
 
 SessionSettings small() {
     SessionSettings settings;
-    settings.most_bodies = 16;
+    settings.max_bodies = 16;
     settings.full_rate_bodies = 0;
     return settings;
 }

@@ -63,16 +63,15 @@ struct Says {
         return static_cast<Nanoseconds>(dice.real(static_cast<double>(plausible::max_time)));
     }
     void operator()(DiscoveryFragment& m) {
-        static const Bytes bytes(most_fragment_bytes, std::byte{0x42});
+        static const Bytes bytes(max_fragment_bytes, std::byte{0x42});
         m.object = object();
         m.object = m.object == no_object ? 0 : m.object;
         m.revision = static_cast<std::uint32_t>(dice.one_in(2) ? ++revision_ : dice.number());
         m.hash.fill(static_cast<std::uint8_t>(dice.below(4)));
-        m.total_bytes = 1 + static_cast<std::uint32_t>(dice.number() % most_description_bytes);
-        const std::uint32_t pieces = (m.total_bytes + most_fragment_bytes - 1) / most_fragment_bytes;
-        m.offset = static_cast<std::uint32_t>(dice.below(pieces) * most_fragment_bytes);
-        m.bytes =
-            std::span(bytes).first(std::min<std::size_t>(most_fragment_bytes, m.total_bytes - m.offset));
+        m.total_bytes = 1 + static_cast<std::uint32_t>(dice.number() % max_description_bytes);
+        const std::uint32_t pieces = (m.total_bytes + max_fragment_bytes - 1) / max_fragment_bytes;
+        m.offset = static_cast<std::uint32_t>(dice.below(pieces) * max_fragment_bytes);
+        m.bytes = std::span(bytes).first(std::min<std::size_t>(max_fragment_bytes, m.total_bytes - m.offset));
     }
     void operator()(ObjectRemoval& m) {
         // Removing what it has described is the far side's right: objects that it has not are aimed at.
@@ -89,7 +88,7 @@ struct Says {
     void operator()(ObjectStates& m) {
         m.true_at = time(rig.now);
         m.newest_operator_sample = sample();
-        m.count = static_cast<std::uint8_t>(dice.below(ObjectStates::most + 1));
+        m.count = static_cast<std::uint8_t>(dice.below(ObjectStates::max_count + 1));
         for (std::size_t i = 0; i < m.count; ++i) {
             ObjectState& state = m.states[i];
             state.object = object();
@@ -119,7 +118,7 @@ struct Says {
         }
     }
     void operator()(ForceSamples& m) {
-        m.count = static_cast<std::uint8_t>(1 + dice.below(ForceSamples::most));
+        m.count = static_cast<std::uint8_t>(1 + dice.below(ForceSamples::max_count));
         for (std::size_t i = 0; i < m.count; ++i) {
             m.samples[i] = {static_cast<std::uint16_t>(dice.one_in(2) ? 0 : dice.number()),
                             time(rig.now),
@@ -219,11 +218,12 @@ private:
     }
 
     std::size_t noise() {
-        const std::size_t size = 1 + dice_.below(most_datagram_bytes - 1);
+        const std::size_t size = 1 + dice_.below(max_datagram_bytes - 1);
         for (std::size_t i = 0; i < size; ++i) {
             bytes_[i] = static_cast<std::byte>(dice_.bits());
         }
-        constexpr std::array<char, 4> fronts[] = {{'T', 'C', 2, 8}, {'T', 'S', 2, 0}, {'T', 'S', 2, 1}};
+        constexpr std::array<char, 4> fronts[] = {
+            {'T', 'C', wire_version, 8}, {'T', 'S', 2, 0}, {'T', 'S', 2, 1}};
         if (size > 4 && !dice_.one_in(4)) {
             std::memcpy(bytes_.data(), fronts[dice_.below(3)].data(), 4);
         }
@@ -253,7 +253,7 @@ private:
         if (dice_.one_in(16)) {
             size = 1 + dice_.below(size);
         } else if (dice_.one_in(16)) {
-            size = std::min(most_datagram_bytes, size + dice_.below(40));
+            size = std::min(max_datagram_bytes, size + dice_.below(40));
         }
         const std::span<const std::byte> thrown = std::span(bytes_).first(size);
         at_operator ? rig_.throw_at_operator(thrown) : rig_.throw_at_far(thrown);
@@ -274,7 +274,7 @@ private:
     Says says_;
     FalseDescriptions descriptions_;
     Message message_;
-    std::array<std::byte, most_datagram_bytes> bytes_{};
+    std::array<std::byte, max_datagram_bytes> bytes_{};
     std::array<Bytes, 64> kept_;
 };
 

@@ -18,7 +18,7 @@ DiscoveryFragment FalseDescriptions::next() {
         begin();
     }
     const auto total = static_cast<std::uint32_t>(bytes_.size());
-    const auto size = std::min(static_cast<std::uint32_t>(most_fragment_bytes), total - offset_);
+    const auto size = std::min(static_cast<std::uint32_t>(max_fragment_bytes), total - offset_);
     piece_.offset = offset_;
     piece_.bytes = std::span(bytes_).subspan(offset_, size);
     offset_ += size;

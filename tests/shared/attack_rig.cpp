@@ -7,8 +7,8 @@ namespace {
 
 SessionSettings small_session() {
     SessionSettings settings;
-    settings.most_bodies = 32;
-    settings.most_parts = 128;
+    settings.max_bodies = 32;
+    settings.max_parts = 128;
     return settings;
 }
 

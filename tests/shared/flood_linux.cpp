@@ -140,7 +140,7 @@ std::uint64_t scrambled(std::uint64_t number) {
             std::byte* const body = packet.bytes.data() + headers;
             const std::uint64_t random = scrambled(++thrown);
             constexpr std::array<char, 4> fronts[] = {
-                {'T', 'S', 2, 0}, {'T', 'S', 2, 1}, {'T', 'C', 2, 8}, {9, 9, 9, 9}};
+                {'T', 'S', 2, 0}, {'T', 'S', 2, 1}, {'T', 'C', wire_version, 8}, {9, 9, 9, 9}};
             std::memcpy(body, fronts[random % 4].data(), 4);
             std::memcpy(body + 4, &random, sizeof random);
         }

@@ -37,7 +37,7 @@ public:
 private:
     Link& inner_;
     SecureSession session_;
-    std::array<std::byte, most_datagram_bytes> sealed_;
+    std::array<std::byte, max_datagram_bytes> sealed_;
 };
 
 }  // namespace tactus::shared

@@ -49,7 +49,7 @@ private:
             seen_[states.states[i].object] = {states.states[i], now};
         }
         for (auto& [object, seen] : seen_) {
-            if (now - seen.at >= look_every && states.count < ObjectStates::most) {
+            if (now - seen.at >= look_every && states.count < ObjectStates::max_count) {
                 seen.at = now;
                 states.states[states.count++] = seen.state;
             }
@@ -90,7 +90,7 @@ private:
 
 // Nobody listens yet.
 inline void drop_all(Link& link, Nanoseconds now) {
-    std::array<std::byte, most_datagram_bytes> ignored;
+    std::array<std::byte, max_datagram_bytes> ignored;
     while (link.receive(ignored, now)) {
     }
 }

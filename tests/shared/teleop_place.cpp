@@ -45,8 +45,8 @@ std::unique_ptr<Device> hand_of(const TeleopScene& scene, const TeleopCase& expe
 SessionSettings teleop_session_settings() {
     SessionSettings settings;
     settings.period = period;
-    settings.most_bodies = 64;
-    settings.most_parts = 256;
+    settings.max_bodies = 64;
+    settings.max_parts = 256;
     settings.physics.max_touching_pairs = 512;
     settings.physics.max_contacts = 512;
     settings.full_rate_bodies = 0;

@@ -30,7 +30,7 @@ constexpr SessionHandle ghosts_from = 40;
 
 OperatorRoom room_for(const TeleopCase& experiment) {
     OperatorRoom room;
-    room.most_tracked = 16;
+    room.max_tracked = 16;
     room.samples = 2048;
     room.memento_bytes = 16384;
     room.pointers = 1;

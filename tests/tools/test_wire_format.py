@@ -58,7 +58,10 @@ EXPECTED = {
         "states": [_state(3, (0.125, -0.25, 3.375), (-4.0, 5.5, 6.25)), _state(4, STILL, STILL)],
     }),
     "operator_samples": ("operator samples", {
-        "period": 1_000_000, "samples": [_hand(43), _hand(42, position=(0.0101, 0.02, 0.03)), _hand(43, **ALONE)],
+        "period": 1_000_000, "samples": [
+            _hand(43), _hand(42, position=(0.0101, 0.02, 0.03), velocity=(-0.1, 0.25, -0.3)),
+            _hand(41, velocity=(-0.1, 0.31, -0.3)), _hand(38), _hand(43, **ALONE),
+        ],
     }),
     "forces": ("forces", {"samples": [
         {"pointer": 2, "true_at": 5_000_000, "newest_operator_sample": 41, "force": (0.1, 0.2, -0.3),

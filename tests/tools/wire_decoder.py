@@ -231,7 +231,8 @@ def _state(r: Reader) -> Fields:
 
 
 NANO, MICRO, TENTH_MILLI = 10**9, 10**6, 10**4
-CONNECTED, FOLLOWS, BUTTONS, FORCE, NEAREST, TIME = (1 << bit for bit in range(6))
+CONNECTED, FOLLOWS, BUTTONS, FORCE, NEAREST, TIME, NEXT = (1 << bit for bit in range(7))
+NOTHING = {"position": (0, 0, 0), "velocity": (0, 0, 0), "force": (0, 0, 0), "relative": (0, 0, 0)}
 
 
 def _operator_samples(r: Reader, sent_at: int) -> Fields:
@@ -240,10 +241,9 @@ def _operator_samples(r: Reader, sent_at: int) -> Fields:
     count = r.u8()
     _require(1 <= count <= 16, "count out of range")
     samples: list[Fields] = []
-    whole: Fields | None = None
+    told: list[Fields] = []
     for _ in range(count):
-        sample, whole = _sample(r, sent_at, period, samples[-1] if samples else None, whole)
-        samples.append(sample)
+        samples.append(_sample(r, sent_at, period, samples[-1] if samples else None, told))
     return {"period": period, "samples": samples}
 
 
@@ -251,44 +251,54 @@ def _towards_zero(a: int, b: int) -> int:
     return a // b if a >= 0 else -(-a // b)
 
 
-def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, whole: Fields | None) -> tuple[Fields, Fields]:
-    """One sample, and it in whole numbers, as the next one is told from it."""
+def _carried_on(told: list[Fields], apart: int, key: str) -> tuple[int, ...]:
+    last = told[-1][key]
+    if told[-1]["apart"] != apart:
+        return last
+    return tuple(2 * now - then for now, then in zip(last, told[-2][key], strict=True))
+
+
+def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, told: list[Fields]) -> Fields:
+    """One sample. `told`: those before it in whole numbers, and how far each is apart from the one before; this one joins them."""
     flags = r.u8()
-    _require(flags < 64, "flags out of range")
-    nothing = {"position": (0, 0, 0), "velocity": (0, 0, 0), "force": (0, 0, 0), "relative": (0, 0, 0)}
+    _require(flags < 128, "flags out of range")
+    apart = 0
     if flags & FOLLOWS:
-        if before is None or whole is None:
+        if before is None:
             raise Refused("follows nothing")
-        apart = r.varint(10**9 // period)
+        apart = 1 if flags & NEXT else r.varint(10**9 // period)
         pointer, sequence = before["pointer"], before["sequence"] - apart
-        _require(apart >= 1 and sequence >= 1, "sequence out of range")
-        time, told = before["time"] - apart * period, whole
-        back = apart * period
-        ways = [_towards_zero(velocity * back, 10**6) for velocity in told["velocity"]]
-        expected = tuple(place - way for place, way in zip(told["position"], ways, strict=True))
+        _require(apart >= (1 if flags & NEXT else 2) and sequence >= 1, "sequence out of range")
+        _require(apart <= 10**9 // period, "sequence out of range")
+        time = before["time"] - apart * period
     else:
+        _require(flags & NEXT == 0, "follows nothing")
         pointer, sequence = r.varint(0xFFFF), r.varint(MOST_SEQUENCE)
         _require(sequence >= 1, "no sample")
-        time, told, expected = sent_at, nothing, (0, 0, 0)
+        time = sent_at
+    expected = {key: _carried_on(told, apart, key) if apart else (0, 0, 0) for key in NOTHING}
     if flags & TIME:
         time += r.folded(MOST_AGE)
-    now = dict(nothing)
-    now["position"] = r.whole_vec3(NANO, MOST_POSITION, expected)
-    now["velocity"] = r.whole_vec3(MICRO, MOST_SPEED, told["velocity"])
+    now = NOTHING | {"apart": apart, "velocity": r.whole_vec3(MICRO, MOST_SPEED, expected["velocity"])}
+    place = (0, 0, 0)
+    if apart:
+        sums = zip(told[-1]["position"], told[-1]["velocity"], now["velocity"], strict=True)
+        place = tuple(at - _towards_zero((one + other) * apart * period, 2 * 10**6) for at, one, other in sums)
+    now["position"] = r.whole_vec3(NANO, MOST_POSITION, place)
     buttons = r.varint(0xFFFFFFFF) if flags & BUTTONS else 0
     if flags & FORCE:
-        now["force"] = r.whole_vec3(TENTH_MILLI, MOST_FORCE, told["force"])
+        now["force"] = r.whole_vec3(TENTH_MILLI, MOST_FORCE, expected["force"])
     nearest = NOBODY
     if flags & NEAREST:
         nearest = _object(r)
-        now["relative"] = r.whole_vec3(NANO, MOST_POSITION, told["relative"])
-    sample = {
+        now["relative"] = r.whole_vec3(NANO, MOST_POSITION, expected["relative"])
+    told.append(now)
+    return {
         "sequence": sequence, "time": time, "pointer": pointer, "connected": flags & CONNECTED != 0, "buttons": buttons,
         "position": _scaled(now["position"], NANO), "velocity": _scaled(now["velocity"], MICRO),
         "force": _scaled(now["force"], TENTH_MILLI),
         "nearest_object": nearest, "position_in_object": _scaled(now["relative"], NANO),
     }  # fmt: skip
-    return sample, now
 
 
 def _forces(r: Reader, sent_at: int) -> Fields:
@@ -337,7 +347,7 @@ def packet(data: bytes) -> tuple[Fields, str, Fields]:
     """Header, name of the kind, body."""
     r = Reader(data)
     _require(r.take(2) == b"TC", "wrong magic")
-    _require(r.u8() == 2, "wrong version")
+    _require(r.u8() == 3, "wrong version")
     _require(len(data) <= MOST_PACKET_BYTES, "oversized")
     kind = r.u8()
     header = {"epoch": r.u64(), "sequence": r.varint(MOST_SEQUENCE), "sent_at": r.folded(MOST_TIME)}

@@ -23,7 +23,7 @@ struct Scene {
     explicit Scene(bool in_turn = false) : mirrors(64, in_turn), session(settings()) {}
     static SessionSettings settings() {
         SessionSettings settings;
-        settings.most_bodies = 64;
+        settings.max_bodies = 64;
         settings.physics.gravity = Vec3(0.0);
         return settings;
     }

@@ -50,7 +50,7 @@ struct Scene {
     explicit Scene(std::uint32_t max_bodies = 16) : session(settings(max_bodies)) {}
     static SessionSettings settings(std::uint32_t max_bodies) {
         SessionSettings settings;
-        settings.most_bodies = max_bodies;
+        settings.max_bodies = max_bodies;
         settings.physics.gravity = Vec3(0.0);
         return settings;
     }

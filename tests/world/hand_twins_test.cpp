@@ -8,7 +8,7 @@ namespace {
 
 SessionSettings settings() {
     SessionSettings settings;
-    settings.most_bodies = 4;
+    settings.max_bodies = 4;
     return settings;
 }
 

@@ -19,7 +19,7 @@ constexpr std::uint8_t model_mediated = 4;
 SessionSettings settings(Nanoseconds period = 1'000'000) {
     SessionSettings settings;
     settings.period = period;
-    settings.most_bodies = 8;
+    settings.max_bodies = 8;
     settings.physics.gravity = Vec3(0.0);
     return settings;
 }

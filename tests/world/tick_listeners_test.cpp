@@ -27,7 +27,7 @@ struct Scene {
     }
     static SessionSettings settings() {
         SessionSettings settings;
-        settings.most_bodies = 4;
+        settings.max_bodies = 4;
         return settings;
     }
 

@@ -231,7 +231,7 @@ TEST(WorldLink, AnotherWayIsOpenedWhileItRuns) {
     }
     frames(sides.here, sides.there, 60);
     EXPECT_EQ(sides.here.link.report().state, LinkState::connected);
-    std::array<std::byte, most_datagram_bytes> into{};
+    std::array<std::byte, max_datagram_bytes> into{};
     sides.wire->first().receive(into, sides.here.now);
     EXPECT_EQ(sides.wire->first().receive(into, sides.here.now).bytes, 0u) << "the old wire is still used";
 }

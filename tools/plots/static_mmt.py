@@ -28,14 +28,15 @@ def draw(folder: Path, path: str) -> None:
 
 def _draw_correction(folder: Path, path: str) -> None:
     rows, wrong = read(folder / f"{path}.mmt_wrong_corrected_100ms.csv"), read(folder / f"{path}.mmt_wrong_100ms.csv")
-    drawn, ((error,), (offset,)) = style.figure(2, 1, 9.0, 4.6, sharex=True, height_ratios=[2, 1])
+    drawn, ((error,), (excess,)) = style.figure(2, 1, 9.0, 4.6, sharex=True, height_ratios=[2, 1])
     error.plot(wrong["time"], force_error(wrong), color=style.REFERENCE, linewidth=1.1, label="left wrong")
     error.plot(rows["time"], force_error(rows), color=style.MEASURED, label="corrected from the first touch on")
     error.set(ylabel="force error (N)", xlim=(0.0, 5.0), ylim=(0, None))
     error.set_title("A wrong model becomes right", pad=24)
     legend(error)
-    offset.plot(rows["time"], rows["offset_m"] * 1e3, color=style.INK, linewidth=1.2)
-    offset.set(ylabel="pointers\ncarried (mm)", xlabel="time (s)", ylim=(0, None))
+    for one, colour in ((wrong, style.REFERENCE), (rows, style.MEASURED)):
+        excess.plot(one["time"], one["felt_excess_100ms_jnd"], color=colour, linewidth=1.2)
+    excess.set(ylabel="felt excess\n(JND in 100 ms)", xlabel="time (s)", ylim=(0, None))
     style.save(drawn, folder / f"{path}_correction.png")
 
 

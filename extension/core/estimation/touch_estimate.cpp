@@ -20,7 +20,7 @@ TouchValue told(double value, double deviation, double most) {
 
 TouchEstimate::TouchEstimate(const TouchEstimateSettings& settings)
     : settings_(settings),
-      stiffness_({1000.0, 0.0, 0.0}, {settings.most_stiffness, 50.0, 10.0}),
+      stiffness_({1000.0, 0.0, 0.0}, {settings.max_stiffness, 50.0, 10.0}),
       friction_({0.5}, {1.0}),
       mass_({1.0, 0.0}, {20.0, 50.0}) {}
 
@@ -49,7 +49,7 @@ void TouchEstimate::feel_stiffness(const TouchSample& sample, double pressing) {
     const double deep = glm::dot(began_ - sample.tip, sample.normal);
     const double sinking = -glm::dot(sample.tip_velocity, sample.normal);
     const double by_place =
-        std::clamp(stiffness_.value(0), 0.0, settings_.most_stiffness) * settings_.place_deviation;
+        std::clamp(stiffness_.value(0), 0.0, settings_.max_stiffness) * settings_.place_deviation;
     stiffness_.learn({deep, sinking, 1.0}, pressing, alike * std::hypot(settings_.force_deviation, by_place));
 }
 
@@ -89,16 +89,16 @@ void TouchEstimate::end_stretch(const Vec3& velocity) {
 }
 
 TouchValue TouchEstimate::stiffness() const {
-    return told(stiffness_.value(0), stiffness_.deviation(0), settings_.most_stiffness);
+    return told(stiffness_.value(0), stiffness_.deviation(0), settings_.max_stiffness);
 }
 
 TouchValue TouchEstimate::friction() const {
-    return told(friction_.value(0), friction_.deviation(0), settings_.most_friction);
+    return told(friction_.value(0), friction_.deviation(0), settings_.max_friction);
 }
 
 TouchValue TouchEstimate::mass() const {
-    const double lightness = std::max(mass_.value(0), 1.0 / settings_.most_mass);
-    return told(1.0 / lightness, mass_.deviation(0) / (lightness * lightness), settings_.most_mass);
+    const double lightness = std::max(mass_.value(0), 1.0 / settings_.max_mass);
+    return told(1.0 / lightness, mass_.deviation(0) / (lightness * lightness), settings_.max_mass);
 }
 
 }  // namespace tactus

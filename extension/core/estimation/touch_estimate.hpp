@@ -26,9 +26,9 @@ struct TouchEstimateSettings {
     double slides_from = 0.005;     // of the tip along the surface (unit: meters per second), > 0
     double moves_from = 0.01;       // of a body (unit: meters per second), > 0
     double stretch = 0.05;          // over which an acceleration is taken (unit: seconds), > 0
-    double most_stiffness = 2e4;    // (unit: newtons per meter)
-    double most_friction = 3.0;     // (dimensionless)
-    double most_mass = 50.0;        // (unit: kilograms)
+    double max_stiffness = 2e4;     // (unit: newtons per meter)
+    double max_friction = 3.0;      // (dimensionless)
+    double max_mass = 50.0;         // (unit: kilograms)
 };
 
 // A tick of touch, at the far side. Forces are those on what is touched.

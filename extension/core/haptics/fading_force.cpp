@@ -30,7 +30,11 @@ Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step&
         // What it jumps by beyond that joins what is still fading.
         offset_ -= shortened_by(given + offset_ - felt_, allowed);
     }
-    felt_ = limited_force(given + offset_, limit);
+    return goes_on_with(force, limit);
+}
+
+Vec3 FadingForce::goes_on_with(const Vec3& force, double limit) {
+    felt_ = limited_force(limited_force(force, limit) + offset_, limit);
     return offset_ == Vec3(0.0) ? force : felt_;
 }
 

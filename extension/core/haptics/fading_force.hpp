@@ -29,6 +29,9 @@ public:
     // last tick.
     Vec3 felt(const Vec3& force, double limit, bool jumped, const Step& step);
 
+    // Afterwards in the same tick the force has become another one, and somebody else hides that.
+    Vec3 goes_on_with(const Vec3& force, double limit);
+
     // Nothing is felt, and nothing fades.
     void clear() { *this = {}; }
 

@@ -18,7 +18,7 @@ constexpr double loose_limit = 0.05;
 constexpr int max_newton_steps = 30;
 constexpr double newton_done = 1e-13;  // (unit: meters): some thousand times what a double resolves there
 constexpr double longest_step = 0.03;  // a cold start is led, not thrown (unit: meters)
-constexpr double most_lean = 0.999;    // of the rods while Newton is on its way
+constexpr double max_lean = 0.999;     // of the rods while Newton is on its way
 
 struct LegFrame {
     Vec3 outwards, sideways;
@@ -122,7 +122,7 @@ DeltaPlace delta_place(const DeltaGeometry& g, const Vec3& angles, const Vec3& s
         for (int i = 0; i < 3; ++i) {
             const LegFrame frame = leg_frame(g.leg_angles[static_cast<std::size_t>(i)]);
             const LegEnd end = leg_end(g, frame, found.place);
-            const double cos_3 = std::clamp(end.lean / g.rod_length, -most_lean, most_lean);
+            const double cos_3 = std::clamp(end.lean / g.rod_length, -max_lean, max_lean);
             const double sin_3 = std::sqrt(1.0 - cos_3 * cos_3);
             const double u = end.u - g.upper_arm * std::cos(angles[i]);
             const double w = end.w - g.upper_arm * std::sin(angles[i]);

@@ -167,7 +167,7 @@ struct DepthSensing {
     int version = depth_sensing_version;
     // Null: there is no memory or thread for it.
     SensorPort* (*make_sensor)() noexcept = nullptr;
-    // At most most_shown_bodies bodies are shown.
+    // At most max_shown_bodies bodies are shown.
     SyntheticScene* (*make_scene)(const SyntheticCamera& camera,
                                   std::span<const MeshView> meshes) noexcept = nullptr;
     // How many cameras there are; the first are in `into`. Below zero: OpenNI2 is not there, and `error` says
@@ -175,6 +175,6 @@ struct DepthSensing {
     int (*scan)(std::span<FoundCamera> into, std::span<char> error) noexcept = nullptr;
 };
 
-inline constexpr std::size_t most_shown_bodies = 64;
+inline constexpr std::size_t max_shown_bodies = 64;
 
 }  // namespace tactus

@@ -11,10 +11,10 @@ namespace tactus {
 
 // The longest datagram (unit: bytes): what IPv6 carries everywhere without fragments, 1280, less the headers
 // of IPv6 (40) and UDP (8).
-inline constexpr std::size_t most_datagram_bytes = 1232;
+inline constexpr std::size_t max_datagram_bytes = 1232;
 
 // The longest message a sender may build (unit: bytes): leaves room for what a secured link wraps around it.
-inline constexpr std::size_t most_message_bytes = 1184;
+inline constexpr std::size_t max_message_bytes = 1184;
 
 struct ReceivedDatagram {
     std::size_t bytes = 0;    // 0: nothing there
@@ -33,7 +33,7 @@ public:
     // taken, because it is empty or too long, or because the link is full or closed; counted by the link.
     virtual bool send(std::span<const std::byte> datagram, Nanoseconds now) = 0;
 
-    // The oldest datagram that is there by `now` and has not been taken. `into` holds most_datagram_bytes; a
+    // The oldest datagram that is there by `now` and has not been taken. `into` holds max_datagram_bytes; a
     // datagram that does not fit is dropped and counted.
     virtual ReceivedDatagram receive(std::span<std::byte> into, Nanoseconds now) = 0;
 

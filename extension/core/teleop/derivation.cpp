@@ -35,7 +35,7 @@ BodyMotion with_own_changes(const DerivationInput& in) {
 }  // namespace
 
 BodyMotion derive(Derivation derivation, const DerivationInput& in) {
-    const double seconds = std::min(in.seconds, in.most_extrapolation);
+    const double seconds = std::min(in.seconds, in.max_extrapolation);
     const BodyMotion& r = in.received;
     switch (derivation) {
         case Derivation::none:

@@ -17,13 +17,13 @@ enum class Derivation : std::uint8_t {
 };
 
 struct DerivationInput {
-    BodyMotion received;              // true at the far side after operator sample n
-    BodyMotion own_then;              // the model after operator sample n
-    BodyMotion own_now;               // the model now
-    double seconds = 0.0;             // from then to now, >= 0
-    Vec3 linear_acceleration{0.0};    // of the far side then (unit: meters per second squared)
-    Vec3 angular_acceleration{0.0};   // (unit: radians per second squared)
-    double most_extrapolation = 0.5;  // rates are believed for so long (unit: seconds), >= 0
+    BodyMotion received;             // true at the far side after operator sample n
+    BodyMotion own_then;             // the model after operator sample n
+    BodyMotion own_now;              // the model now
+    double seconds = 0.0;            // from then to now, >= 0
+    Vec3 linear_acceleration{0.0};   // of the far side then (unit: meters per second squared)
+    Vec3 angular_acceleration{0.0};  // (unit: radians per second squared)
+    double max_extrapolation = 0.5;  // rates are believed for so long (unit: seconds), >= 0
 };
 
 // The present state that `received` leads to. Re-simulation is no formula: for it, this is `history`, which

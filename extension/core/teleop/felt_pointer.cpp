@@ -15,6 +15,10 @@ constexpr double nothing_hidden = 1e-5;
 // The tank gives what it has within this time at the fastest (unit: seconds).
 constexpr double tank_reserve = 0.02;
 
+// What is let go towards more force rises no steeper than what leaps of touch does (fading_force.hpp; unit:
+// newtons per second).
+constexpr double steepest_rise = 250.0;
+
 // Fading never takes more of what is just noticed.
 constexpr double nearly_noticed = 0.95;
 
@@ -83,19 +87,20 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
 
 // What was falling already goes on falling at least as fast.
 void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInput& in) {
-    const bool too_much = glm::length(hidden_) > most_hidden(settings, glm::length(in.modelled));
+    const bool too_much = glm::length(hidden_) > max_hidden(settings, glm::length(in.modelled));
     begins_to_let_go_ = (std::exchange(lets_go_, false) || too_much) && state_ != FeltState::letting_go;
     if (!begins_to_let_go_) {
         return;
     }
     state_ = FeltState::letting_go;
-    left_ = settings.let_go_seconds;
+    const double rise = glm::length(in.modelled) - glm::length(felt_);
+    left_ = std::max(settings.let_go_seconds, rise / steepest_rise);
     kept_ = Vec3(0.0);
     const Vec3 going = felt_ - in.modelled;
     const double size2 = glm::dot(going, going);
     const double falling = -glm::dot(change_, going);
     if (falling > 0.0) {
-        left_ = std::clamp(size2 / falling * in.seconds, in.seconds, settings.let_go_seconds);
+        left_ = std::clamp(size2 / falling * in.seconds, in.seconds, left_);
     }
 }
 

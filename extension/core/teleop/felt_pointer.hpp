@@ -14,7 +14,8 @@
 //     together    -> carried      a second pointer is carried along with the object
 //     (session/carried_pointer.hpp)
 // What is let go goes over into what is modelled within `let_go_seconds`, however much there is and whatever
-// the model does meanwhile; whoever feels it is told so.
+// the model does meanwhile, and later only where the force would rise too steeply; whoever feels it is told
+// so.
 //
 // What is hidden lives on energy that touch has taken from the hand before (energy.hpp).
 #pragma once

@@ -10,7 +10,7 @@ namespace tactus {
 namespace {
 
 // Of what is no more, the hand is given at most so many times what is.
-constexpr double most_over = 2.0;
+constexpr double max_over = 2.0;
 
 double stored_in(double force, double stiffness) {
     return 0.5 * force * force / stiffness;
@@ -47,7 +47,7 @@ void PassiveUpdate::changed(const Vec3& before, const Vec3& after, double stiffn
     const double stored = stored_in(to, stiffness);
     if (had >= stored) {
         unpaid_ = 0.0;
-        over_ = stored > 0.0 ? std::clamp(std::min(felt / to, had / stored), 1.0, most_over) : 1.0;
+        over_ = stored > 0.0 ? std::clamp(std::min(felt / to, had / stored), 1.0, max_over) : 1.0;
     } else {
         over_ = 1.0;
         unpaid_ = std::max(0.0, stored - std::min(stored_in(felt, stiffness), had));

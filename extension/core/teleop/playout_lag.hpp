@@ -63,7 +63,7 @@ private:
         double max = -std::numeric_limits<double>::infinity();
         double min = std::numeric_limits<double>::infinity();
     };
-    static constexpr std::size_t most_kept = 40;
+    static constexpr std::size_t max_kept = 40;
     static constexpr std::size_t left_out = 20;  // one in so many
     static constexpr std::size_t least_to_choose = 4;
     static constexpr int calm = 10;  // stretches that need less before less is kept
@@ -85,7 +85,7 @@ private:
     }
 
     double needed() const {
-        std::array<double, most_kept> max{};
+        std::array<double, max_kept> max{};
         double min = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < count_; ++i) {
             max[i] = stretches_[i].max;
@@ -105,7 +105,7 @@ private:
     }
 
     Settings settings_;
-    std::array<Stretch, most_kept> stretches_{};
+    std::array<Stretch, max_kept> stretches_{};
     std::size_t count_ = 0, at_ = 0;
     Stretch open_;
     std::uint64_t ticks_ = 0;

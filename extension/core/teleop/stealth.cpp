@@ -14,7 +14,7 @@ double unnoticed_change(const StealthSettings& settings, double force, double se
     return settings.share * just_noticeable(settings, force) * seconds / settings.window;
 }
 
-double most_hidden(const StealthSettings& settings, double modelled) {
+double max_hidden(const StealthSettings& settings, double modelled) {
     return std::max(just_noticeable(settings, modelled), settings.bound * modelled);
 }
 

@@ -76,7 +76,7 @@ double just_noticeable(const StealthSettings& settings, double force);
 double unnoticed_change(const StealthSettings& settings, double force, double seconds);
 
 // No more is hidden than is felt: it would be a force of its own (unit: newtons).
-double most_hidden(const StealthSettings& settings, double modelled);
+double max_hidden(const StealthSettings& settings, double modelled);
 
 // What is left of it after it has become shorter by at most `way`.
 Vec3 faded(const Vec3& from, double way);

@@ -28,10 +28,10 @@ constexpr double same_stranger = 0.05;
 constexpr int images_until_lost = 5;
 
 // Of an object's outline so much may touch something else.
-constexpr double most_going_on = 0.6;
+constexpr double max_going_on = 0.6;
 
 // Mean cost of a piece's pixel where a mesh is believed: chance alone costs a half.
-constexpr double most_cost = 2.5;
+constexpr double max_cost = 2.5;
 
 PixelBox box_around_ball(const DepthCamera& camera, const Vec3& center, double radius) {
     const double depth = -center.z - radius;
@@ -154,7 +154,7 @@ bool Discovery::is_there(const Recognised& one) const {
 
 // What is found anew could also be a part of something larger.
 bool Discovery::accepts(const Recognised& one) const {
-    return is_there(one) && one.check.goes_on <= most_going_on * one.check.outline;
+    return is_there(one) && one.check.goes_on <= max_going_on * one.check.outline;
 }
 
 void Discovery::take_points_around(const SeenScene& scene, const Vec3& center, double reach) {
@@ -184,7 +184,7 @@ Recognised Discovery::look_around(const SeenScene& scene, const LearntMesh& know
     const PoseFit fit = fit_pose(known.field, points_, expected, search_around, 0.008, 8);
     const std::uint16_t piece = piece_at(scene, known, fit.pose);
     Recognised best = recogniser_.follow(scene, known, fit.pose, piece);
-    const bool fits = is_there(best) && best.check.misfit <= settings_.most_misfit;
+    const bool fits = is_there(best) && best.check.misfit <= settings_.max_misfit;
     if (!fits && piece != 0 && !searched_) {
         searched_ = true;
         const Recognised anew = recogniser_.find(scene, known, piece);
@@ -201,7 +201,7 @@ bool Discovery::follow(const SeenScene& scene, SeenObject& object, Track& track)
     const LearntMesh& known = mesh(object.mesh);
     const Pose expected = compose(inverse(camera_), track.motion.at(settings_.motion, now_));
     Recognised one = recogniser_.follow(scene, known, expected, piece_at(scene, known, expected));
-    if (!is_there(one) || one.check.misfit > settings_.most_misfit) {
+    if (!is_there(one) || one.check.misfit > settings_.max_misfit) {
         const Recognised around = look_around(scene, known, expected);
         const bool is_better = accepts(around) && (!is_there(one) || around.check.misfit < one.check.misfit);
         one = is_better ? around : one;
@@ -335,7 +335,7 @@ void Discovery::recognise_one(const SeenScene& scene) {
     }
     const std::vector<Recognised> found = recogniser_.recognise(scene, *meshes_, chosen);
     const bool known = !found.empty() && accepts(found.front()) &&
-                       found.front().check.cost < most_cost * found.front().check.pixels;
+                       found.front().check.cost < max_cost * found.front().check.pixels;
     if (known) {
         note_new(found.front());
     } else {

@@ -30,7 +30,7 @@ struct DiscoverySettings {
     MotionFilterSettings motion;
     Vec3 up{0.0, 1.0, 0.0};             // of the world, unit: the support is about level
     std::optional<WorldPlane> support;  // where it is known: the camera's error of depth is learnt from it
-    double most_misfit = 1.1;           // of what is followed: beyond, it is looked for anew (see ViewCheck)
+    double max_misfit = 1.1;            // of what is followed: beyond, it is looked for anew (see ViewCheck)
     double least_quality = 0.6;         // of a drawing that is believed: 0 … 1
     double least_pixels_share = 0.25;   // of a mesh's drawing, not hidden: else nothing is said, 0 … 1
     int tries = 3;                      // of a piece, before it is told as a hull, > 0

@@ -19,8 +19,8 @@ constexpr double view_distance = 40.0;  // (unit: radii)
 constexpr double view_width = 2.2;      // (unit: radii)
 
 // A mesh below this size is a few pixels.
-constexpr double smallest_radius = 0.008;    // (unit: meters)
-constexpr double most_cells = 20'000'000.0;  // 16 bytes each
+constexpr double smallest_radius = 0.008;   // (unit: meters)
+constexpr double max_cells = 20'000'000.0;  // 16 bytes each
 
 struct Ball {
     Vec3 center{0.0};
@@ -168,7 +168,7 @@ std::string check_library_mesh(const LibraryMesh& mesh, const LearningSettings& 
         return "mesh \"" + mesh.name + "\" is too small for a camera to tell: is it in meters?";
     }
     const double side = (2.0 * ball.radius + 2.0 * settings.margin) / settings.cell;
-    if (side * side * side > most_cells) {
+    if (side * side * side > max_cells) {
         return "mesh \"" + mesh.name + "\" is too large to be recognised: is it in meters?";
     }
     return "";

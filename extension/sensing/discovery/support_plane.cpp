@@ -139,7 +139,7 @@ std::optional<PlaneFit> find_plane(const DepthImage& image, const DepthAccuracy&
     }
     std::mt19937_64 random(1);
     const auto any = [&]() -> const PlanePixel& { return pixels[random() % pixels.size()]; };
-    const double least_cosine = std::cos(search.most_tilt);
+    const double least_cosine = std::cos(search.max_tilt);
     std::optional<ImagePlane> best;
     std::size_t most = 0;
     for (int i = 0; i < search.tries; ++i) {

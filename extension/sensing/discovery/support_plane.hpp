@@ -35,7 +35,7 @@ struct PlaneFit {
 
 struct PlaneSearch {
     Vec3 up{0.0, 1.0, 0.0};     // of the world, in the camera's frame, unit
-    double most_tilt = 0.6;     // of the plane's normal from it (unit: radians), > 0
+    double max_tilt = 0.6;      // of the plane's normal from it (unit: radians), > 0
     double least_share = 0.08;  // of the pixels: less is no support (dimensionless)
     int tries = 150;            // planes through three pixels
 };

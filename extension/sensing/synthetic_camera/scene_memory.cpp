@@ -137,7 +137,7 @@ void SceneWriter::change(const Change& change) {
 }
 
 void SceneWriter::show(const Pose& camera, std::span<const ShownBody> bodies, std::uint64_t time) {
-    const std::span<const ShownBody> shown = bodies.first(std::min(bodies.size(), most_shown_bodies));
+    const std::span<const ShownBody> shown = bodies.first(std::min(bodies.size(), max_shown_bodies));
     change([&] {
         ++header_->shown;
         header_->time = time;
@@ -171,8 +171,8 @@ SceneReader::SceneReader(const std::string& uri) {
 
 bool SceneReader::read(SceneState& state) const {
     // The writer needs a microsecond.
-    constexpr int most_tries = 1000;
-    for (int i = 0; i < most_tries; ++i) {
+    constexpr int max_tries = 1000;
+    for (int i = 0; i < max_tries; ++i) {
         const std::uint32_t before = header_->sequence.load(std::memory_order_acquire);
         if (before % 2 != 0) {
             continue;
@@ -182,7 +182,7 @@ bool SceneReader::read(SceneState& state) const {
         state.time = header_->time;
         state.camera = pose_of(header_->camera);
         state.bodies.clear();
-        const std::size_t count = std::min<std::size_t>(header_->body_count, most_shown_bodies);
+        const std::size_t count = std::min<std::size_t>(header_->body_count, max_shown_bodies);
         for (std::size_t body = 0; body < count; ++body) {
             const PlainBody& shown = header_->bodies[body];
             if (shown.mesh < meshes_.size()) {

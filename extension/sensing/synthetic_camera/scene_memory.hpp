@@ -56,7 +56,7 @@ struct SceneHeader {
     std::uint32_t padding = 0;
     std::uint64_t time = 0;  // (unit: microseconds)
     PlainPose camera;
-    PlainBody bodies[most_shown_bodies];
+    PlainBody bodies[max_shown_bodies];
 };
 
 struct MeshHeader {

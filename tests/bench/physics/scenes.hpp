@@ -63,8 +63,8 @@ public:
 
 class Rig {
 public:
-    Rig(std::uint32_t most_bodies, double stiffness, bool with_hand = true)
-        : session_(settings(most_bodies)), stiffness_(stiffness) {
+    Rig(std::uint32_t max_bodies, double stiffness, bool with_hand = true)
+        : session_(settings(max_bodies)), stiffness_(stiffness) {
         if (!with_hand)
             return;
         ProxyDescription finger;
@@ -114,10 +114,10 @@ public:
     Hand hand;
 
 private:
-    static SessionSettings settings(std::uint32_t most_bodies) {
+    static SessionSettings settings(std::uint32_t max_bodies) {
         SessionSettings result;
-        result.most_bodies = most_bodies;
-        result.most_parts = most_bodies;
+        result.max_bodies = max_bodies;
+        result.max_parts = max_bodies;
         result.physics.gravity = down;
         return result;
     }

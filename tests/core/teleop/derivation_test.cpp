@@ -76,7 +76,7 @@ TEST(Derivation, ARightModelIsLeftAloneByHistory) {
 TEST(Derivation, DoesNotExtrapolateWithoutEnd) {
     DerivationInput in = seen_late(0.0, 0.0);
     in.seconds = 100.0;
-    EXPECT_NEAR(derive(Derivation::velocity, in).pose.position.x, 2.0 + 0.3 * in.most_extrapolation, 1e-14);
+    EXPECT_NEAR(derive(Derivation::velocity, in).pose.position.x, 2.0 + 0.3 * in.max_extrapolation, 1e-14);
 }
 
 }  // namespace
