@@ -46,7 +46,8 @@ public:
     HaplyService& operator=(const HaplyService&) = delete;
 
     std::uint16_t port() const { return port_; }
-    void drop() { static_cast<void>(write(to_, "drop\n", 5) == 5); }
+    void drop() { tell("drop\n"); }
+    void go_mad() { tell("mad\n"); }
     // The newest force that it was told, in its axes.
     std::string force() {
         for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
@@ -56,6 +57,9 @@ public:
     }
 
 private:
+    void tell(const std::string& line) {
+        static_cast<void>(write(to_, line.data(), line.size()) == static_cast<ssize_t>(line.size()));
+    }
     std::string line() {
         std::string text;
         for (char c = 0; read(from_, &c, 1) == 1 && c != '\n';) {

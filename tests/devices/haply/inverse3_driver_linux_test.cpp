@@ -58,6 +58,21 @@ TEST(Inverse3, AStalledLoopLetsTheHandGo) {
     EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
 }
 
+TEST(Inverse3, NonsenseIsGivenNoForceAndNoHand) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    const auto device = inverse3(service);
+    ASSERT_TRUE(
+        tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+    service.go_mad();
+    EXPECT_TRUE(tick_until(*device, {1.0, 0.0, 0.0}, [&](const DeviceSample& sample) {
+        return !sample.connected && service.force() == "0.0 0.0 0.0";
+    }));
+    service.drop();
+    EXPECT_TRUE(
+        tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+}
+
 TEST(Inverse3, ConnectsAnewWhenTheServiceHasClosed) {
     NEEDS_LIBRARIES();
     HaplyService service;
