@@ -67,8 +67,8 @@ void DepthSensor::pictures_changed() {
 
 void DepthSensor::show() {
     if (sensor_ != nullptr) {
-        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_, touches_cloud()},
-                     age());
+        seen_.update(*this, sight(), library_,
+                     {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_, touches_cloud()}, age());
     }
 }
 
@@ -106,8 +106,9 @@ String DepthSensor::problem_of_touch() const {
         return "nothing holds bodies at a far side with a robot, where nothing is simulated: set 'bodies' to "
                "free";
     }
-    return is_far && touch_cloud_ ? String("the cloud does not travel over the link: switch 'touch_cloud' off")
-                                  : to_godot(library_error_);
+    return is_far && touch_cloud_
+               ? String("the cloud does not travel over the link: switch 'touch_cloud' off")
+               : to_godot(library_error_);
 }
 
 bool DepthSensor::touches_cloud() const {

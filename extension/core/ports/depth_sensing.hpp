@@ -104,7 +104,8 @@ struct Sight {
     Pose camera;                    // in the scene, as the objects and the plane were told by it
     std::span<const SightedObject> objects;
     std::span<const glm::vec3> cloud;  // in the frame of the camera (unit: meters)
-    // Over what is not recognised, in the scene; from sight to sight of the same camera only its corners move.
+    // Over what is not recognised, in the scene; from sight to sight of the same camera only its corners
+    // move.
     MeshView surface;
     SupportPlane plane;
     double depth_scale = 1.0;  // true depth over told depth; 1 where the support's height is not known
