@@ -152,6 +152,7 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.settings.radius = radius_;
     description.settings.mask = mask_;
     description.force_law = force_law_;
+    description.finger = finger_;
     description.enabled = enabled_;
     return description;
 }

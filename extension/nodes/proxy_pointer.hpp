@@ -90,6 +90,7 @@ private:
     bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;
     tactus::ForceLaw force_law_ = tactus::ForceLaw::spring;
+    SoftFinger finger_;
     bool enabled_ = true;
     bool show_proxy_ = true;
     bool show_hand_ = true;

@@ -29,9 +29,14 @@ bool in_reach(const JPH::Body& body, const Vec3& point) {
 }
 
 // A force of no length has no direction.
+bool is_sound(const TwistSpring& twist) {
+    return std::abs(glm::length(twist.axis) - 1.0) < 1e-3 && std::isfinite(twist.twist) &&
+           std::isfinite(twist.patch_spin) && twist.stiffness >= 0.0 && twist.limit >= 0.0;
+}
+
 bool is_sound(const SpringForce& spring) {
     return limits::is_number(spring.force) && glm::length(spring.force) >= limits::weakest &&
-           limits::is_number(spring.hand_velocity) && spring.damping >= 0.0;
+           limits::is_number(spring.hand_velocity) && spring.damping >= 0.0 && is_sound(spring.twist);
 }
 
 void apply_mass(JPH::Body& body, const BodyRecord& record) {

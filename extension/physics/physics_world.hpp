@@ -47,6 +47,15 @@ struct PhysicsSettings {
     std::uint32_t full_rate_bodies = 0;
 };
 
+// A fingertip's patch of contact that holds a body against turning about its normal.
+struct TwistSpring {
+    Vec3 axis{0.0, 1.0, 0.0};  // unit, in the world
+    double twist = 0.0;        // of the body beyond the patch, about the axis, now (unit: radians)
+    double stiffness = 0.0;    // (unit: newton meters per radian), >= 0
+    double limit = 0.0;        // at which it slips (unit: newton meters), >= 0; 0: it holds nothing
+    double patch_spin = 0.0;   // of the patch about the axis, during the step (unit: radians per second)
+};
+
 // A hand's spring pressing on a body. Within the step the force changes by `stiffness` times the way that the
 // hand goes on less the way that the body gives, and by `damping` times the speed that the body loses; it
 // never pulls. A fingertip that sticks holds the body in all directions, one that slides only along the
@@ -58,6 +67,7 @@ struct SpringForce {
     double damping = 0.0;     // (unit: newton seconds per meter), >= 0
     Vec3 hand_velocity{0.0};  // during the step, in the world (unit: meters per second)
     bool sticks = false;
+    TwistSpring twist = {};
 };
 
 // Bits that step() returns.

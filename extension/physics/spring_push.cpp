@@ -58,6 +58,7 @@ void SpringPush::set(JPH::Body& body, const SpringForce& spring) {
     push_.first_velocity = along(body.GetPointVelocity(point));
     push_.stiffness = static_cast<float>(limits::cut(spring.stiffness, limits::stiffest));
     push_.damping = static_cast<float>(limits::cut(spring.damping, limits::stiffest));
+    twist_.set(body, spring.twist);
 }
 
 void SpringPush::SetupVelocityConstraint(float seconds) {
@@ -78,6 +79,7 @@ void SpringPush::SetupVelocityConstraint(float seconds) {
     held_ = is_light_ ? held_iterations : 0;
     SetNumVelocityStepsOverride(is_light_ ? light_iterations : 0);
     gives_ = false;
+    twist_.set_up(*push_.body, seconds);
 }
 
 // A braced body does not give way: the answer is the force itself, and the contacts remember theirs.
@@ -86,6 +88,7 @@ void SpringPush::WarmStartVelocityConstraint(float) {
         add_impulse(impulse_);
     else
         add_impulse_along(impulse_along_);
+    twist_.warm_start(*push_.body);
 }
 
 bool SpringPush::SolveVelocityConstraint(float seconds) {
@@ -95,7 +98,9 @@ bool SpringPush::SolveVelocityConstraint(float seconds) {
     }
     if (!gives_)
         give_way(seconds);
-    return push_.sticks ? solve() : solve_along();
+    const bool pushed = push_.sticks ? solve() : solve_along();
+    const bool held = twist_.solve(*push_.body);
+    return pushed || held;
 }
 
 // In terms of the impulse l, with the hand's velocity w, the force of a sub-step is

@@ -31,6 +31,7 @@
 
 #include "physics/jolt.hpp"
 #include "physics/physics_world.hpp"
+#include "physics/twist_hold.hpp"
 
 #include <Jolt/Physics/Body/Body.h>
 #include <Jolt/Physics/Constraints/Constraint.h>
@@ -43,7 +44,10 @@ public:
 
     // For the next step. The force is not zero, the stiffness positive.
     void set(JPH::Body& body, const SpringForce& spring);
-    void take(const SpringPush& other) { push_ = other.push_; }
+    void take(const SpringPush& other) {
+        push_ = other.push_;
+        twist_ = other.twist_;
+    }
 
     bool acts_on(const JPH::Body& body) const { return push_.body == &body; }
 
@@ -88,6 +92,7 @@ private:
         float given = 0.0f;                             // impulse along n of the sub-steps before
     };
     Push push_;
+    TwistHold twist_;
 
     JPH::Vec3 force_ = JPH::Vec3::sZero();  // when the sub-step began
     float inverse_mass_along_ = 0.0f;       // velocity along n for a unit impulse along n

@@ -104,9 +104,13 @@ std::string check_workspace(const Workspace& w) {
 }
 
 std::string check_proxy(const ProxyDescription& d) {
-    return d.settings.radius > 0.0 && d.settings.radius <= limits::longest_arm
+    if (!(d.settings.radius > 0.0 && d.settings.radius <= limits::longest_arm)) {
+        return "the proxy's radius is not a positive length: set it above 0 m";
+    }
+    return d.finger.modulus >= 0.0 && std::isfinite(d.finger.modulus) && d.finger.radius > 0.0 &&
+                   d.finger.radius <= limits::longest_arm
                ? ""
-               : "the proxy's radius is not a positive length: set it above 0 m";
+               : "the finger's modulus is below 0 or its radius is no positive length: set them anew";
 }
 
 // In commands of the least kind (SessionSettings::commands_per_tick).

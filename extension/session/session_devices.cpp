@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
+#include "core/teleop/body_motion.hpp"
 #include "physics/limits.hpp"
 #include "realtime/thread_role.hpp"
 #include "session/session_loop.hpp"
@@ -71,6 +73,11 @@ void SessionLoop::place_hand(DeviceSlot& slot) const {
     slot.was_held = held;
     slot.hand = reached + slot.offset;
     slot.hand_velocity = held ? Vec3(0.0) : velocity_in_scene(slot.workspace, slot.sample.velocity) + drift;
+    if (slot.capabilities.rotates) {
+        const Quat rotation = slot.workspace.pose.rotation * slot.sample.rotation;
+        const Quat before = std::exchange(slot.rotation, rotation);
+        slot.hand_turn = held ? Vec3(0.0) : turn_vector(rotation * glm::conjugate(before));
+    }
 }
 
 double SessionLoop::force_limit(const ProxySlot& slot) const {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/teleop/body_motion.hpp"
 #include "realtime/thread_role.hpp"
 
 namespace tactus {
@@ -205,6 +206,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     if (!slot.description.enabled || slot.idle || slot.description.device >= max_devices ||
         !devices_[slot.description.device].device) {
         slot.force = Vec3(0.0);
+        slot.torsion.count = 0;
         slot.proxy->restart();
         slot.state = {};
         slot.step = step_of(slot);
@@ -234,6 +236,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.step = step_of(slot);
     slot.jumped = tick.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
+    hold_against_turning(slot);
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
     describe(slot, tick);
 }
@@ -272,6 +275,34 @@ void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
     }
 }
 
+// What each contact of a soft finger holds the body by against turning. Over a link only places are told: a
+// finger there does not turn, and neither does that of the model.
+void SessionLoop::hold_against_turning(ProxySlot& slot) const {
+    const SoftFinger& finger = slot.description.finger;
+    if (!finger.is_soft()) {
+        slot.torsion.count = 0;
+        return;
+    }
+    const Vec3 hand_turn = side_ ? Vec3(0.0) : devices_[slot.description.device].hand_turn;
+    const TorsionList before = std::exchange(slot.torsion, {});
+    for (int i = 0; i < slot.parts.contact_count; ++i) {
+        const Touch& contact = slot.proxy->touching()[static_cast<std::size_t>(i)];
+        const TouchBody& body = scene_.body(contact.body);
+        const Vec3& on_hand = slot.parts.contacts[i].on_hand;
+        const double pressing = std::max(0.0, glm::dot(on_hand, contact.normal));
+        const double along = glm::length(on_hand - contact.normal * glm::dot(on_hand, contact.normal));
+        const double slipping = torsion_limit(finger, body.material.dynamic_friction, pressing, along);
+        const double at_rest = torsion_limit(finger, body.material.static_friction, pressing, along);
+        const Vec3 body_turn =
+            body.moved ? turn_vector(body.pose.rotation * glm::conjugate(body.previous.rotation)) : Vec3(0.0);
+        Torsion torsion = before.grip_of(contact.body, contact.normal);
+        turn_in_grip(torsion, {slot.sliding ? slipping : std::max(slipping, at_rest), slipping},
+                     glm::dot(body_turn - hand_turn, contact.normal));
+        torsion.finger_spin = glm::dot(hand_turn, contact.normal) / seconds_;
+        slot.torsion.add(torsion);
+    }
+}
+
 void SessionLoop::push_bodies() {
     for (const SessionHandle handle : pushed_) {
         const Body& pushed = bodies_[handle];
@@ -290,8 +321,14 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         if (pressed.motion == Motion::Dynamic) {
             const TouchMaterial& material = scene_.body(part.body).material;
             const bool sticks = !slot.sliding && material.static_friction > 0.0;
-            physics_.apply_spring_force(pressed.id, {-part.on_hand, part.point, part.wall.stiffness,
-                                                     part.wall.damping, slot.hand_velocity, sticks});
+            SpringForce spring{
+                -part.on_hand, part.point, part.wall.stiffness, part.wall.damping, slot.hand_velocity,
+                sticks,        {}};
+            if (i < slot.torsion.count) {
+                const Torsion& held = slot.torsion.items[static_cast<std::size_t>(i)];
+                spring.twist = {held.normal, held.twist, held.stiffness, held.limit, held.finger_spin};
+            }
+            physics_.apply_spring_force(pressed.id, spring);
         }
     }
 }

@@ -69,6 +69,7 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
+        TorsionList torsion;  // one each of `parts`; none where the finger is a point
         bool rested = false;  // since the last tick
         ProxyState state;
 
@@ -161,9 +162,11 @@ private:
         Vec3 offset{0.0};         // in the world: what clutch and edge have made of it so far (unit: meters)
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
-        Vec3 force{0.0};          // of all its proxies, in the world (unit: newtons)
-        Vec3 refused{0.0};        // of what they wanted, by its limits (unit: newtons)
-        DeviceSample heard;       // as it came, with whatever nonsense
+        Quat rotation{1.0, 0.0, 0.0, 0.0};  // of the handle, in the world
+        Vec3 hand_turn{0.0};                // in this tick, in the world (unit: radians)
+        Vec3 force{0.0};                    // of all its proxies, in the world (unit: newtons)
+        Vec3 refused{0.0};                  // of what they wanted, by its limits (unit: newtons)
+        DeviceSample heard;                 // as it came, with whatever nonsense
         DeviceCapabilities capabilities;
         HandSafety safety;
         SafeForce safe;
@@ -214,6 +217,7 @@ private:
     FadingForce::Step step_of(const ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
+    void hold_against_turning(ProxySlot& slot) const;
     void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);

@@ -128,7 +128,8 @@ bool SessionLoop::save(LoopMemento& memento) {
     }
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
         if (proxies_[i].proxy) {
-            memento.pointers[i] = {proxies_[i].proxy->memory(), proxies_[i].effects, proxies_[i].force};
+            memento.pointers[i] = {proxies_[i].proxy->memory(), proxies_[i].effects, proxies_[i].torsion,
+                                   proxies_[i].force};
         }
     }
     memento.physics_bytes = physics_.save_everything(memento.physics);
@@ -151,6 +152,7 @@ bool SessionLoop::restore(const LoopMemento& memento) {
         if (proxies_[i].proxy) {
             proxies_[i].proxy->recall(memento.pointers[i].proxy);
             proxies_[i].effects = memento.pointers[i].effects;
+            proxies_[i].torsion = memento.pointers[i].torsion;
             proxies_[i].force = memento.pointers[i].force;
         }
     }

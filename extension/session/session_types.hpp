@@ -10,6 +10,7 @@
 #include "core/math/pose.hpp"
 #include "core/safety/hand_safety.hpp"
 #include "core/safety/stiffness_limit.hpp"
+#include "core/tool/soft_finger.hpp"
 #include "physics/physics_world.hpp"
 #include "session/hand_mapping.hpp"
 
@@ -39,6 +40,7 @@ struct ProxyDescription {
     SessionHandle device = no_handle;
     ProxySettings settings;
     ForceLaw force_law = ForceLaw::spring;
+    SoftFinger finger;  // what bodies are held by against turning
     bool enabled = true;
 };
 

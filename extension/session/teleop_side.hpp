@@ -56,6 +56,7 @@ struct LoopMemento {
     struct Pointer {
         ProxyMemory proxy;
         EffectMemory effects;
+        TorsionList torsion;
         Vec3 force{0.0};
     };
 

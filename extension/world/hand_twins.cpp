@@ -14,7 +14,8 @@ bool same(const Workspace& a, const Workspace& b) {
 
 bool same(const ProxyDescription& a, const ProxyDescription& b) {
     return a.device == b.device && a.settings.radius == b.settings.radius &&
-           a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.enabled == b.enabled;
+           a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.finger == b.finger &&
+           a.enabled == b.enabled;
 }
 
 }  // namespace

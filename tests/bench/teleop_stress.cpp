@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "platform/clock.hpp"
 #include "shared/attack.hpp"
@@ -27,9 +28,18 @@ namespace {
 using namespace tactus;
 using namespace tactus::shared;
 
-// A packet takes a microsecond or two: whoever takes so much longer hangs (unit: seconds).
+// A packet takes a microsecond or two of a processor: whoever takes so much more hangs (unit: seconds).
 constexpr double longest(std::uint64_t packets) {
     return 120.0 + 60e-6 * static_cast<double>(packets);
+}
+// So does who gets no further at all, by the clock: a busy machine gives a little now and then.
+constexpr Nanoseconds longest_standstill = 600 * nanoseconds_per_second;
+
+Nanoseconds processor_time(pid_t process) {
+    clockid_t clock{};
+    timespec used{};
+    const bool known = clock_getcpuclockid(process, &clock) == 0 && clock_gettime(clock, &used) == 0;
+    return known ? used.tv_sec * nanoseconds_per_second + used.tv_nsec : 0;
 }
 
 enum class End { well, hung, crashed };
@@ -48,11 +58,14 @@ End run_apart(const AttackSettings& settings, AttackFigures& figures) {
         _exit(told ? 0 : 1);
     }
     close(ends[1]);
-    const Nanoseconds deadline = monotonic_now() + from_seconds(longest(settings.packets));
+    const Nanoseconds most = from_seconds(longest(settings.packets));
+    Nanoseconds used = 0, went_on = monotonic_now();
     int status = 0;
     bool hung = false;
     while (waitpid(child, &status, WNOHANG) == 0) {
-        if (monotonic_now() > deadline) {
+        const Nanoseconds before = std::exchange(used, processor_time(child));
+        went_on = used != before ? monotonic_now() : went_on;
+        if (used > most || monotonic_now() - went_on > longest_standstill) {
             kill(child, SIGKILL);
             waitpid(child, &status, 0);
             hung = true;

@@ -127,11 +127,10 @@ def draw_variants(found: dict, variants: tuple[str, ...], delay: str, path: Path
 
 def _draw_table(axes, values: np.ndarray) -> None:
     shown = np.log10(np.maximum(values, 1e-4))
-    axes.imshow(shown, cmap="YlOrRd", aspect="auto")
-    middle = np.nanmean(shown)
+    image = axes.imshow(shown, cmap="YlOrRd", aspect="auto")
     for (row, column), value in np.ndenumerate(values):
-        dark = shown[row, column] > middle + 1.0
-        text = f"{value:.2g}" if 1e-4 <= value < 100 else "0" if value < 100 else f"{value:.0f}"
+        dark = image.norm(shown[row, column]) > 0.6
+        text = f"{value:.2g}" if 1e-4 <= value < 99.5 else "0" if value < 99.5 else f"{value:.0f}"
         axes.text(column, row, text, ha="center", va="center", color="white" if dark else style.INK, fontsize=8)
     axes.grid(False)
 
