@@ -96,6 +96,10 @@ def flags_of_file(platform, source, sanitizers):
     return [*anywhere, *(["-fno-sanitize=all", *audit] if source in NOT_WATCHED and sanitizers else [])]
 
 
+# Debian's PCL does not stand -march=native, and throws.
+AS_PCL = ["-std=c++20", "-O2", "-fPIC", "-w"]
+
+
 def openni():
     """Folders of OpenNI2's headers; none where it is not installed."""
     found = [Path(folder) for folder in ("/usr/include/openni2", "/usr/local/include/openni2")]

@@ -19,6 +19,15 @@ wants() { # wants PACKAGE COMMAND…: without the package some tests are left ou
 # OpenNI2, by which depth cameras are read.
 sensing=()
 [ -e /usr/include/openni2/Driver/OniDriverAPI.h ] || sensing=(libopenni2-dev)
+# The part of PCL that its bench is held beside: tools/setup/pcl.py.
+rival=()
+if ! compgen -G "/usr/lib/*/libpcl_registration.so.*" >/dev/null || [ ! -e /usr/include/eigen3/Eigen/Core ] || [ ! -e /usr/include/boost/version.hpp ]; then
+    version="$(apt-cache pkgnames libpcl-registration 2>/dev/null | sed -n 's/^libpcl-registration//p' | sort -V | tail -n 1)"
+    rival=(libeigen3-dev libboost-dev)
+    for part in common kdtree octree search sample-consensus filters features segmentation registration; do
+        rival+=("libpcl-$part$version")
+    done
+fi
 
 needs python3 test -x /usr/bin/python3
 needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
@@ -37,10 +46,12 @@ wants libwslay1 python3 -c 'import ctypes; ctypes.CDLL("libwslay.so.1")'
 wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
 wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
 seeing=no
+compared=no
 for extra in "$@"; do
     case "$extra" in
     sensing) seeing=wanted && continue ;;
-    with_sensing) missing+=("${sensing[@]}") && continue ;;
+    rival) compared=wanted && continue ;;
+    with_sensing) missing+=("${sensing[@]}" "${rival[@]}") && continue ;;
     esac
     needs make command -v make
     case "$extra" in
@@ -64,6 +75,7 @@ goes_without() { # goes_without WHAT PACKAGE…: root installs the packages, oth
 }
 goes_without "tests with devices that are played" "${played[@]}"
 [ "$seeing" = no ] || goes_without "depth cameras and their tests" "${sensing[@]}"
+[ "$compared" = no ] || goes_without "the comparison with PCL" "${rival[@]}"
 [ ${#missing[@]} -gt 0 ] || exit 0
 # What the same is called elsewhere. Godot itself is fetched on Debian only: there, one of version 4.4 or later must be on
 # the PATH or in GODOT.

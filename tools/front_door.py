@@ -4,7 +4,7 @@ import sys
 
 import build
 import project
-from setup import cache, device_access, platforms, steps
+from setup import cache, device_access, pcl, platforms, steps
 from setup.steps import Step
 
 
@@ -19,6 +19,8 @@ def needed(command: str, arguments: list[str]) -> list[Step]:
     if "--device-access" in arguments:
         return []
     plan = steps.dependencies()
+    if "--with-sensing" in arguments or (command == "bench" and "sensing" in arguments and pcl.can_fetch()):
+        plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
     if command == "bench" or any(argument.startswith("--sanitize") for argument in arguments):
         return plan

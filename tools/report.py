@@ -44,14 +44,15 @@ def main() -> int:
         return 1
     target = cache.clone() / "build/report/index.html"
     target.parent.mkdir(parents=True, exist_ok=True)
-    target.write_text(page(folder, folder.with_name("scenario4")))
+    target.write_text(page(folder, folder.with_name("scenario4"), folder.with_name("scenario5")))
     print(target.relative_to(cache.clone()))
     return 0
 
 
-def page(scenario1: Path, scenario4: Path) -> str:
+def page(scenario1: Path, scenario4: Path, scenario5: Path) -> str:
     summary = json.loads((scenario1 / "summary.json").read_text())
     network = [_scenario4(scenario4)] if (scenario4 / "summary.json").is_file() else []
+    network += [_scenario5(scenario5)] if (scenario5 / "summary.json").is_file() else []
     return html.page(
         "Tactus: touch in Godot at 1 kHz",
         "A scripted hand is drawn along the thesis's path through two scenes, in Godot itself. Measured on this machine.",
@@ -86,6 +87,36 @@ def _scenario4(folder: Path) -> str:
         html.table(gain.HEAD, gain.rows(summary)),
         *_pictures(folder, "static_forces.png", "Ground and a sphere. The local model is exact; the traditional force is late."),
         *_pictures(folder, "dynamic_forces.png", "Pushing a box whose model is 20 % too heavy and too slippery, corrected all the time."),
+    )
+
+
+SEEN = {
+    "discovered_s": ("Until the model has all that is there", "s"),
+    "place_error_median_mm": ("Model from the true place, median", "mm"),
+    "place_error_p95_mm": ("The same, 95 %", "mm"),
+    "force_error_mean_N": ("Force on the hand from that of direct touch, mean", "N"),
+    "force_error_over_pose_explained": ("That over what the error of place explains", ""),
+    "robot_touches_share": ("Of the time in which the hand touches, the robot does", ""),
+    "frame_ms_median": ("From an image to its objects, median", "ms"),
+}
+
+
+def _scenario5(folder: Path) -> str:
+    summary = json.loads((folder / "summary.json").read_text())
+    rows = [
+        (name, *(f"{summary[f'{case}.{key}']:.3g} {unit}".strip() for case in ("static", "dynamic")))
+        for key, (name, unit) in SEEN.items()
+    ]
+    return html.section(
+        "Scenario 5: a camera makes the model, and a robot follows the hand",
+        html.paragraph(
+            "Two Godot processes over UDP. At the far side a depth camera looks at a place that nobody has described: what it "
+            "finds is the operator's model, and the robot goes where the hand is. In the dynamic scene the cube is pushed back and forth."
+        ),
+        html.table(("", "Static", "Dynamic"), rows),
+        *_pictures(folder, "static_seen.png", "Depths as the camera has them, with its noise, and the meshes of the library where they were found."),
+        *_pictures(folder, "static_forces.png", "The force on the hand, on a hand that touches that place directly, and on the robot."),
+        *_pictures(folder, "dynamic_forces.png", "The same while the cube is pushed back and forth."),
     )
 
 

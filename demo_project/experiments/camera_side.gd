@@ -1,5 +1,5 @@
 extends SceneTree
-## One side of camera_testbed.tscn by itself, which says twenty times a second how it is, until it is ended:
+## One side of camera_testbed.tscn by itself, which says in every frame how it is, until it is ended:
 ##
 ##     godot --headless --path demo_project --script res://experiments/camera_side.gd -- --part=PART …
 ##
@@ -11,10 +11,10 @@ extends SceneTree
 ##
 ## The hand sets out when the model has all that is there, or at once where it touches directly. Each line is
 ## JSON: time since the epoch and since the hand has set out (s; below 0: it has not), place and force of the
-## hand, force on the robot's tip, and where the bodies are, by their names.
+## hand, force on the robot's tip, and where the bodies are, by their names; once, what the camera sees.
 
 const OBJECTS := 3
-const SAY_EVERY := 0.05
+const SHOWN_POINTS := 2  ## of so many one is said
 const KEPT := {
 	"operator": ["HapticWorld"],
 	"far": ["Far", "Reality"],
@@ -28,8 +28,8 @@ var _reality: HapticWorld
 var _device: HapticDevice
 var _link: MMTLink
 var _way: HapticPath
-var _said_at := 0.0
 var _set_out := -1.0
+var _has_shown := false
 
 
 func _initialize() -> void:
@@ -61,6 +61,8 @@ func _initialize() -> void:
 			if property not in ["part", "moves"]:
 				var value: Variant = JSON.parse_string(settings[property])
 				_link.set(property, settings[property] if value == null else value)
+	if _part == "far":
+		scene.get_node("Far/DepthSensor").show_cloud = true
 	root.add_child(scene)
 
 
@@ -71,9 +73,7 @@ func _process(_delta: float) -> bool:
 		_device.path = _way
 	if _moves and _reality != null:
 		_push()
-	if now - _said_at >= SAY_EVERY:
-		_said_at = now
-		_say(now)
+	_say(now)
 	return false
 
 
@@ -115,6 +115,10 @@ func _say(now: float) -> void:
 		var sensor: DepthSensor = _world.get_node("DepthSensor")
 		line["sensor"] = sensor.get_state_text()
 		line["frame_ms"] = sensor.frame_ms
+		if not _has_shown and sensor.get_objects().size() >= OBJECTS - 1:
+			_has_shown = true
+			line["seen"] = _seen(sensor)
+			sensor.show_cloud = false
 	var among: Node = _reality if _reality != null else _world
 	for body: Node in among.find_children("*", "Node3D", true, false):
 		var name := String(body.name).get_slice("_", 0).to_lower()
@@ -122,6 +126,20 @@ func _say(now: float) -> void:
 			var at: Transform3D = body.global_transform
 			line.bodies[name] = _numbers(at.origin) + _numbers(at.basis.x) + _numbers(at.basis.y)
 	print(JSON.stringify(line))
+
+
+## The points that the camera sees, and what it has found where: in millimeters, in its own frame.
+func _seen(sensor: DepthSensor) -> Dictionary:
+	var cloud: MeshInstance3D = sensor.get_child(-1, true)
+	var points: PackedVector3Array = cloud.mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX]
+	var said := []
+	for i in range(0, points.size(), SHOWN_POINTS):
+		said.append_array(_numbers((points[i] * 1000.0).round()))
+	var objects := {}
+	for object in sensor.get_objects():
+		var at: Transform3D = sensor.global_transform.affine_inverse() * object.transform
+		objects[object.name] = [at.basis.x, at.basis.y, at.basis.z, at.origin * 1000.0].map(_numbers)
+	return {"points": said, "objects": objects}
 
 
 func _numbers(v: Vector3) -> Array:

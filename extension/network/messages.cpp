@@ -21,7 +21,8 @@ consteval std::uint8_t type_of() {
         return number;
     }(static_cast<Message*>(nullptr));
 }
-static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<Ghosts>() == 11);
+static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<Ghosts>() == 11 &&
+              type_of<ObjectEstimates>() == 12);
 
 // One list of fields for each kind, for a WireWriter and const values or a WireReader and plain ones.
 
@@ -143,6 +144,15 @@ void fields(Stream& s, auto& m, const Ghosts&) {
     s.require(m.count >= 1 && m.count <= Ghosts::max_count);
     for (std::size_t i = 0; s.good() && i < m.count; ++i) {
         ghost_fields(s, m.ghosts[i]);
+    }
+}
+
+template <typename Stream>
+void fields(Stream& s, auto& m, const ObjectEstimates&) {
+    s.integer(m.count);
+    s.require(m.count >= 1 && m.count <= ObjectEstimates::max_count);
+    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
+        object_estimate_fields(s, m.estimates[i]);
     }
 }
 

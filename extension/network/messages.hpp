@@ -16,9 +16,11 @@
 #include <variant>
 #include <vector>
 
+#include "core/estimation/touch_value.hpp"
 #include "core/haptics/touch_material.hpp"
 #include "core/math/pose.hpp"
 #include "core/ports/link.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "physics/body_description.hpp"
 #include "physics/joint.hpp"
 
@@ -204,8 +206,28 @@ struct Ghosts {
     std::array<Ghost, max_count> ghosts{};
 };
 
+// What the far side has found out about an object, and how sure it is.
+struct ObjectEstimate {
+    ObjectId object = no_object;
+    bool has_doubt = false;  // its places are seen, with `doubt`; else they are known
+    PoseDoubt doubt;
+    // Of those that are known:
+    TouchValue stiffness;  // (unit: newtons per meter)
+    TouchValue friction;   // of a pointer on it, while it slides (dimensionless)
+    TouchValue mass;       // (unit: kilograms)
+};
+inline constexpr double max_estimate = 1e6;  // of any of these
+
+struct ObjectEstimates {
+    static constexpr std::size_t max_count = 8;
+
+    std::uint8_t count = 0;  // 1 … max_count
+    std::array<ObjectEstimate, max_count> estimates{};
+};
+
 using Message = std::variant<Hello, Bye, ClockRequest, ClockAnswer, DiscoveryFragment, ObjectRemoval,
-                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples, Ghosts>;
+                             DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples, Ghosts,
+                             ObjectEstimates>;
 
 struct Packet {
     PacketHeader header;

@@ -185,6 +185,61 @@ void ghost_fields(Stream& s, auto& m) {
     }
 }
 
+// The diagonal, then what stands above it by rows.
+template <typename Stream>
+void covariance_fields(Stream& s, auto& c) {
+    constexpr int places[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 0}, {2, 0}, {2, 1}};
+    for (const auto& [i, j] : places) {
+        auto single = static_cast<float>(c[i][j]);
+        s.real(single, i == j ? 0.0F : -static_cast<float>(max_estimate), static_cast<float>(max_estimate));
+        if constexpr (Stream::reads) {
+            c[i][j] = c[j][i] = s.good() ? static_cast<double>(single) : 0.0;
+        }
+    }
+}
+
+template <typename Stream>
+void touch_value_fields(Stream& s, auto& m, bool known) {
+    if (known) {
+        auto value = static_cast<float>(m.value), deviation = static_cast<float>(m.deviation);
+        s.real(value, 0.0F, static_cast<float>(max_estimate));
+        s.real(deviation, 0.0F, static_cast<float>(max_estimate));
+        if constexpr (Stream::reads) {
+            m.value = s.good() ? static_cast<double>(value) : 0.0;
+            m.deviation = s.good() ? static_cast<double>(deviation) : 0.0;
+        }
+    }
+    if constexpr (Stream::reads) {
+        m = known ? m : TouchValue{};
+        m.known = known;
+    }
+}
+
+template <typename Stream>
+void object_estimate_fields(Stream& s, auto& m) {
+    enum : std::uint8_t { doubted = 1, stiff = 2, rough = 4, heavy = 8, any = 15 };
+    object_fields(s, m.object);
+    std::uint8_t flags = 0;
+    if constexpr (!Stream::reads) {
+        flags = static_cast<std::uint8_t>((m.has_doubt ? doubted : 0) | (m.stiffness.known ? stiff : 0) |
+                                          (m.friction.known ? rough : 0) | (m.mass.known ? heavy : 0));
+    }
+    s.integer(flags);
+    s.require((flags & ~any) == 0);
+    if constexpr (Stream::reads) {
+        m.has_doubt = (flags & doubted) != 0;
+        m.doubt = {};
+    }
+    if ((flags & doubted) != 0) {
+        covariance_fields(s, m.doubt.place);
+        covariance_fields(s, m.doubt.turn);
+        s.require(is_sound(m.doubt));
+    }
+    touch_value_fields(s, m.stiffness, (flags & stiff) != 0);
+    touch_value_fields(s, m.friction, (flags & rough) != 0);
+    touch_value_fields(s, m.mass, (flags & heavy) != 0);
+}
+
 // A sample in whole numbers.
 struct WholeSample {
     WholeVector position{}, velocity{}, force{}, relative{};

@@ -8,11 +8,11 @@
 #include <godot_cpp/classes/scene_tree.hpp>
 #include <godot_cpp/classes/window.hpp>
 
-#include "core/math/least_turn.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/mmt_link.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
 #include "platform/clock.hpp"
@@ -42,16 +42,6 @@ const char* word_of(SightState state) {
     return "lost";
 }
 
-// Standard deviation along the axis that is known least well, of the first three or the last three rows
-// (squared units of the covariance).
-double deviation(const SightedObject& object, std::size_t first) {
-    double most = 0.0;
-    for (std::size_t i = first; i < first + 3; ++i) {
-        most = std::max(most, object.covariance[7 * i]);
-    }
-    return std::sqrt(std::max(0.0, most));
-}
-
 }  // namespace
 
 // --- properties
@@ -77,8 +67,8 @@ void DepthSensor::pictures_changed() {
 
 void DepthSensor::show() {
     if (sensor_ != nullptr) {
-        seen_.update(*this, sight(), library_, {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_},
-                     age());
+        seen_.update(*this, sight(), library_,
+                     {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_, touches_cloud()}, age());
     }
 }
 
@@ -97,12 +87,33 @@ String DepthSensor::problem() const {
         get_node_or_null(synthetic_scene_) == nullptr) {
         return wrong_path("synthetic_scene", synthetic_scene_, "a node");
     }
-    if (bodies_ != BODIES_NONE && is_inside_tree() && HapticWorld::above(this) == nullptr) {
-        return "what it finds cannot be touched outside of a HapticWorld: put it below one, or set 'bodies' "
-               "to "
-               "none";
+    if (is_inside_tree() && (bodies_ != BODIES_NONE || touch_cloud_)) {
+        return problem_of_touch();
     }
     return to_godot(library_error_);
+}
+
+// What is found is to be touched.
+String DepthSensor::problem_of_touch() const {
+    const HapticWorld* const world = HapticWorld::above(this);
+    if (world == nullptr) {
+        return "what it finds cannot be touched outside of a HapticWorld: put it below one, or set 'bodies' "
+               "to none and switch 'touch_cloud' off";
+    }
+    const std::vector<MMTLink*> links = MMTLink::of(*world);
+    const bool is_far = !links.empty() && !links.front()->is_operator();
+    if (is_far && bodies_ == BODIES_HELD && links.front()->has_robots()) {
+        return "nothing holds bodies at a far side with a robot, where nothing is simulated: set 'bodies' to "
+               "free";
+    }
+    return is_far && touch_cloud_
+               ? String("the cloud does not travel over the link: switch 'touch_cloud' off")
+               : to_godot(library_error_);
+}
+
+bool DepthSensor::touches_cloud() const {
+    const HapticWorld* const world = touch_cloud_ ? HapticWorld::above(this) : nullptr;
+    return world != nullptr && MMTLink::of(*world).empty();
 }
 
 // --- looking
@@ -200,6 +211,7 @@ void DepthSensor::pass_on_settings() {
     settings.min_confidence = min_confidence_;
     settings.max_rate = rate_;
     settings.wants_cloud = show_cloud_;
+    settings.wants_surface = touches_cloud();
     settings.knows_support = knows_support_;
     settings.support_height = support_height_;
     sensor_->set_settings(settings);
@@ -210,7 +222,7 @@ void DepthSensor::end() {
     load_error_.clear();
     view_.end();
     seen_.clear();
-    known_.clear();
+    changes_.forget();
     told_state_ = SensorState::closed;
     told_text_.clear();
     set_process_internal(false);
@@ -247,27 +259,21 @@ void DepthSensor::tell(bool is_new) {
     if (!is_new) {
         return;
     }
-    for (const SightedObject& object : now.objects) {
-        const auto id = static_cast<int64_t>(object.id);
-        const auto before = known_.find(object.id);
-        const bool was_there = before != known_.end() && before->second != SightState::lost;
-        const bool is_there = object.state != SightState::lost;
-        if (is_there) {
-            was_there ? post_signal(*this, "object_updated", {id, to_godot(object.pose)})
-                      : post_signal(*this, "object_found", {id, name_of_mesh(object, library_)});
-        } else if (was_there) {
-            post_signal(*this, "object_lost", {id, name_of_mesh(object, library_)});
+    for (const SightChange& change : changes_.since_last(now)) {
+        const auto id = static_cast<int64_t>(change.id);
+        const String name = name_of_mesh(change.mesh, library_);
+        switch (change.kind) {
+            case SightChange::Kind::found:
+                post_signal(*this, "object_found", {id, name});
+                break;
+            case SightChange::Kind::updated:
+                post_signal(*this, "object_updated", {id, to_godot(change.pose)});
+                break;
+            case SightChange::Kind::lost:
+                post_signal(*this, "object_lost", {id, name});
+                break;
         }
-        known_[object.id] = object.state;
     }
-    std::erase_if(known_, [&](const auto& one) {
-        const bool is_gone = std::ranges::none_of(
-            now.objects, [&](const SightedObject& object) { return object.id == one.first; });
-        if (is_gone && one.second != SightState::lost) {
-            post_signal(*this, "object_lost", {static_cast<int64_t>(one.first), String()});
-        }
-        return is_gone;
-    });
 }
 
 // --- what it says
@@ -293,14 +299,14 @@ String DepthSensor::get_state_text() const {
 Dictionary DepthSensor::describe(const SightedObject& object) const {
     Dictionary d;
     d["id"] = static_cast<int64_t>(object.id);
-    d["name"] = name_of_mesh(object, library_);
+    d["name"] = name_of_mesh(object.mesh, library_);
     d["is_known"] = object.mesh >= 0;
     d["state"] = word_of(object.state);
     d["transform"] = to_godot(object.pose);
     d["confidence"] = object.confidence;
     d["rests"] = object.rests;
-    d["position_deviation"] = deviation(object, 0);
-    d["rotation_deviation"] = deviation(object, 3);
+    d["position_deviation"] = place_deviation(object.covariance);
+    d["rotation_deviation"] = turn_deviation(object.covariance);
     d["linear_velocity"] = to_godot(object.linear_velocity);
     d["angular_velocity"] = to_godot(object.angular_velocity);
     d["node"] = seen_.node_of(object.id);
@@ -357,40 +363,29 @@ void DepthSensor::set_plugged(bool is_plugged) {
 
 // --- where the camera is
 
-// The plane is to be horizontal: the camera is turned about itself by as little as that needs, and lifted.
-double DepthSensor::calibrate_from_plane(double height) {
-    const Sight& now = sight();
-    if (!std::isfinite(height) || !now.plane.is_found) {
-        UtilityFunctions::push_warning(name_of(*this),
-                                       ": no plane is seen that could be calibrated by: let the camera see "
-                                       "the table, and little else, and try again.");
+double DepthSensor::stand_at(const std::optional<Pose>& camera, double residual, const String& why_not) {
+    if (!camera) {
+        UtilityFunctions::push_warning(name_of(*this), ": ", why_not);
         return never;
     }
-    const double above = glm::dot(now.plane.normal, now.camera.position) - now.plane.offset;
-    Pose camera = now.camera;
-    camera.rotation = glm::normalize(least_turn(now.plane.normal, {0.0, 1.0, 0.0}) * camera.rotation);
-    camera.position.y = height + above;
-    set_global_transform(to_godot(camera));
+    set_global_transform(to_godot(*camera));
     pass_on_settings();
-    calibration_residual_ = now.plane.residual;
-    return calibration_residual_;
+    return calibration_residual_ = residual;
+}
+
+double DepthSensor::calibrate_from_plane(double height) {
+    return stand_at(camera_over_plane(sight(), height), sight().plane.residual,
+                    "no plane is seen that could be calibrated by: let the camera see the table, and little "
+                    "else, and try again.");
 }
 
 double DepthSensor::calibrate_from_object(int64_t id, const Transform3D& place) {
-    const Sight& now = sight();
-    const auto found = std::ranges::find_if(
-        now.objects, [id](const SightedObject& object) { return static_cast<int64_t>(object.id) == id; });
-    if (found == now.objects.end() || found->state == SightState::lost || found->mesh < 0 ||
-        !place.is_finite()) {
-        UtilityFunctions::push_warning(name_of(*this), ": object ", id,
-                                       " is not one that is seen and known: take an id of get_objects().");
-        return never;
-    }
-    const Pose in_camera = compose(inverse(now.camera), found->pose);
-    set_global_transform(to_godot(compose(pose_of(place), inverse(in_camera))));
-    pass_on_settings();
-    calibration_residual_ = deviation(*found, 0);
-    return calibration_residual_;
+    const auto known = static_cast<std::uint64_t>(id);
+    const SightedObject* const object = object_of(sight(), known);
+    return stand_at(place.is_finite() ? camera_by_object(sight(), known, pose_of(place)) : std::nullopt,
+                    object != nullptr ? place_deviation(object->covariance) : never,
+                    "object " + String::num_int64(id) +
+                        " is not one that is seen and known: take an id of get_objects().");
 }
 
 // --- Godot
@@ -404,7 +399,7 @@ PackedStringArray DepthSensor::_get_configuration_warnings() const {
 void DepthSensor::_notification(int what) {
     if (what == NOTIFICATION_ENTER_TREE) {
         // Only what is to be touched needs a world.
-        if (is_edited() || bodies_ != BODIES_NONE) {
+        if (is_edited() || bodies_ != BODIES_NONE || touch_cloud_) {
             watch_warnings(*this);
         }
         begin();

@@ -7,8 +7,8 @@
 #include <godot_cpp/variant/packed_string_array.hpp>
 #include <godot_cpp/variant/transform3d.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
-#include <map>
 #include <memory>
+#include <optional>
 
 #include "nodes/properties.hpp"
 #include "nodes/seen_bodies.hpp"
@@ -68,6 +68,8 @@ private:
     const Sight& sight() const;
     double age() const;  // of what was seen last (unit: seconds)
     godot::String problem() const;
+    godot::String problem_of_touch() const;
+    bool touches_cloud() const;
     godot::PackedStringArray library_names() const;
     void begin();
     void make_sensor();
@@ -77,6 +79,7 @@ private:
     void pass_on_settings();
     void look();
     void tell(bool is_new);
+    double stand_at(const std::optional<Pose>& camera, double residual, const godot::String& why_not);
     godot::Dictionary describe(const SightedObject& object) const;
 
     bool active_ = true;
@@ -97,6 +100,7 @@ private:
     Bodies bodies_ = BODIES_NONE;
     bool show_objects_ = true;
     bool show_cloud_ = false;
+    bool touch_cloud_ = false;
 
     OwnedSensor sensor_;  // null: nothing is looked at
     std::string load_error_;
@@ -104,7 +108,7 @@ private:
     std::string library_error_;
     SyntheticView view_;
     SeenBodies seen_;
-    std::map<std::uint64_t, SightState> known_;  // what was told of which
+    SightChanges changes_;
     SensorState told_state_ = SensorState::closed;
     std::string told_text_;
     double calibration_residual_ = -1.0;  // (unit: meters); below 0: never calibrated

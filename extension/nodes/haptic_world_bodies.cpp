@@ -74,6 +74,12 @@ void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
     push("apply_torque", body, {.central = true, .turn = from_godot(torque)}, true);
 }
 
+void HapticWorld::set_doubt(const Node* body, const PoseDoubt& doubt) {
+    if (run_ != nullptr && run_->body_of(body) != no_handle) {
+        run_->session().set_body_doubt(run_->body_of(body), doubt);
+    }
+}
+
 Vector3 HapticWorld::get_linear_velocity(Body* body) const {
     return run_ != nullptr ? to_godot(run_->state_of(body).linear_velocity) : Vector3();
 }

@@ -6,13 +6,12 @@
 #include <godot_cpp/classes/convex_polygon_shape3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/classes/static_body3d.hpp>
-#include <unordered_set>
 #include <utility>
 
 #include "core/math/least_turn.hpp"
-#include "core/teleop/body_motion.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
+#include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/tree_walk.hpp"
 
@@ -33,10 +32,6 @@ constexpr double unknown_density = 1000.0;
 constexpr float support_size = 2.0f;
 constexpr float support_thickness = 0.04f;
 
-// Less is noise of the camera (unit: meters; cosine of 0.5 degrees).
-constexpr double support_shift = 0.002;
-constexpr double support_cosine = 0.99996;
-
 TriangleMesh copy_of(const MeshView& view) {
     return {{view.vertices.begin(), view.vertices.end()}, {view.triangles.begin(), view.triangles.end()}};
 }
@@ -50,21 +45,8 @@ double volume_of(const TriangleMesh& mesh) {
     return std::abs(volume);
 }
 
-bool moves(const SightedObject& object) {
-    return object.linear_velocity != Vec3(0.0) || object.angular_velocity != Vec3(0.0);
-}
-
-// Where it is after `seconds` if it goes on as it moves.
-Pose pose_after(const SightedObject& object, double seconds) {
-    if (!moves(object)) {
-        return object.pose;
-    }
-    return {object.pose.position + seconds * object.linear_velocity,
-            glm::normalize(turn_by(object.angular_velocity, seconds) * object.pose.rotation)};
-}
-
-bool is_known(const SightedObject& object, std::span<const SeenMesh> library) {
-    return object.mesh >= 0 && static_cast<std::size_t>(object.mesh) < library.size();
+bool is_known(std::int32_t mesh, std::span<const SeenMesh> library) {
+    return mesh >= 0 && static_cast<std::size_t>(mesh) < library.size();
 }
 
 Ref<ConvexPolygonShape3D> hull_shape(const TriangleMesh& mesh) {
@@ -87,21 +69,20 @@ MeshInstance3D* picture(const TriangleMesh& mesh, const Color& color) {
 
 }  // namespace
 
-String name_of_mesh(const SightedObject& object, std::span<const SeenMesh> library) {
-    return is_known(object, library) ? library[static_cast<std::size_t>(object.mesh)].name
-                                     : String("unknown");
+String name_of_mesh(std::int32_t mesh, std::span<const SeenMesh> library) {
+    return is_known(mesh, library) ? library[static_cast<std::size_t>(mesh)].name : String("unknown");
 }
 
 // A body's name goes over the network with it: it must stay.
 Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> library,
                          const Looks& looks) const {
-    const bool knows = is_known(object, library);
+    const bool knows = is_known(object.mesh, library);
     const TriangleMesh mesh =
         knows ? *library[static_cast<std::size_t>(object.mesh)].mesh : copy_of(object.hull);
     MeshInstance3D* const drawn =
         looks.show_objects ? picture(mesh, knows ? known_color : unknown_color) : nullptr;
     Node3D* made = drawn;
-    if (looks.objects != SeenAs::pictures) {
+    if (looks.objects != SeenAs::pictures && (knows || !looks.touch_cloud)) {
         auto* const body = memnew(RigidBody3D);
         const double mass = knows ? library[static_cast<std::size_t>(object.mesh)].mass : 0.0;
         body->set_mass(std::max(1e-3, mass > 0.0 ? mass : unknown_density * volume_of(mesh)));
@@ -122,20 +103,19 @@ Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> 
         made = body;
     }
     if (made != nullptr) {
-        made->set_name(name_of_mesh(object, library) + "_" +
+        made->set_name(name_of_mesh(object.mesh, library) + "_" +
                        String::num_int64(static_cast<int64_t>(object.id)));
         made->set_as_top_level(true);
     }
     return made;
 }
 
-void SeenBodies::place(Made& made, const SightedObject& object, double age) const {
-    made.pose = pose_after(object, age);
-    auto* const node = node_of_id<Node3D>(made.node);
+void SeenBodies::place(const SightedObject& object, double age) const {
+    Node3D* const node = node_of(object.id);
     if (node == nullptr) {
         return;
     }
-    node->set_global_transform(to_godot(made.pose));
+    node->set_global_transform(to_godot(pose_after(object, age)));
     auto* const body = Object::cast_to<RigidBody3D>(node);
     if (body != nullptr && !body->is_freeze_enabled()) {
         body->set_linear_velocity(to_godot(object.linear_velocity));
@@ -145,50 +125,42 @@ void SeenBodies::place(Made& made, const SightedObject& object, double age) cons
 
 void SeenBodies::go_on(const Sight& sight, double age) {
     for (const SightedObject& object : sight.objects) {
-        const auto made = made_.find(object.id);
-        if (made != made_.end() && moves(object)) {
-            place(made->second, object, age);
+        if (moves(object)) {
+            place(object, age);
         }
     }
 }
 
 void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
                         const Looks& looks, double age) {
-    if (std::exchange(made_as_, looks.objects) != looks.objects ||
-        std::exchange(are_shown_, looks.show_objects) != looks.show_objects) {
+    const Looks before = std::exchange(looks_, looks);
+    if (before.objects != looks.objects || before.show_objects != looks.show_objects ||
+        before.touch_cloud != looks.touch_cloud) {
         clear();
     }
-    std::unordered_set<std::uint64_t> there;
+    const auto show = [&](const SightedObject& object) -> std::uint64_t {
+        Node3D* const node = make(object, library, looks);
+        if (node == nullptr) {
+            return 0;
+        }
+        node->set_transform(to_godot(object.pose));
+        sensor.add_child(node, true);
+        return node->get_instance_id();
+    };
+    roll_.update(sight, show, free_later);
+    HapticWorld* const world = HapticWorld::above(&sensor);
     for (const SightedObject& object : sight.objects) {
-        if (object.state == SightState::lost) {
-            continue;
+        place(object, age);
+        if (world != nullptr && looks.objects == SeenAs::free_bodies) {
+            world->set_doubt(node_of(object.id), object.chance);
         }
-        there.insert(object.id);
-        Made& made = made_[object.id];
-        const bool is_other = made.mesh != object.mesh || made.hull_corners != object.hull.vertices.size();
-        if (made.node != 0 && is_other) {
-            free_later(made.node);
-            made.node = 0;
-        }
-        if (made.node == 0) {
-            made.mesh = object.mesh;
-            made.hull_corners = object.hull.vertices.size();
-            if (Node3D* const node = make(object, library, looks)) {
-                node->set_transform(to_godot(object.pose));
-                sensor.add_child(node, true);
-                made.node = node->get_instance_id();
-            }
-        }
-        place(made, object, age);
     }
-    std::erase_if(made_, [&](const auto& one) {
-        if (there.contains(one.first)) {
-            return false;
-        }
-        free_later(one.second.node);
-        return true;
-    });
-    hold_support(sensor, sight.plane, looks.objects != SeenAs::pictures);
+    hold_support(sensor, sight.plane, looks.objects != SeenAs::pictures || looks.touch_cloud);
+    if (looks.touch_cloud) {
+        touched_cloud_.update(sensor, sight.surface, looks.show_objects);
+    } else {
+        touched_cloud_.clear();
+    }
     draw_cloud(sensor, sight, looks.show_cloud);
 }
 
@@ -216,8 +188,7 @@ void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is
         sensor.add_child(slab, true);
         support_ = slab->get_instance_id();
     }
-    const double shift = std::abs(plane.offset - support_plane_.offset);
-    if (!is_new && shift < support_shift && glm::dot(plane.normal, support_plane_.normal) > support_cosine) {
+    if (!is_new && !is_elsewhere(plane, support_plane_)) {
         return;
     }
     support_plane_ = plane;
@@ -254,17 +225,14 @@ void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) 
 }
 
 Node3D* SeenBodies::node_of(std::uint64_t object) const {
-    const auto found = made_.find(object);
-    return found != made_.end() ? node_of_id<Node3D>(found->second.node) : nullptr;
+    return node_of_id<Node3D>(roll_.node_of(object));
 }
 
 void SeenBodies::clear() {
-    for (const auto& [id, made] : made_) {
-        free_later(made.node);
-    }
-    made_.clear();
+    roll_.hide_all(free_later);
     free_later(std::exchange(cloud_, 0));
     free_later(std::exchange(support_, 0));
+    touched_cloud_.clear();
 }
 
 }  // namespace tactus

@@ -6,12 +6,12 @@
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/variant/string.hpp>
-#include <map>
 #include <memory>
 #include <span>
 
 #include "core/geometry/triangle_mesh.hpp"
-#include "core/ports/depth_sensing.hpp"
+#include "nodes/touched_cloud.hpp"
+#include "world/sight_roll.hpp"
 
 namespace tactus {
 
@@ -22,7 +22,7 @@ struct SeenMesh {
 };
 
 // "cube", or what an object is called that nobody knows.
-godot::String name_of_mesh(const SightedObject& object, std::span<const SeenMesh> library);
+godot::String name_of_mesh(std::int32_t mesh, std::span<const SeenMesh> library);
 
 enum class SeenAs : std::uint8_t {
     pictures,     // shown, not touched
@@ -36,6 +36,7 @@ public:
         SeenAs objects = SeenAs::pictures;
         bool show_objects = true;
         bool show_cloud = false;
+        bool touch_cloud = false;  // in place of bodies of what nobody knows
     };
 
     // Below `sensor`, which outlives this. `age`: of the sight; what moves is where it must be by now (unit:
@@ -51,24 +52,17 @@ public:
     godot::Node3D* node_of(std::uint64_t object) const;
 
 private:
-    struct Made {
-        std::uint64_t node = 0;
-        std::int32_t mesh = -1;
-        std::size_t hull_corners = 0;
-        Pose pose;  // as it was put there last
-    };
-
     godot::Node3D* make(const SightedObject& object, std::span<const SeenMesh> library,
                         const Looks& looks) const;
-    void place(Made& made, const SightedObject& object, double age) const;
+    void place(const SightedObject& object, double age) const;
     void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
     void hold_support(godot::Node3D& sensor, const SupportPlane& plane, bool is_wanted);
 
-    SeenAs made_as_ = SeenAs::pictures;
-    bool are_shown_ = true;
-    std::map<std::uint64_t, Made> made_;  // by the object
+    Looks looks_;  // as of the last time
+    SightRoll roll_;
     std::uint64_t cloud_ = 0;
     std::uint64_t support_ = 0;
+    TouchedCloud touched_cloud_;
     SupportPlane support_plane_;  // as it was put there last
 };
 

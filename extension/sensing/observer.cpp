@@ -44,6 +44,7 @@ void Picture::point() {
     }
     sight.objects = objects;
     sight.cloud = cloud;
+    sight.surface = {surface.vertices, surface.triangles};
     sight.text = text.c_str();
 }
 
@@ -93,6 +94,12 @@ std::string Observer::look(const DepthImage& image, const SensorSettings& settin
     } else {
         picture.cloud.clear();
     }
+    if (settings.wants_surface) {
+        surface_.update(image, *discovery_, settings.camera);
+        picture.surface = surface_.mesh();
+    } else {
+        picture.surface = {};
+    }
     tell(settings, picture);
     return "";
 }
@@ -113,11 +120,8 @@ void Observer::tell(const SensorSettings& settings, Picture& picture) {
         object.mesh = seen.mesh != SeenObject::no_mesh ? indices_[seen.mesh] : -1;
         object.state = state_of(seen.state);
         object.pose = seen.pose;
-        for (std::size_t row = 0; row < 6; ++row) {
-            for (std::size_t column = 0; column < 6; ++column) {
-                object.covariance[6 * row + column] = seen.covariance[row][column];
-            }
-        }
+        object.covariance = seen.covariance;
+        object.chance = seen.chance;
         object.linear_velocity = seen.linear_velocity;
         object.angular_velocity = seen.angular_velocity;
         object.rests = seen.rests;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/ports/depth_sensing.hpp"
+#include "sensing/discovery/cloud_surface.hpp"
 #include "sensing/discovery/discovery.hpp"
 
 namespace tactus {
@@ -21,6 +22,7 @@ struct Picture {
     std::vector<SightedObject> objects;
     std::vector<TriangleMesh> hulls;  // one for each object, empty where it is of the library
     std::vector<glm::vec3> cloud;
+    TriangleMesh surface;
 
     // Points the sight to what is here.
     void point();
@@ -33,7 +35,10 @@ public:
     // Learns the meshes, which takes about a tenth of a second for each; what has been seen is forgotten.
     void set_library(const MeshLibrary& library);
     // What has been seen is forgotten; the meshes stay.
-    void forget() { discovery_.reset(); }
+    void forget() {
+        discovery_.reset();
+        surface_ = CloudSurface();
+    }
 
     // All of the picture but its state, text and times of arrival. Empty, or why nothing can be found in the
     // image: all places stay as they were, and are believed less.
@@ -46,6 +51,7 @@ private:
     std::shared_ptr<const std::vector<LearntMesh>> meshes_;
     std::vector<std::int32_t> indices_;  // of meshes_, in the library: what cannot be recognised is left out
     std::optional<Discovery> discovery_;
+    CloudSurface surface_;
     std::optional<double> support_height_;  // that it was begun with
     std::unordered_set<std::uint32_t> told_;
 };

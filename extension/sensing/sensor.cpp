@@ -236,9 +236,11 @@ void Sensor::say(SensorState state, const std::string& text) {
     publish(false);
 }
 
+// Clouds are copied before anybody has to wait for it.
 void Sensor::publish(bool is_new_frame) {
+    spare_ = seen_;
     const std::lock_guard lock(mutex_);
-    middle_ = seen_;
+    std::swap(middle_, spare_);
     has_new_ = true;
     has_new_frame_ = has_new_frame_ || is_new_frame;
 }

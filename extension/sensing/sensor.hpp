@@ -74,7 +74,7 @@ private:
     std::unique_ptr<Camera> camera_;
     Observer observer_;
     DepthImage image_;
-    Picture seen_;
+    Picture seen_, spare_;
     Nanoseconds last_frame_ = 0, last_fade_ = 0;
 
     std::thread thread_;

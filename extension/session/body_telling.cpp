@@ -26,6 +26,7 @@ void BodyTelling::take_orders(TeleopPort& port) {
 void BodyTelling::take(const DiscoveryAcknowledgement& known) {
     if (discovery_.take(known)) {
         states_.described(known.object);
+        estimates_.described(known.object);
     }
 }
 
@@ -33,6 +34,7 @@ void BodyTelling::restart() {
     discovery_.restart();
     bulk_ = {};
     states_.restart();
+    estimates_.restart();
 }
 
 void BodyTelling::describe(Channel& channel, Nanoseconds now) {

@@ -4,6 +4,7 @@
 
 #include "network/bulk_rate.hpp"
 #include "session/channel.hpp"
+#include "session/estimate_teller.hpp"
 #include "session/session_loop.hpp"
 #include "session/state_teller.hpp"
 
@@ -11,7 +12,7 @@ namespace tactus {
 
 class BodyTelling {
 public:
-    explicit BodyTelling(std::size_t max_bodies) : states_(max_bodies) {}
+    explicit BodyTelling(std::size_t max_bodies) : states_(max_bodies), estimates_(max_bodies) {}
 
     // What the owner has announced and withdrawn.
     void take_orders(TeleopPort& port);
@@ -23,6 +24,10 @@ public:
     void tell_states(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
         states_.tell(loop, channel, newest, now, yields());
     }
+    // `touch`: what has been learnt by touch, or null.
+    void tell_estimates(SessionLoop& loop, Channel& channel, const TouchLearner* touch, Nanoseconds now) {
+        estimates_.tell(loop, channel, touch, now);
+    }
     void describe(Channel& channel, Nanoseconds now);
     // What queues on the way there is descriptions, which can be told more slowly.
     bool yields() const { return bulk_.can_yield(); }
@@ -32,6 +37,7 @@ private:
     DiscoverySender discovery_;
     BulkRate bulk_;  // of discovery
     StateTeller states_;
+    EstimateTeller estimates_;
 };
 
 }  // namespace tactus

@@ -5,10 +5,24 @@
 // is, so that the mean of their motions, weighted by mass, is that of one body that only hands and what
 // stands still act on. What it teaches holds for each of them.
 #include <algorithm>
+#include <cmath>
 
 #include "session/operator_side.hpp"
 
 namespace tactus {
+
+namespace {
+
+// Of stiffness, friction or mass: nobody feels less (share of it).
+constexpr double little = 0.02;
+
+// Half of what is just noticed of a weight (7 %) in 100 ms (share of it).
+constexpr double unnoticed_a_second = 0.35;
+
+// Where there is none, friction grows from here on.
+constexpr double least_friction = 0.1;
+
+}  // namespace
 
 void OperatorSide::learn(SessionLoop& loop) {
     if (!(settings().estimate.gain > 0.0)) {
@@ -106,11 +120,79 @@ void OperatorSide::teach(SessionLoop& loop, std::size_t group) {
         if (pupil.group == group) {
             ParameterEstimate& estimate = estimates_[pupil.place];
             estimate.learn(settings().estimate, count == 1 ? pupil.lesson : common);
-            const BodyFactors factors{estimate.mass_factor(), estimate.friction_factor()};
-            loop.set_factors(pupil.body, factors);
-            resimulator_.twin()->set_factors(pupil.body, factors);
+            set_factors(loop, pupil.body, estimate);
         }
     }
+}
+
+void OperatorSide::set_factors(SessionLoop& loop, SessionHandle body, const ParameterEstimate& estimate) {
+    const BodyFactors factors{estimate.mass_factor(), estimate.friction_factor()};
+    loop.set_factors(body, factors);
+    if (SessionLoop* const twin = resimulator_.twin()) {
+        twin->set_factors(body, factors);
+    }
+}
+
+// --- what touch has taught at the far side
+
+void OperatorSide::take_over_found(SessionLoop& loop) {
+    std::erase_if(news_, [&](SessionHandle body) {
+        const bool is_done = !loop.body(body) || take_over(loop, body, found_[body].estimate);
+        found_[body].is_new = !is_done;
+        return is_done;
+    });
+}
+
+bool OperatorSide::is_touched(SessionLoop& loop, SessionHandle body) const {
+    for (std::size_t i = 0; i < max_proxies; ++i) {
+        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        if (slot.present() && loop.rests_on(*slot.proxy, body)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// At once where nobody touches it, else so slowly that no change has to be let go of, each tick's hidden like
+// any other. True when all is taken over.
+bool OperatorSide::take_over(SessionLoop& loop, SessionHandle body, const ObjectEstimate& estimate) {
+    const double share = is_touched(loop, body) ? unnoticed_a_second * seconds_ : 1e9;
+    bool is_done = true, is_other = false;
+    const auto towards = [&](double now, const TouchValue& told, double least) {
+        const double left = told.value - now;
+        if (!told.known || std::abs(left) <= little * told.value) {
+            return now;
+        }
+        const double most = share * std::max(now, least);
+        is_done = is_done && std::abs(left) <= most;
+        is_other = true;
+        return now + std::clamp(left, -most, most);
+    };
+    TouchMaterial material = loop.scene().body(loop.body(body)->slot).material;
+    material.stiffness = towards(material.stiffness, estimate.stiffness, 0.0);
+    material.dynamic_friction = towards(material.dynamic_friction, estimate.friction, least_friction);
+    // What holds it still is known to be no less.
+    material.static_friction = std::max(material.static_friction, material.dynamic_friction);
+    if (is_other) {
+        loop.set_touch(body, material);
+        if (SessionLoop* const twin = resimulator_.twin(); twin != nullptr && twin->body(body)) {
+            twin->set_touch(body, material);
+        }
+    }
+    const std::uint32_t place = truths_.place_of(body);
+    const double mass = loop.mass(body);
+    if (place != TruthStore::no_place && mass > 0.0) {
+        if (const double next = towards(mass, estimate.mass, 0.0); next != mass) {
+            ParameterEstimate& learnt = estimates_[place];
+            const double described = mass / learnt.mass_factor();
+            learnt.take_over_mass(settings().estimate, next / described,
+                                  estimate.mass.deviation / estimate.mass.value);
+            set_factors(loop, body, learnt);
+            is_done = is_done || loop.mass(body) == mass;  // no factor goes farther
+        }
+    }
+    changed_ = changed_ || is_other;
+    return is_done;
 }
 
 }  // namespace tactus

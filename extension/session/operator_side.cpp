@@ -20,10 +20,12 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
       estimates_(room.max_tracked, ParameterEstimate(settings.estimate)),
       alone_since_(room.max_tracked, 0),
       filters_(session.max_bodies),
+      found_(session.max_bodies),
       body_of_object_(session.max_bodies, no_handle),
       object_of_body_(session.max_bodies, no_object) {
     pupils_.reserve(room.max_tracked);
     targets_.reserve(session.max_bodies);
+    news_.reserve(session.max_bodies);
     hands_.reserve(max_proxies);
     for (std::size_t i = 0; i < std::min(room.pointers, pointers_.size()); ++i) {
         pointers_[i].carried.take_room(session.max_parts);
@@ -48,6 +50,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         }
     }
     receive(loop, now);
+    take_over_found(loop);
     statistics_.cost = {};
     targets_.clear();
     corrected_ = false;
@@ -130,6 +133,8 @@ void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
             }
         } else if (const auto* const ghosts = std::get_if<Ghosts>(message)) {
             ghosts_.take(*ghosts, packet->header.sequence, settings().frame, now);
+        } else if (const auto* const estimates = std::get_if<ObjectEstimates>(message)) {
+            take(*estimates, packet->header.sequence);
         } else if (const auto* const piece = std::get_if<DiscoveryFragment>(message)) {
             if (!restart_waits_) {
                 discovery.put(*piece);
@@ -153,6 +158,8 @@ void OperatorSide::start_over_if_peer_has() {
 void OperatorSide::forget_far_side() {
     truths_.forget_all();
     std::ranges::fill(filters_, PoseFilter{});
+    std::ranges::fill(found_, Found{});
+    news_.clear();
     eyes_ = {};
     ghosts_.forget();
     std::ranges::fill(body_of_object_, no_handle);
@@ -187,6 +194,8 @@ void OperatorSide::forget_body(SessionHandle body) {
     }
     truths_.forget(body);
     filters_[body].forget();
+    found_[body] = {};
+    std::erase(news_, body);
 }
 
 void OperatorSide::forget_place(std::uint32_t place) {
@@ -218,12 +227,21 @@ bool is_as_sent(const BodyMotion& received, const BodyMotion& expected) {
 
 }  // namespace
 
-// Of a place that is seen only roughly, what its way and the model make of it.
+// Of a place that is seen only roughly, what its way and the model make of it; where the far side says how
+// roughly, what that makes of it.
 BodyMotion OperatorSide::believed(SessionLoop& loop, SessionHandle body, SampleSequence sample,
                                   const BodyMotion& received) {
     const BodyMotion* const expected = past_.motion(truths_.place_of(body), sample);
     const bool is_right = expected && is_as_sent(received, *expected);
     BodyMotion result = is_right ? *expected : received;
+    if (Found& found = found_[body]; found.estimate.has_doubt) {
+        const PoseStep step = step_to(body, sample, received);
+        const Pose steady = found.seen.believe(settings().seen, received.pose, found.estimate.doubt,
+                                               expected ? expected->pose : loop.motion(body).pose,
+                                               step.open_way, step.open_turn);
+        result.pose = is_right ? result.pose : steady;
+        return result;
+    }
     if (settings().derivation == Derivation::resimulate && resimulator_.exists()) {
         const Pose model = expected ? expected->pose : loop.motion(body).pose;
         const Pose steady = filters_[body].filter(settings().filter, result.pose, model,
@@ -302,6 +320,22 @@ void OperatorSide::take(const ObjectStates& states, std::uint64_t packet, Sessio
                 forget_place(place);
             }
             statistics_.without_past += place == TruthStore::no_place ? 1 : 0;
+        }
+    }
+}
+
+void OperatorSide::take(const ObjectEstimates& estimates, std::uint64_t packet) {
+    for (std::size_t i = 0; i < estimates.count; ++i) {
+        const SessionHandle body = body_of(estimates.estimates[i].object);
+        if (!truths_.knows(body) || packet <= found_[body].packet) {
+            continue;
+        }
+        Found& found = found_[body];
+        found.packet = packet;
+        found.estimate = estimates.estimates[i];
+        found.estimate.doubt = turned(found.estimate.doubt, settings().frame.rotation);
+        if (!std::exchange(found.is_new, true)) {
+            news_.push_back(body);
         }
     }
 }
@@ -450,6 +484,21 @@ void OperatorSide::derive_targets(SessionLoop& loop, bool only_without_past) {
 
 // ---
 
+// Of all that is touched, how far off what is known least well may be.
+double OperatorSide::touched_doubt(SessionLoop& loop) const {
+    double most = 0.0;
+    for (std::size_t i = 0; i < max_proxies; ++i) {
+        const SessionLoop::ProxySlot& slot = loop.proxy(i);
+        for (int k = 0; slot.present() && k < slot.state.contact_count; ++k) {
+            const SessionHandle body = slot.state.bodies[static_cast<std::size_t>(k)];
+            if (truths_.knows(body) && found_[body].estimate.has_doubt) {
+                most = std::max(most, place_deviation(found_[body].estimate.doubt));
+            }
+        }
+    }
+    return most;
+}
+
 void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     if (!settings().traditional) {
         past_.note_pushes(loop, truths_, sample_);
@@ -467,6 +516,7 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     samples_.end_tick(channel_.link(), now);
     acknowledge();
     statistics_.sample = sample_;
+    statistics_.doubt = touched_doubt(loop);
     statistics_.ghosts = ghosts_.seen(now);
     channel_.end_tick(statistics_);
 }

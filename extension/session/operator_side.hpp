@@ -7,7 +7,8 @@
 // right at once; what the hand feels of it goes through one place (felt_pointer.hpp).
 //
 // operator_side.cpp hears and compares, operator_learning.cpp learns what bodies weigh and how they slide,
-// operator_touch.cpp puts right and gives the hand its force, operator_sending.cpp tells the far side.
+// and takes over what the far side has learnt, operator_touch.cpp puts right and gives the hand its force,
+// operator_sending.cpp tells the far side.
 #pragma once
 
 #include "core/teleop/felt_pointer.hpp"
@@ -83,6 +84,14 @@ private:
         MotionLesson lesson;
     };
 
+    // What the far side has found out about a body, in this side's scene.
+    struct Found {
+        std::uint64_t packet = 0;  // that brought it; 0: none has
+        bool is_new = false;       // of what touch has taught, something has not been taken over yet
+        ObjectEstimate estimate;
+        SeenPose seen;
+    };
+
     const TeleopSettings& settings() const { return channel_.settings(); }
 
     // --- operator_side.cpp
@@ -102,12 +111,14 @@ private:
     SessionHandle body_of(ObjectId object) const;
     void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
+    void take(const ObjectEstimates& estimates, std::uint64_t packet);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
     bool is_news(SessionLoop& loop, SessionHandle body) const;
     bool any_news(SessionLoop& loop) const;
     void find_targets(SessionLoop& loop, Nanoseconds now);
     void derive_targets(SessionLoop& loop, bool only_without_past);
+    double touched_doubt(SessionLoop& loop) const;
     DerivationInput derivation_input(const Truth& truth, const BodyMotion& then, const BodyMotion& now) const;
 
     // --- operator_learning.cpp
@@ -115,6 +126,10 @@ private:
     void gather_pupils(SessionLoop& loop);
     bool lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const;
     void teach(SessionLoop& loop, std::size_t group);
+    void take_over_found(SessionLoop& loop);
+    bool is_touched(SessionLoop& loop, SessionHandle body) const;
+    bool take_over(SessionLoop& loop, SessionHandle body, const ObjectEstimate& estimate);
+    void set_factors(SessionLoop& loop, SessionHandle body, const ParameterEstimate& estimate);
 
     // --- operator_touch.cpp
     bool lands(SessionLoop& loop, Nanoseconds now);
@@ -151,6 +166,8 @@ private:
     std::vector<Pupil> pupils_;                 // of this tick
     std::vector<PoseFilter> filters_;           // by body
     FarEyes eyes_;
+    std::vector<Found> found_;         // by body
+    std::vector<SessionHandle> news_;  // of found_
     GhostEar ghosts_;
     std::vector<SessionHandle> body_of_object_;
     std::vector<ObjectId> object_of_body_;

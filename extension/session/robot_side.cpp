@@ -62,12 +62,13 @@ void RobotSide::receive() {
     }
 }
 
-void RobotSide::play(const SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot) {
+void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot) {
     Pointer& pointer = pointers_[index];
     const bool waits = hands_.play(index, pointer.played) == Playing::waiting;
     const RobotView robot = loop.robot(slot.description.device);
     if (waits || !pointer.played.connected || !robot.connected || !channel_.link().hears_peer()) {
         pointer.holds = false;
+        touch_.let_go(index);
         return;
     }
     const double scale = robot.workspace.scale;
@@ -81,6 +82,8 @@ void RobotSide::play(const SessionLoop& loop, std::size_t index, const SessionLo
     // Forces keep their size in the scene, ways do not.
     pointer.contact =
         pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
+    touch_.feel(loop, index,
+                {slot.hand, slot.hand_velocity, pointer.contact, slot.description.settings.radius, seconds_});
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
     const Wall coupling = safe_wall({seconds_, robot.capabilities.delay}, robot.capabilities.damping / scale,
                                     {wanted_coupling.stiffness / scale, wanted_coupling.damping / scale});
@@ -134,6 +137,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
         send_forces(loop, now);
     } else {
         telling_.tell_states(loop, channel_, statistics_.sample, now);
+        telling_.tell_estimates(loop, channel_, &touch_, now);
         telling_.describe(channel_, now);
         statistics_.discovery = telling_.counts();
     }

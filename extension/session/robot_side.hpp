@@ -1,7 +1,8 @@
 // The far side of scenarios 3 and 5: the environment is a real one, and a robot goes there where the
 // operator's hand is. The devices of this side's session are the robots, one for each pointer. Bodies of the
 // session are what is known of the environment, by a camera: nothing touches them here. In scenario 5 they
-// are told to the operator, whose model they make, in place of forces.
+// are told to the operator, whose model they make, in place of forces; and what the robot feels of them, so
+// that they feel so there.
 //
 //     operator's place -> stand-in (C') -> target within the workspace -> drive -> HandSafety -> robot
 //     robot's place, force of its motors -> momentum observer -> contact force -> operator
@@ -10,6 +11,7 @@
 #include "core/teleop/robot_drive.hpp"
 #include "session/body_telling.hpp"
 #include "session/played_hands.hpp"
+#include "session/touch_learner.hpp"
 
 namespace tactus {
 
@@ -42,13 +44,14 @@ private:
 
     const TeleopSettings& settings() const { return channel_.settings(); }
     void receive();
-    void play(const SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
+    void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
 
     Channel channel_;
     BodyTelling telling_;
     PlayedHands hands_;
+    TouchLearner touch_;
     double seconds_;  // of a tick
     std::array<Pointer, max_proxies> pointers_;
     TeleopStatistics statistics_;

@@ -312,6 +312,12 @@ void Session::set_body_push(SessionHandle body, const Vec3& force, const Vec3& t
     }
 }
 
+void Session::set_body_doubt(SessionHandle body, const std::optional<PoseDoubt>& doubt) {
+    if (!doubt || is_sound(*doubt)) {
+        impl_->send(command::SetBodyDoubt{body, doubt});
+    }
+}
+
 AddResult Session::add_joint(const JointDescription& joint, SessionHandle first, SessionHandle second) {
     if (std::string error = wrong_in(joint); !error.empty()) {
         return {no_handle, std::move(error)};

@@ -13,10 +13,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "core/ports/device.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "realtime/tick_status.hpp"
 #include "realtime/tick_trace.hpp"
@@ -90,6 +92,8 @@ public:
     // Pushes a dynamic body in every tick from now on: a force at its centre of mass and a torque, in the
     // world (units: newtons, newton meters).
     void set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque);
+    // The body is put where it is seen, so surely; none: where it is.
+    void set_body_doubt(SessionHandle body, const std::optional<PoseDoubt>& doubt);
     // Once, in the next tick.
     void push_body(SessionHandle body, const BodyPush& push);
     void set_gravity(const Vec3& gravity);

@@ -68,7 +68,13 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
         c.body = physics_.remove(id);
         return give_back();
     }
-    bodies_[c.handle] = {id, slot, std::move(c.shape), nullptr, false, std::move(c.texture), c.motion, {}, 0};
+    bodies_[c.handle] = {};
+    Body& added = bodies_[c.handle];
+    added.id = id;
+    added.slot = slot;
+    added.shape = std::move(c.shape);
+    added.texture = std::move(c.texture);
+    added.motion = c.motion;
     note_magnet(c.handle);
     handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
     handle_of_id_[id.index()] = c.handle;
@@ -292,6 +298,13 @@ bool SessionLoop::carry_out(command::SetBodyPush& c, Retired&) {
     std::erase(pushed_, c.handle);
     if (c.force != Vec3(0.0) || c.torque != Vec3(0.0)) {
         pushed_.push_back(c.handle);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetBodyDoubt& c, Retired&) {
+    if (Body* const seen = body(c.handle)) {
+        seen->doubt = c.doubt;
     }
     return false;
 }

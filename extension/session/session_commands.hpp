@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "core/ports/device.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
 #include "session/teleop_side.hpp"
@@ -74,6 +76,10 @@ struct SetBodyPush {
     SessionHandle handle;
     Vec3 force, torque;
 };
+struct SetBodyDoubt {
+    SessionHandle handle;
+    std::optional<PoseDoubt> doubt;
+};
 struct PushBody {
     SessionHandle handle;
     BodyPush push;
@@ -133,9 +139,9 @@ using Command = std::variant<
     command::AddBody, command::RemoveBody, command::DeformBody, command::TeleportBody, command::MoveBody,
     command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
     command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-    command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity, command::AddDevice,
-    command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy, command::RemoveProxy,
-    command::Record, command::EndRecording, command::Attach>;
+    command::SetBodyDoubt, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
+    command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy,
+    command::RemoveProxy, command::Record, command::EndRecording, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

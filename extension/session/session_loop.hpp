@@ -42,6 +42,7 @@ public:
         int ticks_left = 0;
         Vec3 push{0.0};  // in every tick, see Session::set_body_push
         Vec3 twist{0.0};
+        std::optional<PoseDoubt> doubt;  // see Session::set_body_doubt
     };
 
     // What touching the scene gives a hand.
@@ -116,6 +117,7 @@ public:
     bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
     double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
+    void set_touch(SessionHandle handle, const TouchMaterial& material);
     const Vec3& gravity() const { return gravity_; }
     // Whether the owner has changed what is touched, or what touches, since this was asked last.
     bool take_touch_change() { return std::exchange(touch_changed_, false); }
@@ -185,6 +187,7 @@ private:
     bool carry_out(command::SetBodyGravityScale& c, Retired&);
     bool carry_out(command::SetBodyDamping& c, Retired&);
     bool carry_out(command::SetBodyPush& c, Retired&);
+    bool carry_out(command::SetBodyDoubt& c, Retired&);
     bool carry_out(command::PushBody& c, Retired&);
     bool carry_out(command::AddJoint& c, Retired&);
     bool carry_out(command::RemoveJoint& c, Retired& retired);

@@ -27,6 +27,11 @@ void SessionLoop::set_factors(SessionHandle handle, const BodyFactors& factors) 
     physics_.set_factors(bodies_[handle].id, factors);
 }
 
+// How it is touched alone: what it is made of stays its owner's.
+void SessionLoop::set_touch(SessionHandle handle, const TouchMaterial& material) {
+    scene_.set_material(bodies_[handle].slot, material);
+}
+
 double SessionLoop::mass(SessionHandle handle) const {
     return physics_.mass(bodies_[handle].id);
 }

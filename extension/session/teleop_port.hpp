@@ -20,6 +20,7 @@
 #include "core/teleop/passive_update.hpp"
 #include "core/teleop/passivity.hpp"
 #include "core/teleop/pose_filter.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "core/teleop/stealth.hpp"
 #include "network/discovery_receiver.hpp"
 #include "network/discovery_sender.hpp"
@@ -42,6 +43,7 @@ struct TeleopSettings {
     StealthSettings stealth;
     EstimateSettings estimate;              // with re-simulation
     PoseFilterSettings filter;              // with re-simulation
+    SeenPoseSettings seen;                  // of what the far side says how surely it sees
     ForceLimits limits;                     // of what leaves for the devices
     Passivity passivity = Passivity::none;  // of traditional touch
     PassivitySettings passive;
@@ -88,6 +90,8 @@ struct TeleopStatistics {
     EnergyFigures energy;
     std::uint64_t without_past = 0;  // states of moving bodies for which there is no room in the model's past
     SeenGhosts ghosts;               // operator: the hands of others
+    double doubt = 0.0;  // operator: of a place that is touched, as the far side sees it, standard
+                         // deviation (unit: meters)
     BufferCounts buffer;
     std::uint64_t buffer_depth = 0;
 };

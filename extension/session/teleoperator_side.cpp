@@ -174,6 +174,7 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
 
 void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     telling_.tell_states(loop, channel_, newest_applied_, now);
+    telling_.tell_estimates(loop, channel_, nullptr, now);
     if (settings().traditional) {
         send_forces(loop, now);
     }

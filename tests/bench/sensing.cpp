@@ -2,7 +2,7 @@
 //
 //   --scenes=N   of each kind (200)
 //   --first=N    seed of the first scene (5000): nothing was tuned on the scenes from there on
-//   --only=PART  still, far, uncalibrated, moving, recovery, rest, parameters
+//   --only=PART  still, far, uncalibrated, moving, recovery, rest, parameters, tick, pcl
 //   --talk       of every object that was seen wrong
 #include <cstdio>
 
@@ -52,6 +52,12 @@ int main(int count, char** arguments) {
     }
     if (is_wanted("parameters")) {
         report_parameters(report, bench);
+    }
+    if (is_wanted("tick")) {
+        report_tick(report, bench);
+    }
+    if (is_wanted("pcl")) {
+        report_rival(report, bench);
     }
     return report.write_json(result_path("sensing")) ? 0 : 1;
 }

@@ -162,7 +162,7 @@ TEST(Messages, EveryRefusalHasItsReason) {
     EXPECT_EQ(refusal_of(with(1, 'S')), Refusal::sealed);
     EXPECT_EQ(refusal_of(with(2, 0)), Refusal::wrong_version);
     EXPECT_EQ(refusal_of(with(3, 0)), Refusal::unknown_type);
-    EXPECT_EQ(refusal_of(with(3, 12)), Refusal::unknown_type);
+    EXPECT_EQ(refusal_of(with(3, 13)), Refusal::unknown_type);
     EXPECT_EQ(refusal_of(Bytes(max_message_bytes + 1)), Refusal::wrong_magic);
     Bytes long_one = good;
     long_one.resize(max_message_bytes + 1);
@@ -248,7 +248,7 @@ TEST(Messages, AreTheBytesOfThePublishedVectors) {
     const char* names[] = {
         "hello",   "bye",         "clock_request", "clock_answer",     "discovery_fragment",
         "removal", "acknowledge", "object_states", "operator_samples", "forces",
-        "ghosts"};
+        "ghosts",  "estimates"};
     const std::vector<Message> messages = samples::one_of_each();
     for (std::size_t i = 0; i < messages.size(); ++i) {
         EXPECT_EQ(published[names[i]], samples::hex(encoded(messages[i]))) << names[i];

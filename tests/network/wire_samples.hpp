@@ -76,6 +76,16 @@ inline std::vector<Message> one_of_each() {
     ForceSamples forces{2, {}};
     forces.samples[0] = {2, 5'000'000, 41, {0.1, 0.2, -0.3}, {1.0, 2.0, 3.0}, 4};
     forces.samples[1] = {3, -123'456'789, 0, {0.0, -5.25, 0.0}, {-1.0, 0.0, 0.25}, no_object};
+    ObjectEstimate seen;
+    seen.object = 5;
+    seen.has_doubt = true;
+    seen.doubt.place = Mat3(Vec3(0.25, 0.125, 0.0), Vec3(0.125, 0.5, -0.0625), Vec3(0.0, -0.0625, 0.125));
+    seen.doubt.turn = Mat3(0.5);
+    seen.mass = {0.75, 0.0625, true};
+    ObjectEstimate felt;
+    felt.object = 300;
+    felt.stiffness = {512.0, 8.0, true};
+    felt.friction = {0.25, 0.03125, true};
     return {
         Hello{
             Side::teleoperator_side, 2, 1'000'000, 0x1122334455667788u, 9, {0.0, -9.5, 0.25}, 2, 3, 300, 321},
@@ -89,6 +99,7 @@ inline std::vector<Message> one_of_each() {
         samples,
         forces,
         Ghosts{2, {Ghost{1, true, {0.5, -1.25, 2.0}, 0.01}, Ghost{3, false, {0.0, 0.125, -3.0}, 0.0055}}},
+        ObjectEstimates{2, {seen, felt}},
     };
 }
 

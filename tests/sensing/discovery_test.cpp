@@ -162,7 +162,7 @@ TEST(Discovery, WhatIsHiddenStaysWhereItWas) {
     table.look(20);
     ASSERT_NE(table.seen(cube), nullptr);
     const Pose before = table.seen(cube)->pose;
-    const double sure = table.seen(cube)->covariance[0][0];
+    const double sure = table.seen(cube)->covariance.place[0][0];
     for (int i = 0; i < 10; ++i) {
         ++table.taken;
         draw_scene(library(), table.scene, table.exact);
@@ -178,7 +178,7 @@ TEST(Discovery, WhatIsHiddenStaysWhereItWas) {
     ASSERT_NE(table.seen(cube), nullptr);
     EXPECT_EQ(table.seen(cube)->state, SeenState::hidden);
     EXPECT_EQ(table.seen(cube)->pose.position, before.position);
-    EXPECT_GT(table.seen(cube)->covariance[0][0], sure);
+    EXPECT_GT(table.seen(cube)->covariance.place[0][0], sure);
     table.look(2);
     EXPECT_NE(table.seen(cube)->state, SeenState::hidden);
     EXPECT_LT(table.error_of(0).position, 1e-3);
@@ -251,7 +251,7 @@ TEST(Discovery, AnErrorThatNobodyKnowsIsInTheCovariance) {
     table.put(bracket, {0.0, 0.0, 0.0}, 3);
     table.look(4);
     ASSERT_NE(table.seen(bracket), nullptr);
-    const Matrix6& covariance = table.seen(bracket)->covariance;
+    const Mat3& covariance = table.seen(bracket)->covariance.place;
     const double sure = std::sqrt(covariance[0][0] + covariance[1][1] + covariance[2][2]);
     EXPECT_GT(table.error_of(0).position, 2e-3);
     EXPECT_LT(table.error_of(0).position, 2.0 * sure);

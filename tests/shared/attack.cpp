@@ -135,6 +135,18 @@ struct Says {
                            dice.vector(plausible::max_position), dice.size(max_ghost_radius)};
         }
     }
+    void operator()(ObjectEstimates& m) {
+        m.count = static_cast<std::uint8_t>(1 + dice.below(ObjectEstimates::max_count));
+        for (std::size_t i = 0; i < m.count; ++i) {
+            ObjectEstimate& e = m.estimates[i];
+            e.object = object();
+            e.has_doubt = dice.one_in(2);
+            e.doubt = {Mat3(dice.size(1e4)), Mat3(dice.size(100.0))};
+            for (TouchValue* const value : {&e.stiffness, &e.friction, &e.mass}) {
+                *value = {dice.size(max_estimate), dice.size(max_estimate), dice.one_in(2)};
+            }
+        }
+    }
     std::uint64_t sample() {
         const std::uint64_t newest = rig.far->statistics().sample;
         const std::uint64_t some = dice.one_in(2)
@@ -327,10 +339,20 @@ std::size_t kind_count() {
 }
 
 std::string kind_name(std::size_t kind) {
-    constexpr const char* names[] = {
-        "hello",           "bye",           "clock_request",    "clock_answer", "discovery_piece", "removal",
-        "acknowledgement", "object_states", "operator_samples", "forces",       "ghosts",          "bodies",
-        "joints"};
+    constexpr const char* names[] = {"hello",
+                                     "bye",
+                                     "clock_request",
+                                     "clock_answer",
+                                     "discovery_piece",
+                                     "removal",
+                                     "acknowledgement",
+                                     "object_states",
+                                     "operator_samples",
+                                     "forces",
+                                     "ghosts",
+                                     "estimates",
+                                     "bodies",
+                                     "joints"};
     return names[kind];
 }
 

@@ -43,7 +43,7 @@ inline TouchEstimate touch_block(const TouchedBlock& block, double seconds) {
             speed = 0.0;
             pushed = pushes;
         }
-        TouchSample sample;
+        TipSample sample;
         sample.seconds = tick;
         if (!pushes) {
             const double w = 2.0 * std::numbers::pi * 3.0;

@@ -51,7 +51,7 @@ def page(tmp_path, pictures: tuple[str, ...] = ()) -> Page:
     (tmp_path / "summary.json").write_text(json.dumps(SUMMARY))
     for name in pictures:
         (tmp_path / name).write_bytes(tiny_picture())
-    return Page(report.page(tmp_path, tmp_path / "scenario4"))
+    return Page(report.page(tmp_path, tmp_path / "scenario4", tmp_path / "scenario5"))
 
 
 def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
@@ -63,6 +63,18 @@ def test_what_a_local_model_gives_is_told_where_it_was_measured(tmp_path):
     words = page(tmp_path).words
     assert "all of it" in words
     assert "10.0 × less" in words
+
+
+def test_what_a_camera_saw_is_shown_where_it_was_measured(tmp_path):
+    assert "Static" not in page(tmp_path).words
+    folder = tmp_path / "scenario5"
+    folder.mkdir()
+    figures = {f"{scene}.{key}": 0.125 for scene in ("static", "dynamic") for key in report.SEEN}
+    (folder / "summary.json").write_text(json.dumps(figures))
+    (folder / "static_seen.png").write_bytes(tiny_picture())
+    found = page(tmp_path)
+    assert found.words.count("0.125 mm") == 4
+    assert len(found.sources) == 1
 
 
 def test_it_needs_nothing_but_itself(tmp_path):

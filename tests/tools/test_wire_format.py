@@ -73,6 +73,10 @@ EXPECTED = {
         {"pointer": 1, "touches": True, "position": (0.5, -1.25, 2.0), "radius": 0.01},
         {"pointer": 3, "touches": False, "position": (0.0, 0.125, -3.0), "radius": 0.0055},
     ]}),
+    "estimates": ("estimates", {"estimates": [
+        {"object": 5, "place": (0.25, 0.5, 0.125, 0.125, 0.0, -0.0625), "turn": (0.5, 0.5, 0.5, 0.0, 0.0, 0.0), "mass": (0.75, 0.0625)},
+        {"object": 300, "stiffness": (512.0, 8.0), "friction": (0.25, 0.03125)},
+    ]}),
 }  # fmt: skip
 
 

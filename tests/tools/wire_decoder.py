@@ -89,6 +89,9 @@ class Reader:
     def single_vec3(self, most: float) -> tuple[float, ...]:
         return tuple(self.real(-most, most, "f") for _ in range(3))
 
+    def singles(self, count: int) -> tuple[float, ...]:
+        return tuple(self.real(-1e6, 1e6, "f") for _ in range(count))
+
     def rotation(self, largest: int) -> tuple[float, ...]:
         parts = [0.0] * 4
         for i in range(4):
@@ -327,6 +330,23 @@ def _ghost(r: Reader) -> Fields:
     return ghost | {"radius": r.varint(10**9) / MICRO}
 
 
+def _estimates(r: Reader) -> Fields:
+    count = r.u8()
+    _require(1 <= count <= 8, "count out of range")
+    return {"estimates": [_estimate(r) for _ in range(count)]}
+
+
+def _estimate(r: Reader) -> Fields:
+    estimate, flags = {"object": _object(r)}, r.u8()
+    _require(flags < 16, "flags out of range")
+    if flags & 1:
+        estimate |= {"place": r.singles(6), "turn": r.singles(6)}
+    for bit, name in ((2, "stiffness"), (4, "friction"), (8, "mass")):
+        if flags & bit:
+            estimate[name] = r.singles(2)
+    return estimate
+
+
 KINDS = {
     1: ("hello", _hello),
     2: ("bye", _bye),
@@ -339,6 +359,7 @@ KINDS = {
     9: ("operator samples", _operator_samples),
     10: ("forces", _forces),
     11: ("ghosts", _ghosts),
+    12: ("estimates", _estimates),
 }
 TOLD_FROM_SENDING = (8, 9, 10)
 

@@ -21,12 +21,14 @@ import json
 import os
 import subprocess
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from measuring import options
+from plots import seen
 from project import FOLDER
 from setup import godot
 
@@ -51,6 +53,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
     for name, moves in {"static": 0, "dynamic": 1}.items():
         said = play(settings, moves, output)
         (output / f"{name}.json").write_text(json.dumps(said))
+        draw(said, settings.seconds, name, output)
         summary |= {f"{name}.{key}": value for key, value in figures(said, settings.seconds).items()}
     return summary
 
@@ -102,13 +105,31 @@ def _wait(file: Path, seconds: float) -> None:
             raise RuntimeError(f"{file.name} has stopped at {newest['since']} s")
 
 
-def figures(said: dict[str, Lines], seconds: float) -> dict[str, float]:
+def _felt(said: dict[str, Lines], seconds: float) -> tuple[Lines, np.ndarray, np.ndarray, np.ndarray]:
+    """What the operator said on the way, and the forces then: on its hand, on one that touches directly, on the robot."""
     here = [line for line in said["operator"] if 0.0 <= line["since"] <= seconds]
     since = np.array([line["since"] for line in here])
+    time = np.array([line["time"] for line in here])
     felt = np.array([line["force"] for line in here])
-    directly = np.array([_at(said["direct"], "since", t, lambda line: line["force"]) for t in since])
-    there = np.array([_at(said["far"], "time", line["time"], lambda far: far["tip_force"]) for line in here])
-    places = np.array([_place_errors(line, said["far"]) for line in here])
+    aside = _apart_in_time(here, since, said["direct"])
+    directly = _between(said["direct"], "since", since + aside, lambda line: line["force"])
+    there = _between(said["far"], "time", time, lambda line: line["tip_force"])
+    return here, felt, directly, there
+
+
+def draw(said: dict[str, Lines], seconds: float, name: str, output: Path) -> None:
+    here, felt, directly, there = _felt(said, seconds)
+    since = np.array([line["since"] for line in here])
+    forces = {"direct touch": directly, "on the hand": felt, "on the robot": there}
+    seen.draw_forces(since, forces, f"Scenario 5, {name} scene", output / f"{name}_forces.png")
+    if looks := [line["seen"] for line in said["far"] if "seen" in line]:
+        seen.draw_seen(looks[0], output / f"{name}_seen.png")
+
+
+def figures(said: dict[str, Lines], seconds: float) -> dict[str, float]:
+    here, felt, directly, there = _felt(said, seconds)
+    time = np.array([line["time"] for line in here])
+    places = np.array([_place_errors(name, here, time, said["far"]) for name in BODIES]).T
     error = np.linalg.norm(felt - directly, axis=1)
     touches = np.linalg.norm(felt, axis=1) > FELT
     either = touches | (np.linalg.norm(directly, axis=1) > FELT)
@@ -125,11 +146,21 @@ def figures(said: dict[str, Lines], seconds: float) -> dict[str, float]:
     }
 
 
-def _at(lines: Lines, clock: str, when: float, value) -> list[float]:
-    """Of the line that was said next to that time."""
-    return value(min(lines, key=lambda line: abs(line[clock] - when)))
+def _apart_in_time(here: Lines, since: np.ndarray, direct: Lines) -> float:
+    """Both hands go the same way; each has set out within some frames of when its program says so."""
+    hand = np.array([line["hand"] for line in here])
+    tried = np.arange(-0.1, 0.1, 0.001)
+    off = [np.mean(np.abs(_between(direct, "since", since + aside, lambda line: line["hand"]) - hand)) for aside in tried]
+    return float(tried[np.argmin(off)])
 
 
-def _place_errors(line: dict, far: Lines) -> list[float]:
-    true = _at(far, "time", line["time"], lambda one: one["bodies"])
-    return [float(np.linalg.norm(np.subtract(line["bodies"][name][:3], true[name][:3]))) for name in BODIES]
+def _between(lines: Lines, clock: str, when: np.ndarray, values: Callable[[dict], list[float]]) -> np.ndarray:
+    """What was said just before and just after each of these times, in between."""
+    at = np.array([line[clock] for line in lines])
+    said = np.array([values(line) for line in lines])
+    return np.array([np.interp(when, at, column) for column in said.T]).T
+
+
+def _place_errors(name: str, here: Lines, time: np.ndarray, far: Lines) -> np.ndarray:
+    modelled = np.array([line["bodies"][name][:3] for line in here])
+    return np.linalg.norm(modelled - _between(far, "time", time, lambda line: line["bodies"][name][:3]), axis=1)

@@ -86,8 +86,13 @@ void SeenVector::pass(double seconds, double push) {
 
 // Kalman's update with all of the place seen: gains Ppp inverse(S) and transpose(Ppv) inverse(S), S = Ppp +
 // R.
-SeenVector::Change SeenVector::see(const Innovation& innovation, double contradicted) {
+SeenVector::Change SeenVector::see(const Innovation& innovation, const MotionFilterSettings& settings) {
     const Mat3& r = innovation.covariance;
+    if (!(deviation(innovation.moving, pp_ + r) < 3.0 * settings.elsewhere * settings.elsewhere)) {
+        Change begins_anew;
+        begins_anew.elsewhere = true;
+        return begins_anew;
+    }
     const Mat3 sum = glm::inverse(pp_ + r);
     const Mat3 of_place = pp_ * sum, of_velocity = glm::transpose(pv_) * sum;
     velocity_ += of_velocity * innovation.moving;
@@ -101,7 +106,7 @@ SeenVector::Change SeenVector::see(const Innovation& innovation, double contradi
 
     leaning_ += leaning_share * (innovation.resting - leaning_);
     // Of three axes; a mean over the share s of a sequence has s / 2 of its covariance.
-    const double most = 3.0 * contradicted * contradicted;
+    const double most = 3.0 * settings.contradicted * settings.contradicted;
     if (deviation(innovation.resting, r + mean_) > most ||
         deviation(leaning_, 0.5 * leaning_share * r + mean_) > leaning_most * most) {
         change.rest_contradicted = true;
@@ -140,11 +145,15 @@ void MotionFilter::see(const MotionFilterSettings& settings, const Pose& pose, c
     moving_ = moved(moving_, seconds * place_.velocity(), seconds * turn_.velocity());
     place_.pass(seconds, settings.push);
     turn_.pass(seconds, settings.twist);
-    const SeenVector::Change of_place = place_.see(
-        {pose.position - moving_.position, pose.position - mean_.position, place}, settings.contradicted);
+    const SeenVector::Change of_place =
+        place_.see({pose.position - moving_.position, pose.position - mean_.position, place}, settings);
     const SeenVector::Change of_turn = turn_.see(
         {turn_between(moving_.rotation, pose.rotation), turn_between(mean_.rotation, pose.rotation), turn},
-        settings.contradicted);
+        settings);
+    if (of_place.elsewhere || of_turn.elsewhere) {
+        begin(settings, pose, place, turn);
+        return;
+    }
     moving_ = moved(moving_, of_place.moving, of_turn.moving);
     if (of_place.rest_contradicted || of_turn.rest_contradicted) {
         // What turns also moves, or soon will.

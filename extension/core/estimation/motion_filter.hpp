@@ -23,6 +23,7 @@ struct MotionFilterSettings {
     double twist = 5.0;           // and of angular acceleration (unit: rad^2/s^3), > 0
     int poses_at_rest = 10;       // in succession that chance explains: it rests, >= 2
     double contradicted = 4.0;    // standard deviations that chance does not explain, > 0
+    double elsewhere = 5.0;       // so many, and no motion explains it either: it was put there, > 0
     int poses_to_settle = 150;    // at rest, until it has settled
     double settling = 2e-4;       // until then the told place moves no faster (unit: m/s), > 0
     double settling_turn = 2e-3;  // (unit: rad/s), > 0
@@ -42,13 +43,14 @@ public:
     struct Change {
         Vec3 moving{0.0}, resting{0.0};
         bool rest_contradicted = false;  // the mean has to begin anew where it is seen
+        bool elsewhere = false;          // all has to begin anew there: nothing was changed
     };
 
     void begin(const Mat3& covariance, double push);
     void begin_rest(const Mat3& covariance);
     // `seconds` pass.
     void pass(double seconds, double push);
-    Change see(const Innovation& innovation, double contradicted);
+    Change see(const Innovation& innovation, const MotionFilterSettings& settings);
 
     Vec3 velocity() const { return velocity_; }
     int poses() const { return poses_; }

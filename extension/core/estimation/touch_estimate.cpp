@@ -24,7 +24,7 @@ TouchEstimate::TouchEstimate(const TouchEstimateSettings& settings)
       friction_({0.5}, {1.0}),
       mass_({1.0, 0.0}, {20.0, 50.0}) {}
 
-void TouchEstimate::feel(const TouchSample& sample) {
+void TouchEstimate::feel(const TipSample& sample) {
     const double pressing = -glm::dot(sample.force, sample.normal);
     if (!touching_) {
         touching_ = true;
@@ -45,7 +45,7 @@ void TouchEstimate::let_go() {
 }
 
 // How deep is rough, too: k times its chance is as good as a force's.
-void TouchEstimate::feel_stiffness(const TouchSample& sample, double pressing) {
+void TouchEstimate::feel_stiffness(const TipSample& sample, double pressing) {
     const double deep = glm::dot(began_ - sample.tip, sample.normal);
     const double sinking = -glm::dot(sample.tip_velocity, sample.normal);
     const double by_place =
@@ -54,7 +54,7 @@ void TouchEstimate::feel_stiffness(const TouchSample& sample, double pressing) {
 }
 
 // Against the way the tip slides.
-void TouchEstimate::feel_friction(const TouchSample& sample, double pressing) {
+void TouchEstimate::feel_friction(const TipSample& sample, double pressing) {
     const Vec3 sliding = sample.tip_velocity - glm::dot(sample.tip_velocity, sample.normal) * sample.normal;
     const double speed = glm::length(sliding);
     if (!(speed > settings_.slides_from)) {
@@ -66,7 +66,7 @@ void TouchEstimate::feel_friction(const TouchSample& sample, double pressing) {
     friction_.learn({pressing}, dragging, alike * settings_.force_deviation * (1.0 + friction_.value(0)));
 }
 
-void TouchEstimate::feel_mass(const TouchSample& sample) {
+void TouchEstimate::feel_mass(const TipSample& sample) {
     stretch_.seconds += sample.seconds;
     stretch_.force += sample.seconds * sample.force;
     stretch_.moves = stretch_.moves && glm::length(sample.body_velocity) > settings_.moves_from;

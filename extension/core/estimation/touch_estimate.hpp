@@ -14,6 +14,7 @@
 #pragma once
 
 #include "core/estimation/recursive_least_squares.hpp"
+#include "core/estimation/touch_value.hpp"
 #include "core/math/types.hpp"
 
 namespace tactus {
@@ -32,7 +33,7 @@ struct TouchEstimateSettings {
 };
 
 // A tick of touch, at the far side. Forces are those on what is touched.
-struct TouchSample {
+struct TipSample {
     double seconds = 1e-3;       // since the last one, > 0
     Vec3 normal{0.0, 1.0, 0.0};  // out of the surface, unit
     Vec3 tip{0.0};               // in the frame of what is touched, with the world's axes (unit: meters)
@@ -41,19 +42,12 @@ struct TouchSample {
     Vec3 body_velocity{0.0};     // of what is touched (unit: meters per second)
 };
 
-// What is told, and how sure it is: standard deviations.
-struct TouchValue {
-    double value = 0.0;
-    double deviation = 0.0;
-    bool known = false;  // sure to a fifth of itself at least
-};
-
 class TouchEstimate {
 public:
     explicit TouchEstimate(const TouchEstimateSettings& settings = {});
 
     // One tick with touch.
-    void feel(const TouchSample& sample);
+    void feel(const TipSample& sample);
     // A tick without.
     void let_go();
 
@@ -69,9 +63,9 @@ private:
         bool moves = true;   // all the time
     };
 
-    void feel_stiffness(const TouchSample& sample, double pressing);
-    void feel_friction(const TouchSample& sample, double pressing);
-    void feel_mass(const TouchSample& sample);
+    void feel_stiffness(const TipSample& sample, double pressing);
+    void feel_friction(const TipSample& sample, double pressing);
+    void feel_mass(const TipSample& sample);
     void end_stretch(const Vec3& velocity);
 
     TouchEstimateSettings settings_;

@@ -12,11 +12,12 @@
 #include <span>
 
 #include "core/math/pose.hpp"
+#include "core/teleop/seen_pose.hpp"
 
 namespace tactus {
 
 // Both sides must have been built from the same file: another one has another number.
-inline constexpr int depth_sensing_version = 1;
+inline constexpr int depth_sensing_version = 2;
 
 // The one function that the library shows: const DepthSensing* (*)(int version); null where it is of another
 // version.
@@ -48,6 +49,7 @@ struct SensorSettings {
     double min_confidence = 0.5;  // of an object to be told of, 0 to 1
     double max_rate = 30.0;       // frames looked at in a second; the others are dropped
     bool wants_cloud = false;
+    bool wants_surface = false;
     // Where the support is level at a known height, the camera's error of depth is learnt from it.
     bool knows_support = false;
     double support_height = 0.0;  // in the scene (unit: meters)
@@ -68,10 +70,11 @@ struct SightedObject {
     std::uint64_t id = 0;    // stays while it is followed, also when it is lost for a while
     std::int32_t mesh = -1;  // in the library; −1: none of it, its hull is in `hull`
     SightState state = SightState::found;
-    Pose pose;                            // in the scene
-    std::array<double, 36> covariance{};  // of place and rotation vector, by rows (unit: meters², radians²)
-    Vec3 linear_velocity{0.0};            // (unit: meters per second)
-    Vec3 angular_velocity{0.0};           // (unit: radians per second)
+    Pose pose;                   // in the scene
+    PoseDoubt covariance;        // of the pose
+    PoseDoubt chance;            // of that, what is not the same in every image
+    Vec3 linear_velocity{0.0};   // (unit: meters per second)
+    Vec3 angular_velocity{0.0};  // (unit: radians per second)
     bool rests = false;
     double confidence = 0.0;  // 0 to 1
     MeshView hull;
@@ -101,6 +104,9 @@ struct Sight {
     Pose camera;                    // in the scene, as the objects and the plane were told by it
     std::span<const SightedObject> objects;
     std::span<const glm::vec3> cloud;  // in the frame of the camera (unit: meters)
+    // Over what is not recognised, in the scene; from sight to sight of the same camera only its corners
+    // move.
+    MeshView surface;
     SupportPlane plane;
     double depth_scale = 1.0;  // true depth over told depth; 1 where the support's height is not known
     SensorTimes times;

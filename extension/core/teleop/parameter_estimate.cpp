@@ -43,6 +43,16 @@ void ParameterEstimate::learn(const EstimateSettings& settings, const MotionLess
     qq_ -= b * b / variance;
 }
 
+void ParameterEstimate::take_over_mass(const EstimateSettings& settings, double factor, double deviation) {
+    if (!(factor > 0.0) || !(deviation >= 0.0) || !std::isfinite(factor)) {
+        return;
+    }
+    const double limit = std::log(settings.largest);
+    p_ = std::clamp(-std::log(factor), -limit, limit);
+    pp_ = std::min(deviation * deviation, settings.uncertainty * settings.uncertainty);
+    pq_ = 0.0;
+}
+
 double ParameterEstimate::mass_factor() const {
     return std::exp(-p_);
 }

@@ -45,6 +45,10 @@ public:
     void forget(const EstimateSettings& settings);
     void learn(const EstimateSettings& settings, const MotionLesson& lesson);
 
+    // Who has measured the mass knows it better: its factor and how sure that is (standard deviation, share
+    // of it).
+    void take_over_mass(const EstimateSettings& settings, double factor, double deviation);
+
     double mass_factor() const;
     double friction_factor() const;
     bool is_none() const { return p_ == 0.0 && q_ == 0.0; }

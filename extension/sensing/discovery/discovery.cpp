@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "core/geometry/convex_hull.hpp"
 
@@ -23,6 +24,11 @@ constexpr double claim_depth = 0.03;  // (unit: meters)
 
 // A piece farther from a stranger than this is another one (unit: meters).
 constexpr double same_stranger = 0.05;
+
+// What every image of an object has in common: edges that the drawing and the camera see differently (unit:
+// meters, radians).
+constexpr double alike_place = 1e-4;
+constexpr double alike_turn = 1e-3;
 
 // So many images without it: it is lost.
 constexpr int images_until_lost = 5;
@@ -242,25 +248,9 @@ void Discovery::take_out_drawing(const DepthImage& image, const LearntMesh& know
     }
 }
 
-// The camera's frame is turned into the world's. What all depths may be off together moves the mesh along the
-// line of sight: unless the scale is known, it is no less sure than that.
-Matrix6 Discovery::world_covariance(const PoseFit& fit) const {
-    Matrix6 camera = fit_covariance(fit, {});
-    if (scale_images_ == 0.0) {
-        const Vec3 along = settings_.accuracy.error * fit.pose.position;
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t j = 0; j < 3; ++j) {
-                camera[i][j] += along[static_cast<int>(i)] * along[static_cast<int>(j)];
-            }
-        }
-    }
-    return turned_covariance(camera, camera_.rotation);
-}
-
 void Discovery::note(SeenObject& object, Track& track, const Recognised& one) {
     const bool again = object.state == SeenState::lost || track.unseen > 0;
     object.measured = compose(camera_, one.fit.pose);
-    object.covariance = world_covariance(one.fit);
     if (object.state == SeenState::lost) {
         track.motion.forget();
     }
@@ -270,6 +260,7 @@ void Discovery::note(SeenObject& object, Track& track, const Recognised& one) {
     object.state = again && object.state != SeenState::hidden ? SeenState::found : SeenState::tracked;
     track.seen = now_;
     track.unseen = 0;
+    track.lost = {};
     track.quality += 0.3 * (one.check.quality() - track.quality);
     object.confidence = std::max(object.confidence, 0.0) + 0.3 * (track.quality - object.confidence);
     tell(object, track);
@@ -283,18 +274,27 @@ void Discovery::note_unseen(SeenObject& object, Track& track, bool hidden) {
     }
     // Nothing tells where it goes: it may be anywhere where it could have gone.
     const double seconds_unseen = to_seconds(now_ - track.seen);
-    for (std::size_t i = 0; i < 3; ++i) {
-        object.covariance[i][i] += settings_.motion.push * 1e-3 * seconds_unseen;
-        object.covariance[i + 3][i + 3] += settings_.motion.twist * 1e-3 * seconds_unseen;
-    }
+    track.lost.place += Mat3(settings_.motion.push * 1e-3 * seconds_unseen);
+    track.lost.turn += Mat3(settings_.motion.twist * 1e-3 * seconds_unseen);
+    tell(object, track);
     object.linear_velocity = object.angular_velocity = Vec3(0.0);
 }
 
+// What all depths may be off together moves the object along the line of sight: unless the scale is known, it
+// is no surer than that.
 void Discovery::tell(SeenObject& object, const Track& track) const {
     object.pose = track.motion.pose();
     object.linear_velocity = track.motion.linear_velocity();
     object.angular_velocity = track.motion.angular_velocity();
     object.rests = track.motion.rests();
+    object.chance.place =
+        track.motion.place_covariance() + track.lost.place + Mat3(alike_place * alike_place);
+    object.chance.turn = track.motion.turn_covariance() + track.lost.turn + Mat3(alike_turn * alike_turn);
+    object.covariance = object.chance;
+    if (scale_images_ == 0.0) {
+        const Vec3 along = settings_.accuracy.error * (object.pose.position - camera_.position);
+        object.covariance.place += glm::outerProduct(along, along);
+    }
 }
 
 Vec3 Discovery::place_of(const SeenScene& scene, std::uint16_t piece) const {
@@ -426,13 +426,15 @@ void Discovery::note_hull(const SeenScene& scene, std::uint16_t piece, const Vec
     object->confidence = 0.3;
     // The middle of what is seen tells the place to about a pixel; it says nothing of a turn.
     const double deviation = 2.0 * depth_deviation(settings_.accuracy, glm::length(place - camera_.position));
+    Matrix6 covariance{};
     for (std::size_t i = 0; i < 3; ++i) {
-        object->covariance[i][i] = deviation * deviation;
-        object->covariance[i + 3][i + 3] = 1.0;
+        covariance[i][i] = deviation * deviation;
+        covariance[i + 3][i + 3] = 1.0;
     }
-    track->motion.see(settings_.motion, object->measured, object->covariance, now_);
+    track->motion.see(settings_.motion, object->measured, covariance, now_);
     track->seen = now_;
     track->unseen = 0;
+    track->lost = {};
     for (Stranger& stranger : strangers_) {
         if (glm::length(stranger.place - place) < same_stranger) {
             stranger.place = place;

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/estimation/motion_filter.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "sensing/discovery/recognition.hpp"
 
 namespace tactus {
@@ -50,7 +51,8 @@ struct SeenObject {
     TriangleMesh hull;           // of what no mesh explains, in its own frame: what was seen of it, and its
                                  // shadow on the support
     Pose pose;                   // in the world; at rest, where it rests
-    Matrix6 covariance{};        // of `pose`: place and turn, in the world's axes (unit: meters, radians)
+    PoseDoubt covariance;        // of `pose`, in the world's axes
+    PoseDoubt chance;            // of that, what is not the same in every image
     Vec3 linear_velocity{0.0};   // of the mesh's origin (unit: meters per second)
     Vec3 angular_velocity{0.0};  // (unit: radians per second)
     bool rests = false;
@@ -81,6 +83,11 @@ public:
     // Points of the camera's frame that stand out of the support, for drawing (unit: meters).
     void cloud(const DepthImage& image, std::vector<Vec3>& points) const;
     const LearntMesh& mesh(std::size_t index) const { return (*meshes_)[index]; }
+    const DiscoverySettings& settings() const { return settings_; }
+    // By pixel of the last image: 1 where something stands out of the support that no known object explains.
+    const std::vector<std::uint8_t>& stands_out() const { return segmenter_.found().stands_out; }
+    // The support as it was told, in the camera's frame: depths are not put right by depth_scale().
+    const std::optional<ImagePlane>& plane() const { return plane_; }
 
     // Whether a clock is read: function that gives seconds, or none.
     void time_with(double (*clock)()) { clock_ = clock; }
@@ -92,6 +99,7 @@ private:
         Nanoseconds seen = 0;  // last time
         double quality = 0.0;
         int unseen = 0;    // images in succession
+        PoseDoubt lost;    // what it may have moved by since it was seen
         Vec3 extent{0.0};  // of a hull
     };
     struct Stranger {
@@ -118,7 +126,6 @@ private:
     void note_hull(const SeenScene& scene, std::uint16_t piece, const Vec3& place);
     void forget_old();
     Vec3 place_of(const SeenScene& scene, std::uint16_t piece) const;
-    Matrix6 world_covariance(const PoseFit& fit) const;
     double seconds() const { return clock_ ? clock_() : 0.0; }
 
     std::shared_ptr<const std::vector<LearntMesh>> meshes_;

@@ -13,61 +13,7 @@ namespace {
 
 constexpr double to_degrees = 180.0 / std::numbers::pi;
 constexpr double frame_seconds = 1.0 / 30.0;
-constexpr int images_to_begin = 6;
-constexpr int moving_images = 90;
 constexpr int images_to_recover = 3;
-
-// Less of it than this is seen: others hide it.
-constexpr double least_seen = 0.5;
-
-// On an ellipse about where it was, turning about an axis that stays: from rest, evenly faster over a second.
-struct Course {
-    Pose start;
-    Vec3 across{0.0}, along{0.0};  // half axes (unit: meters)
-    double speed = 1.0;            // around (unit: radians per second)
-    Vec3 spin{0.0};                // (unit: radians per second)
-
-    Pose at(double seconds) const {
-        const double ramp = std::min(seconds, 1.0);
-        const double t = 0.5 * ramp * ramp + std::max(0.0, seconds - 1.0);
-        const double angle = speed * t;
-        return {start.position + across * std::sin(angle) + along * (1.0 - std::cos(angle)),
-                glm::normalize(turn_by(t * spin, 1.0) * start.rotation)};
-    }
-};
-
-class Camera {
-public:
-    Camera(const SensingCase& bench, const DepthScene& scene, std::uint64_t seed)
-        : bench_(bench), scene_(scene), noise_(bench_noise(seed)), seed_(seed) {}
-
-    const DepthImage& look() {
-        ++taken_;
-        draw_scene(bench_.library, scene_, exact_);
-        image_ = noisy_image(exact_, noise_, seed_ * 1000 + taken_, 33'333u * taken_);
-        return image_;
-    }
-    DepthScene& scene() { return scene_; }
-    // Share of the object's pixels that no other one hides, by the last image.
-    double seen_share(std::size_t object) {
-        DepthScene alone = scene_;
-        alone.objects = {scene_.objects[object]};
-        DepthBuffer buffer;
-        draw_scene(bench_.library, alone, buffer);
-        const auto whole = std::ranges::count(buffer.seen, std::uint16_t{0});
-        const auto seen = std::ranges::count(exact_.seen, static_cast<std::uint16_t>(object));
-        return whole > 0 ? static_cast<double>(seen) / static_cast<double>(whole) : 0.0;
-    }
-
-private:
-    const SensingCase& bench_;
-    DepthScene scene_;
-    DepthNoise noise_;
-    std::uint64_t seed_;
-    unsigned taken_ = 0;
-    DepthBuffer exact_;
-    DepthImage image_;
-};
 
 const SeenObject* object_at(std::span<const SeenObject> seen, std::size_t mesh, const Vec3& place,
                             double within) {
@@ -91,13 +37,13 @@ struct Begun {
     std::vector<std::uint32_t> ids;  // by object of the scene; 0: was not found right
 };
 
-Begun begin(const SensingCase& bench, Camera& camera, Discovery& discovery) {
+Begun begin(const SensingCase& bench, MovingScene& moving, Discovery& discovery) {
     std::span<const SeenObject> seen;
-    for (int i = 0; i < images_to_begin; ++i) {
-        seen = discovery.update(camera.look(), camera.scene().camera_pose);
+    for (int i = 0; i < MovingScene::images_to_begin; ++i) {
+        seen = discovery.update(moving.look(), moving.scene.camera_pose);
     }
     Begun begun;
-    for (const SceneObject& object : camera.scene().objects) {
+    for (const SceneObject& object : moving.scene.objects) {
         const SeenObject* const found = object_at(seen, object.mesh, object.pose.position, 0.03);
         begun.ids.push_back(found != nullptr && pose_error(symmetry_of(bench.library[object.mesh].name),
                                                            object.pose, found->measured)
@@ -108,52 +54,92 @@ Begun begin(const SensingCase& bench, Camera& camera, Discovery& discovery) {
     return begun;
 }
 
-// Never lower than it began: the table is below.
-Course course_from(const Pose& start, RandomValues& random) {
-    const Vec3 across(random.between(-0.06, 0.06), 0.0, random.between(-0.06, 0.06));
-    const Vec3 along(random.between(-0.06, 0.06), random.between(0.0, 0.05), random.between(-0.06, 0.06));
-    return {start, across, along, random.between(1.0, 3.0), random.direction() * random.between(0.0, 1.5)};
+}  // namespace
+
+Pose MovingScene::Course::at(double seconds) const {
+    const double ramp = std::min(seconds, 1.0);
+    const double t = 0.5 * ramp * ramp + std::max(0.0, seconds - 1.0);
+    const double angle = speed * t;
+    return {start.position + across * std::sin(angle) + along * (1.0 - std::cos(angle)),
+            glm::normalize(turn_by(t * spin, 1.0) * start.rotation)};
 }
 
-}  // namespace
+// Never lower than it began: the table is below.
+MovingScene::MovingScene(const SensingCase& bench, std::uint64_t seed)
+    : scene(random_scene(bench.library, {.held = 1.0}, seed)),
+      bench_(bench),
+      noise_(bench_noise(seed)),
+      seed_(seed) {
+    RandomValues random(seed + 31);
+    for (const SceneObject& object : scene.objects) {
+        const Vec3 across(random.between(-0.06, 0.06), 0.0, random.between(-0.06, 0.06));
+        const Vec3 along(random.between(-0.06, 0.06), random.between(0.0, 0.05), random.between(-0.06, 0.06));
+        const double speed = random.between(1.0, 3.0);
+        courses_.push_back(
+            {object.pose, across, along, speed, random.direction() * random.between(0.0, 1.5)});
+    }
+}
+
+const DepthImage& MovingScene::look() {
+    ++taken_;
+    draw_scene(bench_.library, scene, exact_);
+    image_ = noisy_image(exact_, noise_, seed_ * 1000 + taken_, 33'333u * taken_);
+    return image_;
+}
+
+void MovingScene::move(int images) {
+    for (std::size_t k = 0; k < courses_.size(); ++k) {
+        scene.objects[k].pose = courses_[k].at(frame_seconds * images);
+    }
+}
+
+Vec3 MovingScene::velocity(std::size_t object, int images) const {
+    constexpr double aside = 1e-4;
+    const double seconds = frame_seconds * images;
+    return (courses_[object].at(seconds + aside).position - courses_[object].at(seconds - aside).position) /
+           (2.0 * aside);
+}
+
+double MovingScene::seen_share(std::size_t object) const {
+    DepthScene alone = scene;
+    alone.objects = {scene.objects[object]};
+    DepthBuffer buffer;
+    draw_scene(bench_.library, alone, buffer);
+    const auto whole = std::ranges::count(buffer.seen, std::uint16_t{0});
+    const auto seen = std::ranges::count(exact_.seen, static_cast<std::uint16_t>(object));
+    return whole > 0 ? static_cast<double>(seen) / static_cast<double>(whole) : 0.0;
+}
 
 void report_moving(Report& report, const SensingCase& bench) {
     std::vector<double> position_mm, angle_deg, told_mm, told_deg, frame_ms, speed_error;
     int lost = 0, followed = 0;
     for (int s = 0; s < std::max(1, bench.scenes / 5); ++s) {
         const std::uint64_t seed = bench.first + static_cast<std::uint64_t>(s);
-        Camera camera(bench, random_scene(bench.library, {.held = 1.0}, seed), seed);
+        MovingScene moving(bench, seed);
         Discovery discovery(bench.meshes, bench_settings(true));
         discovery.time_with(seconds_now);
-        const Begun begun = begin(bench, camera, discovery);
-        RandomValues random(seed + 31);
-        std::vector<Course> courses;
-        for (const SceneObject& object : camera.scene().objects) {
-            courses.push_back(course_from(object.pose, random));
-        }
-        for (int i = 1; i <= moving_images; ++i) {
-            for (std::size_t k = 0; k < courses.size(); ++k) {
-                camera.scene().objects[k].pose = courses[k].at(frame_seconds * i);
-            }
+        const Begun begun = begin(bench, moving, discovery);
+        for (int i = 1; i <= MovingScene::moving_images; ++i) {
+            moving.move(i);
             const std::span<const SeenObject> seen =
-                discovery.update(camera.look(), camera.scene().camera_pose);
+                discovery.update(moving.look(), moving.scene.camera_pose);
             const DiscoveryTimes& times = discovery.times();
             frame_ms.push_back(1e3 * (times.plane + times.segmentation + times.tracking));
-            for (std::size_t k = 0; k < courses.size(); ++k) {
-                if (begun.ids[k] == 0 || camera.seen_share(k) < least_seen) {
+            for (std::size_t k = 0; k < begun.ids.size(); ++k) {
+                if (begun.ids[k] == 0 || moving.seen_share(k) < MovingScene::least_seen) {
                     continue;
                 }
                 ++followed;
                 const SeenObject* const object = object_named(seen, begun.ids[k]);
-                const Pose& truth = camera.scene().objects[k].pose;
-                const MeshSymmetry symmetry = symmetry_of(bench.library[camera.scene().objects[k].mesh].name);
+                const Pose& truth = moving.scene.objects[k].pose;
+                const MeshSymmetry symmetry = symmetry_of(bench.library[moving.scene.objects[k].mesh].name);
                 if (object == nullptr || object->state == SeenState::lost ||
                     object->state == SeenState::hidden) {
                     ++lost;
                     if (bench.talks) {
                         std::printf("  scene %llu, image %d: %s is not followed (%s)\n",
                                     static_cast<unsigned long long>(seed), i,
-                                    bench.library[camera.scene().objects[k].mesh].name.c_str(),
+                                    bench.library[moving.scene.objects[k].mesh].name.c_str(),
                                     object == nullptr
                                         ? "forgotten"
                                         : (object->state == SeenState::lost ? "lost" : "hidden"));
@@ -166,10 +152,7 @@ void report_moving(Report& report, const SensingCase& bench) {
                 angle_deg.push_back(seen_error.angle * to_degrees);
                 told_mm.push_back(1e3 * told_error.position);
                 told_deg.push_back(told_error.angle * to_degrees);
-                const Vec3 velocity = (courses[k].at(frame_seconds * i + 1e-4).position -
-                                       courses[k].at(frame_seconds * i - 1e-4).position) /
-                                      2e-4;
-                speed_error.push_back(glm::length(object->linear_velocity - velocity));
+                speed_error.push_back(glm::length(object->linear_velocity - moving.velocity(k, i)));
             }
         }
     }
@@ -197,11 +180,11 @@ void report_recovery(Report& report, const SensingCase& bench) {
     int moved = 0, recovered = 0;
     for (int s = 0; s < bench.scenes; ++s) {
         const std::uint64_t seed = bench.first + static_cast<std::uint64_t>(s);
-        Camera camera(bench, random_scene(bench.library, {.held = 1.0}, seed), seed);
+        MovingScene moving(bench, seed);
         Discovery discovery(bench.meshes, bench_settings(true));
-        const Begun begun = begin(bench, camera, discovery);
+        const Begun begun = begin(bench, moving, discovery);
         RandomValues random(seed + 32);
-        for (SceneObject& object : camera.scene().objects) {
+        for (SceneObject& object : moving.scene.objects) {
             Vec3 way = 0.02 * random.direction();
             way.y = std::abs(way.y);
             object.pose = {
@@ -210,14 +193,14 @@ void report_recovery(Report& report, const SensingCase& bench) {
         }
         std::span<const SeenObject> seen;
         for (int i = 0; i < images_to_recover; ++i) {
-            seen = discovery.update(camera.look(), camera.scene().camera_pose);
+            seen = discovery.update(moving.look(), moving.scene.camera_pose);
         }
         for (std::size_t k = 0; k < begun.ids.size(); ++k) {
-            if (begun.ids[k] == 0 || camera.seen_share(k) < least_seen) {
+            if (begun.ids[k] == 0 || moving.seen_share(k) < MovingScene::least_seen) {
                 continue;
             }
             ++moved;
-            const SceneObject& object = camera.scene().objects[k];
+            const SceneObject& object = moving.scene.objects[k];
             const SeenObject* const found = object_named(seen, begun.ids[k]);
             const PoseError error =
                 found != nullptr

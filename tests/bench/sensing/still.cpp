@@ -17,16 +17,7 @@ constexpr int images = 7;
 // What is found farther off than this from an object is another one (unit: meters).
 constexpr double same_object = 0.06;
 
-struct StillFigures {
-    int objects = 0, missed = 0, right = 0, pose_right = 0, surplus = 0;
-    std::vector<double> position_mm, angle_deg, segmentation_ms, new_object_ms, rest_mm;
-};
-
-struct FirstSight {
-    std::uint32_t id;
-    std::size_t mesh;
-    Pose pose;
-};
+}  // namespace
 
 void judge(const SensingCase& bench, const DepthScene& scene, std::uint64_t seed,
            const std::vector<FirstSight>& sights, StillFigures& figures) {
@@ -71,19 +62,25 @@ void judge(const SensingCase& bench, const DepthScene& scene, std::uint64_t seed
     figures.surplus += static_cast<int>(std::ranges::count(used, false));
 }
 
-void look_at(const SensingCase& bench, std::uint64_t seed, double distance, bool support_known,
-             StillFigures& figures) {
-    const DepthScene scene = random_scene(bench.library, {.distance = distance}, seed);
-    DepthBuffer exact;
-    draw_scene(bench.library, scene, exact);
+StillScene::StillScene(const SensingCase& bench, std::uint64_t seed, double distance)
+    : scene(random_scene(bench.library, {.distance = distance}, seed)), seed_(seed) {
+    draw_scene(bench.library, scene, exact_);
+}
+
+DepthImage StillScene::image(int index) const {
+    return noisy_image(exact_, bench_noise(seed_), seed_ * 100 + static_cast<std::uint64_t>(index),
+                       33'333u * static_cast<unsigned>(index + 1));
+}
+
+double look_at(const SensingCase& bench, std::uint64_t seed, double distance, bool support_known,
+               StillFigures& figures) {
+    const StillScene still(bench, seed, distance);
+    const DepthScene& scene = still.scene;
     Discovery discovery(bench.meshes, bench_settings(support_known));
     discovery.time_with(seconds_now);
     std::vector<FirstSight> sights;
     for (int i = 0; i < images; ++i) {
-        DepthNoise noise = bench_noise(seed);
-        const DepthImage image = noisy_image(exact, noise, seed * 100 + static_cast<std::uint64_t>(i),
-                                             33'333u * static_cast<unsigned>(i + 1));
-        const std::span<const SeenObject> seen = discovery.update(image, scene.camera_pose);
+        const std::span<const SeenObject> seen = discovery.update(still.image(i), scene.camera_pose);
         const DiscoveryTimes& times = discovery.times();
         figures.segmentation_ms.push_back(1e3 * (times.plane + times.segmentation));
         bool is_new = false;
@@ -98,9 +95,8 @@ void look_at(const SensingCase& bench, std::uint64_t seed, double distance, bool
         }
     }
     judge(bench, scene, seed, sights, figures);
+    return discovery.depth_scale();
 }
-
-}  // namespace
 
 DepthNoise bench_noise(std::uint64_t seed) {
     DepthNoise noise;

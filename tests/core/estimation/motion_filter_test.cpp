@@ -180,6 +180,23 @@ TEST(MotionFilter, StaysSoundWhenChanceTurnsWithTheBody) {
     }
 }
 
+// A hand puts it elsewhere between two images: no velocity follows from that.
+TEST(MotionFilter, WhatIsPutElsewhereIsThereAtOnceAndDoesNotFly) {
+    for (const double way : {0.05, 0.2}) {
+        MotionFilter filter;
+        RoughEyes eyes(2e-4, 1e-3);
+        for (int i = 1; i <= 120; ++i) {
+            const Pose truth = at({i <= 60 ? 0.0 : way, 0.0, 0.0});
+            filter.see({}, eyes.see(truth), covariance_of(eyes), i * frame);
+            if (i > 60) {
+                ASSERT_LT(glm::distance(filter.pose().position, truth.position), 1.5e-3) << way << ' ' << i;
+                ASSERT_LT(glm::length(filter.linear_velocity()), 0.05) << way << ' ' << i;
+            }
+        }
+        EXPECT_TRUE(filter.rests());
+    }
+}
+
 TEST(MotionFilter, NonsenseChangesNothing) {
     MotionFilter filter;
     filter.see({}, at({1.0, 0.0, 0.0}), covariance_of(1e-3, 1e-2), frame);

@@ -62,7 +62,7 @@ TEST(TouchEstimate, NothingIsKnownBeforeItIsTouched) {
 TEST(TouchEstimate, AStillTipLearnsNeitherFrictionNorMass) {
     TouchEstimate estimate;
     for (int i = 0; i < 2000; ++i) {
-        TouchSample sample;
+        TipSample sample;
         const double deep = 0.004 + 0.002 * std::sin(0.02 * i);
         sample.tip = {0.0, -deep, 0.0};
         sample.force = {0.3, -500.0 * deep, 0.0};
@@ -76,7 +76,7 @@ TEST(TouchEstimate, AStillTipLearnsNeitherFrictionNorMass) {
 TEST(TouchEstimate, NonsenseTeachesNothing) {
     TouchEstimate estimate = touch_block({}, 1.0);
     const double before = estimate.stiffness().value;
-    TouchSample sample;
+    TipSample sample;
     sample.force = {0.0, -std::nan(""), 0.0};
     estimate.feel(sample);
     sample.force = {0.0, -5.0, 0.0};

@@ -1,0 +1,26 @@
+// What a depth sensor sees and does not know, as one body that can be touched. Main thread only.
+#pragma once
+
+#include <godot_cpp/classes/array_mesh.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+
+#include "core/ports/depth_sensing.hpp"
+
+namespace tactus {
+
+class TouchedCloud {
+public:
+    // Below `sensor`. From surface to surface only corners move: who touches it is swept along.
+    void update(godot::Node3D& sensor, const MeshView& surface, bool is_shown);
+    // Takes it away.
+    void clear();
+
+private:
+    void make(godot::Node3D& sensor, bool is_shown);
+
+    std::uint64_t body_ = 0;
+    bool is_shown_ = false;
+    godot::Ref<godot::ArrayMesh> mesh_;
+};
+
+}  // namespace tactus
