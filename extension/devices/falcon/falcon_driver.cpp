@@ -1,6 +1,7 @@
 #include "devices/falcon/falcon_driver.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "platform/time_value.hpp"
 
@@ -71,27 +72,38 @@ std::string FalconDriver::open(const std::atomic<bool>& stop) {
     return error;
 }
 
+// The bus and the ports on the way to it, as the system names it.
+std::string FalconDriver::place_of(usb::Device* device) const {
+    std::array<std::uint8_t, 8> ports{};
+    const int depth = usb_->get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
+    std::string place = "usb" + std::to_string(usb_->get_bus_number(device));
+    for (int port = 0; port < depth; ++port) {
+        place += (port == 0 ? "-" : ".") + std::to_string(ports[static_cast<std::size_t>(port)]);
+    }
+    return place;
+}
+
 std::string FalconDriver::open_device() {
     usb::Device** devices = nullptr;
     const long count = usb_->get_device_list(context_, &devices);
-    std::string error, others;
-    for (long i = 0; i < count && handle_ == nullptr; ++i) {
+    std::map<std::string, usb::Device*> falcons;  // by place: systems list them in any order
+    for (long i = 0; i < count; ++i) {
         usb::DeviceDescriptor descriptor{};
-        if (usb_->get_device_descriptor(devices[i], &descriptor) != 0 || descriptor.vendor != vendor ||
-            descriptor.product != product) {
-            continue;
+        if (usb_->get_device_descriptor(devices[i], &descriptor) == 0 && descriptor.vendor == vendor &&
+            descriptor.product == product) {
+            falcons.emplace(place_of(devices[i]), devices[i]);
         }
-        std::array<std::uint8_t, 8> ports{};
-        const int depth = usb_->get_port_numbers(devices[i], ports.data(), static_cast<int>(ports.size()));
-        std::string place = "usb" + std::to_string(usb_->get_bus_number(devices[i]));
-        for (int port = 0; port < depth; ++port) {
-            place += (port == 0 ? "-" : ".") + std::to_string(ports[static_cast<std::size_t>(port)]);
+    }
+    std::string error, others;
+    for (const auto& [place, device] : falcons) {
+        if (handle_ != nullptr) {
+            break;
         }
         if (!settings_.id.empty() && settings_.id != place) {
             others += (others.empty() ? "" : ", ") + place;
             continue;
         }
-        const int opened = usb_->open(devices[i], &handle_);
+        const int opened = usb_->open(device, &handle_);
         if (opened != 0) {
             handle_ = nullptr;
             error = opened == usb::error_access

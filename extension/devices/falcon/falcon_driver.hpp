@@ -53,6 +53,7 @@ private:
         std::atomic<bool> is_taken{false};
     };
 
+    std::string place_of(usb::Device* device) const;
     std::string open_device();
     bool is_over() const { return gone_ || stop_->load(std::memory_order_acquire); }
     std::string start();
