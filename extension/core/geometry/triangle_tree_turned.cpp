@@ -52,14 +52,6 @@ struct TurnedBox {
         turned.width[slot] = upper_half(width + more);
     }
 };
-set(turned.normal, normal);
-set(turned.along, along);
-turned.low[slot] = round_down(low - more);
-turned.high[slot] = round_up(high + more);
-turned.length[slot] = round_up(length + more);
-turned.width[slot] = round_up(width + more);
-}
-};
 
 // The axes of a child's box, as they are stored: across the surface, and about along it.
 void set_axes(TurnedNode& turned, int slot, const Vec3& normal, const Vec3& along) {
