@@ -33,6 +33,7 @@ const DRIVERS := {
 @export var report_path := "user://device_check.json"
 
 var _pressed := {}
+var _sides := {}  # by way: the wall's inner side, as it is drawn
 
 @onready var _world: HapticWorld = %HapticWorld
 @onready var _device: HapticDevice = %HapticDevice
@@ -41,10 +42,15 @@ var _pressed := {}
 func _ready() -> void:
 	for title: String in DRIVERS:
 		%Drivers.add_item(title, DRIVERS[title])
+	%Drivers.select(%Drivers.get_item_index(_device.driver))
+	if %Drivers.selected < 0:
+		%Drivers.text = "Choose your device"
+	%Firmware.visible = _device.driver == HapticDevice.DRIVER_FALCON
 	%Drivers.item_selected.connect(_choose)
 	%Firmware.text_submitted.connect(func(file: String) -> void: _device.firmware = file)
 	for way: String in WAYS:
 		_add_wall(WAYS[way])
+		_sides[way] = _drawn_side(WAYS[way])
 
 
 func _choose(index: int) -> void:
@@ -66,9 +72,33 @@ func _add_wall(way: Vector3) -> void:
 	_world.add_child(wall)
 
 
+## Of a wall: seen through, since the hand is behind one of them.
+func _drawn_side(way: Vector3) -> StandardMaterial3D:
+	var material := StandardMaterial3D.new()
+	material.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
+	material.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	material.cull_mode = BaseMaterial3D.CULL_DISABLED
+	var side := BoxMesh.new()
+	side.size = 2.0 * (ROOM - 0.0005) * (Vector3.ONE - way.abs()) + 0.0002 * way.abs()
+	side.material = material
+	var drawn := MeshInstance3D.new()
+	drawn.mesh = side
+	drawn.position = way * ROOM
+	_world.add_child(drawn)
+	return material
+
+
 func _process(_delta: float) -> void:
 	observe()
 	%Said.text = said()
+	for way: String in WAYS:
+		_sides[way].albedo_color = _colour_of(way)
+
+
+func _colour_of(way: String) -> Color:
+	if _pressed.has(way):
+		return Color(0.2, 0.8, 0.4, 0.25)
+	return Color(1.0, 0.55, 0.1, 0.5) if way == next_way() else Color(0.6, 0.7, 0.8, 0.08)
 
 
 ## What is to be done next, or what came of it.

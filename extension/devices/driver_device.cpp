@@ -79,7 +79,7 @@ DeviceSample DriverDevice::read(Nanoseconds) {
 
 // The tick's own time may be a virtual one; how long a force lives does not depend on it.
 void DriverDevice::write(Nanoseconds, const Vec3& force) {
-    forces_.write(force, monotonic_now());
+    forces_.write(force, torque_, monotonic_now());
 }
 
 DriverHealth DriverDevice::health() const {

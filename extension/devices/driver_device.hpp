@@ -35,6 +35,7 @@ public:
 
     DeviceSample read(Nanoseconds now) override;
     void write(Nanoseconds now, const Vec3& force) override;
+    void twist(const Vec3& torque) override { torque_ = torque; }
     DeviceCapabilities capabilities() const override { return newest_.capabilities; }
 
     DriverHealth health() const;
@@ -59,7 +60,8 @@ private:
     std::unique_ptr<Driver> driver_;
     ForceSlot forces_;
     TripleBuffer<Reading> readings_;
-    Reading newest_;  // haptic thread
+    Reading newest_;    // haptic thread; likewise
+    Vec3 torque_{0.0};  // of the next force (unit: newton meters)
     std::atomic<bool> stop_{false};
     std::atomic<std::uint64_t> count_{0};
     std::atomic<std::uint64_t> let_go_{0};

@@ -13,7 +13,9 @@ namespace tactus {
 class ForceSlot {
 public:
     // Haptic thread.
-    void write(const Vec3& force, Nanoseconds now) { commands_.publish({force, now}); }
+    void write(const Vec3& force, const Vec3& torque, Nanoseconds now) {
+        commands_.publish({force, torque, now});
+    }
 
     // I/O thread: what the device is to be given from now until end() at the longest. `own`: of the device
     // itself, such as what carries its arm, for as long as the loop lives.
@@ -22,10 +24,13 @@ public:
         const ForceCommand& command = commands_.front();
         const bool alive = is_alive(command, now);
         const Vec3 force = alive ? command.force + own : Vec3(0.0);
+        torque_ = alive ? command.torque : Vec3(0.0);
         end_ = alive ? command.written_at + force_lifetime : 0;
-        watch(force == Vec3(0.0) ? 0 : end_);
+        watch(force == Vec3(0.0) && torque_ == Vec3(0.0) ? 0 : end_);
         return force;
     }
+    // That goes with the force that living() has given.
+    const Vec3& torque() const { return torque_; }
     // When what living() has given dies, if nothing comes; 0: the loop was silent.
     Nanoseconds end() const { return end_; }
 
@@ -48,7 +53,8 @@ private:
     }
 
     TripleBuffer<ForceCommand> commands_;
-    Nanoseconds end_ = 0;  // I/O thread
+    Vec3 torque_{0.0};  // I/O thread; likewise
+    Nanoseconds end_ = 0;
     std::atomic<Nanoseconds> due_{0};
 };
 

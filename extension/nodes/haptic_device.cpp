@@ -197,7 +197,8 @@ Workspace HapticDevice::workspace() const {
             clutch_,
             static_cast<std::uint32_t>(dead_man_buttons_),
             force_scale_,
-            edge_speed_};
+            edge_speed_,
+            applied_torque_};
 }
 
 Vec3 HapticDevice::start() const {

@@ -47,7 +47,9 @@ public:
     bool is_device_connected() const { return state_.connected; }
     godot::Vector3 get_hand_position() const { return to_godot(state_.position); }
     godot::Vector3 get_hand_velocity() const { return to_godot(state_.velocity); }
+    godot::Quaternion get_hand_rotation() const { return to_godot(state_.rotation); }
     godot::Vector3 get_force() const { return to_godot(state_.force); }
+    godot::Vector3 get_torque() const { return to_godot(state_.torque); }
     int64_t get_buttons() const { return state_.buttons; }
     godot::String get_open_device_id() const;
     godot::String get_state_text() const;
@@ -106,6 +108,7 @@ private:
     double force_limit_ = 8.0;
     double force_scale_ = 1.0;
     double edge_speed_ = 0.0;
+    Vec3 applied_torque_{0.0};  // (unit: newton meters)
     bool show_workspace_ = false;
     bool clutch_ = false;
     int dead_man_buttons_ = 0;

@@ -14,6 +14,7 @@ struct Workspace {
     std::uint32_t dead_man = 0;  // buttons, any of which must be held for a force; 0: none
     double force_scale = 1.0;    // of forces: newtons of the device for each of the scene, > 0
     double edge_speed = 0.0;     // see drift_at_edge (unit: meters per second)
+    Vec3 torque{0.0};            // that the scene gives to the handle, in the scene (unit: newton meters)
 };
 
 inline Vec3 into_scene(const Workspace& workspace, const Vec3& point) {

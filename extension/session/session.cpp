@@ -97,10 +97,10 @@ TouchMaterial with_texture(TouchMaterial material, const HeightImage* image) {
 
 std::string check_workspace(const Workspace& w) {
     return limits::is_pose(w.pose) && w.scale > 0.0 && w.scale <= limits::farthest && w.force_limit >= 0.0 &&
-                   w.force_scale > 0.0 && w.edge_speed >= 0.0
+                   w.force_scale > 0.0 && w.edge_speed >= 0.0 && limits::is_place(w.torque)
                ? ""
-               : "the device's workspace has no place, no scale above 0, no force limit or no edge speed: "
-                 "reset its transform and these";
+               : "the device's workspace has no place, no scale above 0, no force limit, no edge speed or no "
+                 "torque: reset its transform and these";
 }
 
 std::string check_proxy(const ProxyDescription& d) {

@@ -23,6 +23,8 @@ SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& wo
     settings.limits = {std::min(side.slew, device.max_slew), std::min(side.energy, device.max_energy),
                        std::min(side.power, device.max_power)};
     settings.max_force = std::min(workspace.force_limit, device.max_force);
+    settings.torque_limits = {device.max_torque_slew, device.max_energy, device.max_power};
+    settings.max_torque = device.max_torque;
     settings.max_speed = device.max_speed;
     settings.ramp = device.ramp;
     settings.dead_man = workspace.dead_man;
@@ -121,6 +123,7 @@ void SessionLoop::write_devices(Nanoseconds now) {
                 proxy.state.status |= felt_limited;
             }
         }
+        slot.device->twist(slot.safe.torque);
         slot.device->write(now, slot.safe.force);
     }
 }
@@ -130,6 +133,8 @@ void SessionLoop::write_devices(Nanoseconds now) {
 SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t index) const {
     SafetySample sample;
     sample.wanted = force_on_device(slot.workspace, slot.force);
+    sample.torque = direction_to_local(slot.workspace.pose, slot.workspace.torque);
+    sample.rotation = slot.sample.rotation;
     sample.position = slot.heard.position;
     sample.velocity = slot.heard.velocity;
     sample.buttons = slot.heard.buttons;
@@ -167,6 +172,8 @@ void SessionLoop::rest() {
         if (slot.device) {
             slot.force = Vec3(0.0);
             slot.safety.rest();
+            slot.safe.torque = Vec3(0.0);
+            slot.device->twist(Vec3(0.0));
             slot.device->write(time_, slot.force);
         }
     }

@@ -399,6 +399,7 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.workspace.pose.rotation * slot.sample.rotation,
                                                slot.hand_velocity,
                                                slot.force * slot.workspace.force_scale,
+                                               direction_to_parent(slot.workspace.pose, slot.safe.torque),
                                                slot.sample.buttons,
                                                slot.sample.connected,
                                                slot.safe.state,

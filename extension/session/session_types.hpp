@@ -109,6 +109,7 @@ struct DeviceState {
     Quat rotation{1.0, 0.0, 0.0, 0.0};
     Vec3 velocity{0.0};  // (unit: meters per second)
     Vec3 force{0.0};     // given to the device, in the world (unit: newtons)
+    Vec3 torque{0.0};    // likewise, to its handle (unit: newton meters)
     std::uint32_t buttons = 0;
     bool connected = false;
     HandState safety = HandState::working;

@@ -9,7 +9,7 @@ namespace {
 bool same(const Workspace& a, const Workspace& b) {
     return a.pose.position == b.pose.position && a.pose.rotation == b.pose.rotation && a.scale == b.scale &&
            a.force_limit == b.force_limit && a.clutch == b.clutch && a.dead_man == b.dead_man &&
-           a.force_scale == b.force_scale && a.edge_speed == b.edge_speed;
+           a.force_scale == b.force_scale && a.edge_speed == b.edge_speed && a.torque == b.torque;
 }
 
 bool same(const ProxyDescription& a, const ProxyDescription& b) {

@@ -4,17 +4,36 @@
 //   --places=N   of the workspace, for each geometry (1000000)
 //   --inputs=N   at random to the safety layer (10000000)
 //   --rounds=N   start-ups and replugs of the played Falcon, a tenth of its stalls (100); 0: none
+//   --plugged=falcon|force_dimension|openhaptics|inverse3 [--firmware=FILE] [--id=NAME]
+//                the device of that kind that is plugged in, and nothing else
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "devices/drivers.hpp"
+#include "devices/emulated_robot.hpp"
+#include "devices/following_device.hpp"
+#include "devices/robot_table.hpp"
+#include "devices/simulated_arm.hpp"
+#ifdef __linux__
+#include "devices/haply/inverse3_driver.hpp"
+#include "devices/vendors/force_dimension_driver.hpp"
+#include "devices/vendors/openhaptics_driver.hpp"
+#include "shared/haply_service.hpp"
+#endif
 #ifdef TACTUS_PLAYED_USB
 #include "played/falcon_figures.hpp"
 #include "played/played_usb.hpp"
 #endif
 #include "shared/bench_kit.hpp"
 #include "shared/delta_figures.hpp"
+#include "shared/driver_figures.hpp"
 #include "shared/safety_figures.hpp"
 
 namespace {
@@ -23,6 +42,7 @@ using namespace tactus;
 using namespace tactus::shared;
 
 constexpr int places_a_task = 50'000;
+constexpr double seconds_of_ticks = 8.0;
 
 void report_kinematics(Report& report, int places) {
     std::vector<DeltaFigures> parts(static_cast<std::size_t>((places + places_a_task - 1) / places_a_task));
@@ -158,6 +178,79 @@ void report_walls(Report& report) {
                 rows.size(), created, unstable, created_free, unstable_free);
 }
 
+void report_exchanges(Report& report, const char* name, const ExchangeFigures& figures) {
+    report.set(std::string(name) + ".exchanges_per_s", figures.per_second);
+    report.set(std::string(name) + ".exchange_jitter_p99_ms", figures.jitter_p99_ms);
+    std::printf("%-11s %.0f exchanges/s, from their pace by %.2f ms (p99)\n", name, figures.per_second,
+                figures.jitter_p99_ms);
+}
+
+void report_ticks(Report& report, const char* name, double over_path) {
+    report.set(std::string(name) + ".tick_over_path", over_path);
+    std::printf("%-11s a tick's p99 is %.2f times that with a scripted path\n", name, over_path);
+}
+
+// Hands without a driver of their own; those that are led are one, whoever leads them.
+void report_ticks_of_hands(Report& report) {
+    FollowingDevice led({});
+    int tick = 0;
+    report_ticks(report, "mouse", tick_over_path(led, seconds_of_ticks, [&](double time) {
+                     if (tick++ % 16 == 0) {
+                         led.aim({way_over_floor(time), 0});
+                     }
+                 }));
+    SimulatedArm arm(path_over_floor(), {});
+    report_ticks(report, "arm", tick_over_path(arm, seconds_of_ticks, [](double) {}));
+    EmulatedRobot robot({}, std::make_shared<RobotTable>(RobotTable::Settings{}));
+    report_ticks(report, "emulated_robot", tick_over_path(robot, seconds_of_ticks, [](double) {}));
+}
+
+#ifdef __linux__
+void report_ticks(Report& report, const char* name, std::unique_ptr<Driver> driver) {
+    DriverDevice device(std::move(driver));
+    if (Loop(device).wait_for_hand()) {
+        report_ticks(report, name, tick_over_path(device, seconds_of_ticks, [](double) {}));
+    } else {
+        std::printf("%-11s is not there: %s\n", name, device.health().text.c_str());
+    }
+}
+
+// Against libraries and a service that stand in for the makers'.
+void report_ticks_of_drivers(Report& report) {
+    report_ticks(report, "force_dimension", std::make_unique<ForceDimensionDriver>(""));
+    report_ticks(report, "openhaptics", std::make_unique<OpenHapticsDriver>(""));
+    const HaplyService service;
+    report_ticks(report, "inverse3", std::make_unique<Inverse3Driver>("", service.port()));
+}
+#endif
+
+// In a user's hand: no force is asked for.
+int report_plugged(Report& report, const std::string& name, const std::string& firmware, std::string id) {
+    const std::vector<std::pair<std::string, DriverKind>> kinds{
+        {"falcon", DriverKind::falcon},
+        {"force_dimension", DriverKind::force_dimension},
+        {"openhaptics", DriverKind::openhaptics},
+        {"inverse3", DriverKind::inverse3}};
+    const auto kind =
+        std::find_if(kinds.begin(), kinds.end(), [&](const auto& one) { return one.first == name; });
+    if (kind == kinds.end()) {
+        std::fprintf(stderr, "there is no driver '%s'\n", name.c_str());
+        return 2;
+    }
+    DriverSettings settings;
+    settings.id = std::move(id);
+    std::ifstream file(firmware, std::ios::binary);
+    settings.firmware.assign(std::istreambuf_iterator<char>(file), {});
+    DriverDevice device(make_driver(kind->second, std::move(settings)));
+    if (const Loop loop(device); !loop.wait_for_hand()) {
+        std::fprintf(stderr, "%s\n", device.health().text.c_str());
+        return 1;
+    }
+    report_exchanges(report, name.c_str(), exchanges(device, 10.0));
+    report_ticks(report, name.c_str(), tick_over_path(device, seconds_of_ticks, [](double) {}));
+    return 0;
+}
+
 #ifdef TACTUS_PLAYED_USB
 void report_stalls(Report& report, const char* what, const StallFigures& figures) {
     const std::string name = std::string("safety.") + what;
@@ -171,18 +264,21 @@ void report_stalls(Report& report, const char* what, const StallFigures& figures
 // In real time, so on a machine that does nothing else.
 void report_played_falcon(Report& report, int rounds) {
     const std::string of = std::to_string(rounds);
-    const double rate = exchanges_per_second(10.0);
-    report.set("falcon.exchanges_per_s", rate);
+    const ExchangeFigures exchanged = falcon_exchanges(10.0);
+    report_exchanges(report, "falcon", exchanged);
+    const RoundTrips trips = falcon_round_trips(2 * rounds);
+    report.set("falcon.round_trip_p50_ms", trips.p50_ms);
+    report.set("falcon.round_trip_p99_ms", trips.p99_ms);
     const int starts = starts_ok(rounds, 0.3);
     report.set("falcon.starts_ok_of_" + of, starts);
     const int replugs = replugs_ok(rounds);
     report.set("falcon.replugs_ok_of_" + of, replugs);
     std::printf(
-        "falcon      %.0f exchanges/s, %d of %d starts with 30 %% of transfers failing, %d of %d replugs\n",
-        rate, starts, rounds, replugs, rounds);
-    const double over_path = tick_over_path(10.0);
-    report.set("falcon.tick_over_path", over_path);
-    std::printf("falcon      a tick's p99 %.2f times that with a scripted path\n", over_path);
+        "falcon      %.2f ms there and back (p99 %.2f), %d of %d starts with 30 %% of transfers failing, %d "
+        "of "
+        "%d replugs\n",
+        trips.p50_ms, trips.p99_ms, starts, rounds, replugs, rounds);
+    report_ticks(report, "falcon", falcon_tick_over_path(seconds_of_ticks));
     StallFigures loop = stall_loop(5 * rounds);
     StallFigures driver = stall_driver(5 * rounds);
     report_stalls(report, "loop_stall", loop);
@@ -207,20 +303,31 @@ int main(int count, char** arguments) {
     const int places = static_cast<int>(options.number("places", 1'000'000));
     const int rounds = static_cast<int>(options.number("rounds", 100));
     const auto inputs = static_cast<std::int64_t>(options.number("inputs", 10'000'000));
+    const std::string plugged = options.text("plugged");
+    const std::string firmware = options.text("firmware");
+    const std::string id = options.text("id");
     if (!options.understood()) {
         return 2;
     }
     Report report;
+    if (!plugged.empty()) {
+        return report_plugged(report, plugged, firmware, id);
+    }
     report_kinematics(report, places);
     write_conditioning();
     report_random_input(report, inputs);
     report_walls(report);
+    if (rounds > 0) {
+        report_ticks_of_hands(report);
+#ifdef __linux__
+        report_ticks_of_drivers(report);
+#endif
+    }
 #ifdef TACTUS_PLAYED_USB
     if (rounds > 0) {
         report_played_falcon(report, rounds);
     }
 #else
-    static_cast<void>(rounds);
     std::printf("falcon      not played: that needs umockdev (Debian: libumockdev-dev)\n");
 #endif
     return report.write_json(result_path("device")) ? 0 : 1;

@@ -85,6 +85,19 @@ func test_a_space_mouse_without_its_daemon_says_so() -> void:
 	OS.unset_environment("SPNAV_SOCKET")
 
 
+func test_a_hand_that_cannot_tell_is_turned_as_its_node_and_given_no_torque() -> void:
+	var world := add_world()
+	var device := _device(world, HapticDevice.DRIVER_KEYBOARD)
+	device.rotation_degrees = Vector3(0, 90, 0)
+	device.applied_torque = Vector3(0, 0.1, 0)
+	await _play(world, 2)
+	check_near(device.get_hand_rotation() * Vector3.RIGHT, Vector3.FORWARD, 1e-6, "its right")
+	check_equal(device.get_torque(), Vector3.ZERO, "torque without motors")
+	expect_error("was refused")
+	device.applied_torque = Vector3(0, NAN, 0)
+	check_near(device.applied_torque, Vector3(0, 0.1, 0), 1e-6, "what is no number is refused")
+
+
 func test_a_node_of_the_scene_leads_the_hand() -> void:
 	var world := add_world()
 	add_floor(world)

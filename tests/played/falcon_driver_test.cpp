@@ -10,6 +10,7 @@
 #include "devices/driver_device.hpp"
 #include "devices/falcon/falcon_driver.hpp"
 #include "platform/sleep.hpp"
+#include "played/played_stall.hpp"
 #include "played/played_usb.hpp"
 
 namespace tactus {
@@ -122,6 +123,24 @@ TEST(PlayedFalcon, AStalledLoopLetsTheHandGo) {
     EXPECT_TRUE(usb.running());
 }
 
+// Whatever its thread was just doing, and also where the force was let go of and on again a moment before.
+TEST(PlayedFalcon, AStalledDriverIsLetGoOfEachTime) {
+    shared::PlayedUsbSettings played;
+    played.falcon.torque_time = 3'600'000 * ms;  // it is no other's doing
+    PlayedUsb usb(played);
+    usb.plug();
+    const auto device = falcon();
+    shared::RandomValues random(11);
+    for (int times = 0; times < 40; ++times) {
+        ASSERT_TRUE(
+            tick_until(*device, {0.0, 3.0, 0.0}, [&](const DeviceSample&) { return usb.force().y > 2.5; }));
+        const Nanoseconds end = monotonic_now() + static_cast<Nanoseconds>(random.between(1e6, 4e6));
+        tick_until(*device, {0.0, 3.0, 0.0}, [end](const auto&) { return monotonic_now() > end; });
+        const shared::StalledThread stalled("tactus-device");
+        ASSERT_TRUE(tick_until(*device, {0.0, 3.0, 0.0}, [&](const auto&) { return usb.is_let_go(); }));
+    }
+}
+
 TEST(PlayedFalcon, StartsWhereAThirdOfAllTransfersFail) {
     shared::PlayedUsbSettings played;
     played.failing = 0.3;
@@ -160,6 +179,8 @@ TEST(PlayedFalcon, TwoOfThemAreTwoHands) {
     right.plug();
     left.mean({-0.02, 0.0, 0.0});
     right.mean({0.02, 0.0, 0.0});
+    const auto on_neither = falcon(with_firmware("usb1-9"));
+    EXPECT_TRUE(says(*on_neither, "set 'device_id' to one of usb1-1, usb1-2"));
     const auto on_second = falcon(with_firmware("usb1-2"));
     EXPECT_TRUE(tick_until(*on_second, Vec3(0.0), [](const DeviceSample& sample) {
         return sample.connected && sample.position.x > 0.015;

@@ -3,6 +3,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -11,11 +12,14 @@ namespace tactus::shared {
 
 namespace {
 
-volatile sig_atomic_t stall_us = 0;
+std::atomic<bool> is_stalled{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // so it may be looked at within a signal
 
 void stand_still(int) {
-    const timespec span{stall_us / 1'000'000, stall_us % 1'000'000 * 1'000};
-    nanosleep(&span, nullptr);
+    while (is_stalled.load(std::memory_order_acquire)) {
+        const timespec span{0, 100'000};
+        nanosleep(&span, nullptr);
+    }
 }
 
 pid_t thread_named(const std::string& name) {
@@ -31,16 +35,19 @@ pid_t thread_named(const std::string& name) {
 
 }  // namespace
 
-Nanoseconds stall_thread(const std::string& name, Nanoseconds span) {
-    stall_us = static_cast<int>(span / 1'000);
+StalledThread::StalledThread(const std::string& name) {
     struct sigaction action{};
     action.sa_handler = stand_still;
     action.sa_flags = SA_RESTART;
     sigaction(SIGUSR1, &action, nullptr);
     const pid_t thread = thread_named(name);
-    const Nanoseconds now = monotonic_now();
+    is_stalled.store(true, std::memory_order_release);
+    since_ = monotonic_now();
     syscall(SYS_tgkill, getpid(), thread, SIGUSR1);
-    return now;
+}
+
+StalledThread::~StalledThread() {
+    is_stalled.store(false, std::memory_order_release);
 }
 
 }  // namespace tactus::shared

@@ -1,4 +1,4 @@
-// A thread that hangs, wherever it is: a driver's, in the kernel or in its library.
+// A thread that hangs, wherever it is: a driver's, in its library or in ours.
 #pragma once
 
 #include <string>
@@ -7,8 +7,20 @@
 
 namespace tactus::shared {
 
-// The thread of this process that is named so stands still for that long, wherever it is just now; in a call
-// of the kernel that does not sleep, at its end. When it was told so (on the steady clock).
-Nanoseconds stall_thread(const std::string& name, Nanoseconds span);
+// The thread of this process that is named so stands still for as long as this lives, wherever it is just
+// now; in a call of the kernel that does not sleep, at its end. One at a time.
+class StalledThread {
+public:
+    explicit StalledThread(const std::string& name);
+    ~StalledThread();
+    StalledThread(const StalledThread&) = delete;
+    StalledThread& operator=(const StalledThread&) = delete;
+
+    // When it was told so (on the steady clock).
+    Nanoseconds since() const { return since_; }
+
+private:
+    Nanoseconds since_ = 0;
+};
 
 }  // namespace tactus::shared

@@ -1,6 +1,7 @@
 // What a session makes of devices: the hand, the workspace it is in, the force it is given.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "session_rig.hpp"
@@ -133,6 +134,24 @@ TEST(Session, AHeldClutchKeepsTheHandWhereItIs) {
     rig.tick();
     rig.draw({0.6, 0.5, 0.5}, 20);
     EXPECT_LT(glm::length(rig.proxy_state().hand - Vec3(0.2, 0.2, 0.3)), 1e-12);
+}
+
+TEST(Session, ATorqueFollowsTheDevicesFrameAndIsLimitedByTheDevice) {
+    SessionRig rig;
+    Workspace turned;
+    turned.pose.rotation =
+        Quat(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));  // x of the device is y of the scene
+    turned.torque = {0.0, 0.1, 0.0};
+    rig.session.set_workspace(rig.hand, turned);
+    rig.ticks(3);
+    EXPECT_EQ(rig.device.torque, Vec3(0.0)) << "it has no motors for that";
+    rig.device.can.max_torque = 0.05;
+    rig.tick();
+    EXPECT_LT(glm::distance(rig.device.torque, Vec3(0.05, 0.0, 0.0)), 1e-12);
+    EXPECT_LT(glm::distance(rig.newest().devices[0].torque, Vec3(0.0, 0.05, 0.0)), 1e-12);
+    rig.session.rest();
+    EXPECT_EQ(rig.device.torque, Vec3(0.0));
+    EXPECT_EQ(rig.newest().devices[0].torque, Vec3(0.0));
 }
 
 TEST(Session, AtRestTheDeviceIsGivenNoForce) {

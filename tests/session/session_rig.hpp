@@ -19,12 +19,14 @@ public:
         return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, buttons, true};
     }
     void write(Nanoseconds, const Vec3& given) override { force = given; }
+    void twist(const Vec3& given) override { torque = given; }
     DeviceCapabilities capabilities() const override { return can; }
 
     DeviceCapabilities can;
     Vec3 position{0.0};
     Vec3 velocity{0.0};
     Vec3 force{0.0};
+    Vec3 torque{0.0};
     std::uint32_t buttons = 0;
 };
 

@@ -8,8 +8,7 @@ namespace tactus::shared {
 
 namespace {
 
-constexpr Nanoseconds packet_time = 1'000'000;   // of its firmware: one exchange a millisecond
-constexpr Nanoseconds torque_time = 10'000'000;  // without a packet its motors are let go
+constexpr Nanoseconds packet_time = 1'000'000;  // of its firmware: one exchange a millisecond
 constexpr Nanoseconds step_time = 250'000;
 constexpr std::size_t firmware_size = 6'000;
 constexpr double out_angle = 55.0 * delta_degrees;  // the mark of a leg lies between these
@@ -177,8 +176,9 @@ void PlayedFalcon::advance(Nanoseconds now) {
         time_ = now;
     }
     for (; time_ + step_time <= now; time_ += step_time) {
-        if (time_ - commanded_ > torque_time) {
+        if (time_ - commanded_ > settings_.torque_time && !is_let_go()) {
             command_.torques = {};
+            let_go_at_ = time_;
         }
         step(to_seconds(step_time));
     }

@@ -21,8 +21,9 @@ struct PlayedFalconSettings {
     double hand_mass = 0.3;         // of the user's (unit: kilograms)
     double hand_stiffness = 200.0;  // with which the user goes where he means to (unit: newtons per meter)
     double hand_damping = 8.0;      // (unit: newton seconds per meter)
-    double settling = 0.5;          // how often the greeting comes with a 0 in front, 0 … 1
-    double wrong_echo = 0.0;        // how often a byte of firmware comes back otherwise, 0 … 1
+    Nanoseconds torque_time = 10'000'000;  // without a packet its motors are let go
+    double settling = 0.5;                 // how often the greeting comes with a 0 in front, 0 … 1
+    double wrong_echo = 0.0;               // how often a byte of firmware comes back otherwise, 0 … 1
 };
 
 class PlayedFalcon {
@@ -49,7 +50,7 @@ public:
     Vec3 hand() const { return place_ - delta_centre(settings_.data.geometry); }
     Vec3 force() const { return force_; }  // of its motors on the hand (unit: newtons)
     std::uint8_t leds() const { return command_.leds; }
-    // When a packet last took away a force that the one before had given; 0: never.
+    // When a packet, or that none came, last took away a force that the one before had given; 0: never.
     Nanoseconds let_go_at() const { return let_go_at_; }
     bool is_let_go() const { return command_.torques == std::array<std::int16_t, 3>{}; }
     std::uint64_t exchanges() const { return exchanges_; }

@@ -95,6 +95,10 @@ STAND_IN void hdGetDoublev(unsigned what, double* values) {
             std::memcpy(values, box, sizeof box);
             return;
         }
+        case 0x2622:
+            check(device.has_six_motors);
+            values[0] = 188.0;
+            return;
         case 0x2603:
             values[0] = 3.3;
             return;
@@ -106,8 +110,12 @@ STAND_IN void hdGetDoublev(unsigned what, double* values) {
     }
 }
 STAND_IN void hdGetIntegerv(unsigned what, int* value) {
-    check(what == 0x2000 || what == 0x2600 || what == 0x2555);
+    check(what == 0x2000 || what == 0x2600 || what == 0x2554 || what == 0x2555);
     check(what != 0x2000 || in_frame);
+    if (what == 0x2554) {
+        *value = device.has_six_motors ? 6 : 3;
+        return;
+    }
     *value = what == 0x2000 ? device.buttons.load() : what == 0x2600 ? 1000 : 1;
 }
 STAND_IN const char* hdGetString(unsigned what) {
@@ -115,9 +123,9 @@ STAND_IN const char* hdGetString(unsigned what) {
     return what == 0x2501 ? "Touch" : "0815";
 }
 STAND_IN void hdSetDoublev(unsigned what, const double* values) {
-    check(what == 0x2700 && in_frame);
+    check((what == 0x2700 || (what == 0x2703 && device.has_six_motors)) && in_frame);
     for (int i = 0; i < 3; ++i) {
-        device.force[i] = values[i];
+        (what == 0x2700 ? device.force : device.torque)[i] = values[i];
     }
 }
 STAND_IN unsigned long hdScheduleAsynchronous(unsigned (*callback)(void*), void* data, unsigned short) {

@@ -78,6 +78,34 @@ STAND_IN int dhdSetForce(double x, double y, double z, char id) {
     }
     return result;
 }
+STAND_IN int dhdHasWrist(char id) {
+    return checked(id) == 0 && device.has_wrist ? 1 : 0;
+}
+STAND_IN int dhdHasActiveWrist(char id) {
+    return dhdHasWrist(id);
+}
+STAND_IN int dhdGetOrientationFrame(double rows[3][3], char id) {
+    const double turn[3][3] = {{1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0}};
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            rows[row][column] = turn[row][column];
+        }
+    }
+    return checked(id, device.has_wrist);
+}
+STAND_IN int dhdSetForceAndTorqueAndGripperForce(double x, double y, double z, double tx, double ty,
+                                                 double tz, double grip, char id) {
+    const int result = dhdSetForce(x, y, z, id);
+    device.wrong_calls += device.has_wrist && grip == 0.0 ? 0 : 1;
+    device.torque[0] = tx;
+    device.torque[1] = ty;
+    device.torque[2] = tz;
+    return result;
+}
+STAND_IN int dhdSetWatchdog(unsigned char time, char id) {
+    device.watchdog = time;
+    return checked(id);
+}
 STAND_IN unsigned dhdGetButtonMask(char id) {
     return checked(id) == 0 ? device.buttons.load() : 0u;
 }

@@ -3,7 +3,8 @@ only after the last has been answered with a force.
 
     haply_service.py [silent|nonsense|uncalibrated]
 
-Prints its port, then each force that is another one, as "x y z". A line on stdin: "drop" closes the connection.
+Prints its port, then each force that is another one, as "x y z". A line on stdin: "drop" closes the connection, "mad"
+makes nonsense of all it says from now on over this one.
 """
 
 import base64
@@ -107,9 +108,12 @@ def serve(client: socket.socket, manner: str) -> None:
         while True:
             readable, _, _ = select.select([client, sys.stdin], [], [], 0.05)
             if sys.stdin in readable:
-                if not os.read(sys.stdin.fileno(), 100):
+                said = os.read(sys.stdin.fileno(), 100)
+                if not said:
                     sys.exit(0)
-                return
+                if said != b"mad\n":
+                    return
+                manner = "nonsense"
             if client not in readable:
                 break  # no answer yet: it is told again, as the real one does at its own pace
             text = message(client)

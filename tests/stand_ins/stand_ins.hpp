@@ -10,8 +10,11 @@ namespace tactus::stand_ins {
 struct ForceDimension {
     std::atomic<int> devices{1};
     std::atomic<bool> in_use{false}, unplugged{false}, hangs{false};
-    std::atomic<double> position[3]{};  // in the device's own axes (unit: meters)
-    std::atomic<double> force[3]{};     // what the motors give (unit: newtons)
+    std::atomic<double> position[3]{};   // in the device's own axes (unit: meters)
+    std::atomic<double> force[3]{};      // what the motors give (unit: newtons)
+    std::atomic<double> torque[3]{};     // (unit: newton meters)
+    std::atomic<bool> has_wrist{false};  // with motors, a quarter turn about its x
+    std::atomic<int> watchdog{0};        // of its firmware (in eighths of a millisecond)
     std::atomic<unsigned> buttons{0};
     std::atomic<bool> is_open{false}, forces_on{false}, braked{false};
     std::atomic<int> set_forces{0};
@@ -24,6 +27,8 @@ struct OpenHaptics {
     std::atomic<unsigned> calibration{0x5000};
     std::atomic<double> position[3]{};  // (unit: millimeters)
     std::atomic<double> force[3]{};     // (unit: newtons)
+    std::atomic<double> torque[3]{};    // (unit: newton millimeters)
+    std::atomic<bool> has_six_motors{false};
     std::atomic<int> buttons{0};
     std::atomic<bool> is_open{false}, ticks{false};
     std::atomic<int> frames{0};

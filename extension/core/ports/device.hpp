@@ -11,16 +11,18 @@ namespace tactus {
 struct DeviceCapabilities {
     static constexpr double any = std::numeric_limits<double>::infinity();
 
-    bool feels = false;       // it has motors: what is written moves a hand
-    bool rotates = false;     // its samples have a rotation of their own
-    double radius = 0.0;      // of the workspace, about its middle; 0: it has none (unit: meters)
-    double rate = 0.0;        // of its own exchange; 0: that of the loop (unit: hertz)
-    double max_force = any;   // (unit: newtons)
-    double max_slew = any;    // (unit: newtons per second)
-    double max_power = any;   // given to the hand for long (unit: watts)
-    double max_energy = any;  // and at once (unit: joules)
-    double max_speed = any;   // of a hand that holds it (unit: meters per second)
-    double damping = any;     // of its mechanics: what a stiff wall lives on (unit: newton seconds per meter)
+    bool feels = false;            // it has motors: what is written moves a hand
+    bool rotates = false;          // its samples have a rotation of their own
+    double radius = 0.0;           // of the workspace, about its middle; 0: it has none (unit: meters)
+    double rate = 0.0;             // of its own exchange; 0: that of the loop (unit: hertz)
+    double max_force = any;        // (unit: newtons)
+    double max_torque = 0.0;       // on the handle; 0: it has none (unit: newton meters)
+    double max_torque_slew = any;  // (unit: newton meters per second)
+    double max_slew = any;         // (unit: newtons per second)
+    double max_power = any;        // given to the hand for long (unit: watts)
+    double max_energy = any;       // and at once (unit: joules)
+    double max_speed = any;        // of a hand that holds it (unit: meters per second)
+    double damping = any;  // of its mechanics: what a stiff wall lives on (unit: newton seconds per meter)
     double max_damping = 0.0;  // that may be rendered on top (the same unit)
     double delay = 0.0;        // from a place's reading to its force, besides the tick (unit: seconds)
     // Of what moves with the hand, as a drive that moves it needs it.
@@ -49,6 +51,10 @@ public:
 
     // The force on the hand in the device's own frame (unit: newtons).
     virtual void write(Nanoseconds now, const Vec3& force) = 0;
+
+    // The torque on the handle that goes with the next force, in the same frame (unit: newton meters). For
+    // devices whose capabilities have one.
+    virtual void twist(const Vec3&) {}
 
     // Changes only within read().
     virtual DeviceCapabilities capabilities() const { return {}; }

@@ -8,6 +8,7 @@ namespace tactus {
 
 struct ForceCommand {
     Vec3 force{0.0};             // (unit: newtons)
+    Vec3 torque{0.0};            // (unit: newton meters)
     Nanoseconds written_at = 0;  // on the steady clock; 0: never
 };
 

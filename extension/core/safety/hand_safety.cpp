@@ -5,6 +5,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <utility>
+
+#include "core/teleop/body_motion.hpp"
 
 namespace tactus {
 
@@ -46,8 +49,10 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
 SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& sample) {
     SafeForce safe;
     safe.state = state_of(settings, sample);
+    const bool was_known = known_;
     known_ = safe.state != HandState::disconnected && safe.state != HandState::no_number;
     position_ = known_ ? sample.position : position_;
+    const Quat before = std::exchange(rotation_, sample.rotation);
     if (safe.state != HandState::working) {
         const bool known = known_;
         rest();
@@ -59,11 +64,13 @@ SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& s
         force = Vec3(0.0);
         safe.limited |= hand_limited_command;
     }
+    double share = 1.0;
     if (ramped_ < settings.ramp) {
         ramped_ += sample.seconds;
-        force *= std::min(1.0, ramped_ / settings.ramp);
+        share = std::min(1.0, ramped_ / settings.ramp);
         safe.state = HandState::ramping;
     }
+    force *= share;
     if (settings.passive) {
         const Vec3 wanted = force;
         force = passivity_.pass({sample.position, sample.velocity, settings.damping, settings.max_damping,
@@ -76,11 +83,27 @@ SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& s
                              sample.own_change, cut);
     safe.limited |= cut ? hand_limited_force : 0u;
     passivity_.given(safe.force);
+    if (settings.max_torque > 0.0) {
+        const Vec3 turned = was_known ? turn_vector(sample.rotation * glm::conjugate(before)) : Vec3(0.0);
+        safe.torque = torque_of(settings, sample, share, turned / sample.seconds, safe.limited);
+    }
     return safe;
+}
+
+Vec3 HandSafety::torque_of(const SafetySettings& settings, const SafetySample& sample, double share,
+                           const Vec3& spin, std::uint32_t& limited) {
+    const bool sound = is_number(sample.torque) && is_hands(spin);
+    bool cut = false;
+    const Vec3 torque =
+        torque_exit_.leave(settings.torque_limits, sound ? sample.torque * share : Vec3(0.0),
+                           settings.max_torque, sound ? spin : Vec3(0.0), sample.seconds, 0.0, cut);
+    limited |= (cut ? hand_limited_force : 0u) | (sound ? 0u : hand_limited_command);
+    return torque;
 }
 
 void HandSafety::rest() {
     exit_.rest();
+    torque_exit_.rest();
     passivity_.reset();
     ramped_ = 0.0;
     known_ = false;

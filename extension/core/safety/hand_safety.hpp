@@ -5,6 +5,9 @@
 //     touch would make energy                                            HandPassivity damps it
 //     larger, faster or more powerful than the device allows             ForceExit cuts it
 //
+// A torque goes the same way, by limits of its own. It is always the scene's to give: only its power is
+// limited.
+//
 // Pure values: no clock, no allocation.
 #pragma once
 
@@ -37,7 +40,9 @@ struct SafetySettings {
     static constexpr double none = std::numeric_limits<double>::infinity();
 
     ForceLimits limits{none, none, none};
-    double max_force = none;     // (unit: newtons)
+    double max_force = none;                      // (unit: newtons)
+    ForceLimits torque_limits{none, none, none};  // the slew in newton meters per second
+    double max_torque = 0.0;                      // (unit: newton meters); 0: there is none to give
     double max_speed = none;     // of a hand; faster ones are no readings (unit: meters per second)
     double ramp = 0.0;           // until the whole force is given (unit: seconds), >= 0
     std::uint32_t dead_man = 0;  // buttons, any of which must be held; 0: none
@@ -48,8 +53,10 @@ struct SafetySettings {
 
 struct SafetySample {
     Vec3 wanted{0.0};    // (unit: newtons)
+    Vec3 torque{0.0};    // wanted on the handle, which the scene gives as it likes (unit: newton meters)
     Vec3 position{0.0};  // of the hand, in the device's own measure (unit: meters)
     Vec3 velocity{0.0};  // (unit: meters per second)
+    Quat rotation{1.0, 0.0, 0.0, 0.0};  // of the handle
     std::uint32_t buttons = 0;
     bool connected = true;
     bool enabled = true;
@@ -59,7 +66,8 @@ struct SafetySample {
 };
 
 struct SafeForce {
-    Vec3 force{0.0};  // (unit: newtons)
+    Vec3 force{0.0};   // (unit: newtons)
+    Vec3 torque{0.0};  // (unit: newton meters)
     HandState state = HandState::working;
     std::uint32_t limited = 0;  // HandLimited
 };
@@ -75,12 +83,15 @@ public:
 
 private:
     HandState state_of(const SafetySettings& settings, const SafetySample& sample) const;
+    Vec3 torque_of(const SafetySettings& settings, const SafetySample& sample, double share, const Vec3& spin,
+                   std::uint32_t& limited);
 
-    ForceExit exit_;
+    ForceExit exit_, torque_exit_;
     HandPassivity passivity_;
     double ramped_ = 0.0;  // since the hand was last given nothing (unit: seconds)
     bool known_ = false;   // position_ is where the hand was one tick ago
     Vec3 position_{0.0};
+    Quat rotation_{1.0, 0.0, 0.0, 0.0};
 };
 
 // For people, with what to do.

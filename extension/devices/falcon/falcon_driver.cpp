@@ -74,8 +74,7 @@ std::string FalconDriver::open(const std::atomic<bool>& stop) {
 std::string FalconDriver::open_device() {
     usb::Device** devices = nullptr;
     const long count = usb_->get_device_list(context_, &devices);
-    std::string error = settings_.id.empty() ? "no Falcon is plugged in: plug it in, with its power"
-                                             : "the Falcon " + settings_.id + " is not plugged in";
+    std::string error, others;
     for (long i = 0; i < count && handle_ == nullptr; ++i) {
         usb::DeviceDescriptor descriptor{};
         if (usb_->get_device_descriptor(devices[i], &descriptor) != 0 || descriptor.vendor != vendor ||
@@ -89,6 +88,7 @@ std::string FalconDriver::open_device() {
             place += (port == 0 ? "-" : ".") + std::to_string(ports[static_cast<std::size_t>(port)]);
         }
         if (!settings_.id.empty() && settings_.id != place) {
+            others += (others.empty() ? "" : ", ") + place;
             continue;
         }
         const int opened = usb_->open(devices[i], &handle_);
@@ -115,7 +115,14 @@ std::string FalconDriver::open_device() {
     if (devices != nullptr) {
         usb_->free_device_list(devices, 1);
     }
-    return error;
+    if (handle_ != nullptr || !error.empty()) {
+        return error;
+    }
+    if (settings_.id.empty()) {
+        return "no Falcon is plugged in: plug it in, with its power";
+    }
+    return "the Falcon " + settings_.id + " is not plugged in" +
+           (others.empty() ? ": plug it in, with its power" : ": set 'device_id' to one of " + others);
 }
 
 // --- start-up, with libusb's calls that wait

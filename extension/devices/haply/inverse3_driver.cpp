@@ -68,13 +68,18 @@ JsonValue Inverse3Driver::device_in(const JsonValue& state) const {
     return all[all.size()];
 }
 
-// False where it is no state of this device.
+// False where it says nothing of this device. What is no JSON, or no place, is a hand that is not there.
 bool Inverse3Driver::take(const JsonValue& state, DeviceSample& sample) {
     const JsonValue device = device_in(state);
+    if (state.exists() && !device.exists()) {
+        return false;
+    }
     Vec3 position, velocity;
     if (!device["state"]["cursor_position"].vector(position) ||
         !device["state"]["cursor_velocity"].vector(velocity)) {
-        return false;
+        sample.connected = false;
+        sample.velocity = Vec3(0.0);
+        return true;
     }
     sample.position = from_device(position - middle);
     sample.velocity = from_device(velocity);

@@ -1,6 +1,8 @@
 #include "devices/vendors/force_dimension_driver.hpp"
 
 #include <algorithm>
+#include <array>
+#include <glm/gtc/quaternion.hpp>
 
 #include "devices/falcon/falcon_arm.hpp"
 
@@ -15,6 +17,24 @@ constexpr Nanoseconds period = 1'000'000;
 Vec3 from_device(double x, double y, double z) {
     return {y, z, x};
 }
+
+// Of the handle, from the matrix by rows in their axes.
+Quat from_device(const double (&rows)[3][3]) {
+    constexpr std::array theirs{1, 2, 0};  // the axis of theirs that is ours
+    Mat3 turn;
+    for (int column = 0; column < 3; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            turn[column][row] =
+                rows[theirs[static_cast<std::size_t>(row)]][theirs[static_cast<std::size_t>(column)]];
+        }
+    }
+    return glm::normalize(glm::quat_cast(turn));
+}
+
+// After so long without a force its firmware lets go, whatever has become of this process (in eighths of a
+// millisecond).
+constexpr unsigned char watchdog_time = 16;
+constexpr Nanoseconds let_go_after = watchdog_time * Nanoseconds{125'000};
 
 // 0 is fine; 1 (too soon) and 2 (a motor gives less than asked) are no errors.
 bool failed(int result) {
@@ -48,6 +68,13 @@ std::string ForceDimensionDriver::load() {
         {"dhdSetGravityCompensation", dhd_.set_gravity_compensation},
         {"dhdErrorGetLastStr", dhd_.last_error},
         {"dhdStop", dhd_.stop},
+    });
+    library_.find({{"dhdSetWatchdog", set_watchdog_}});
+    library_.find({
+        {"dhdHasWrist", wrist_.has_wrist},
+        {"dhdHasActiveWrist", wrist_.has_active_wrist},
+        {"dhdGetOrientationFrame", wrist_.get_frame},
+        {"dhdSetForceAndTorqueAndGripperForce", wrist_.set_all},
     });
     return all ? ""
                : "Force Dimension's library is of a version that lacks what is needed: install SDK 3.9 or "
@@ -92,13 +119,27 @@ std::string ForceDimensionDriver::open_one(int index) {
         close();
         return "the device gives no force: " + why;
     }
-    next_ = monotonic_now();
+    is_watched_ = set_watchdog_ != nullptr && !failed(set_watchdog_(watchdog_time, device_));
+    turns_ = wrist_.has_wrist != nullptr && wrist_.has_wrist(device_) > 0;
+    twists_ = turns_ && wrist_.has_active_wrist(device_) > 0;
+    next_ = set_at_ = monotonic_now();
     return {};
+}
+
+bool ForceDimensionDriver::set(const Vec3& force, const Vec3& torque) {
+    const Nanoseconds now = monotonic_now();
+    if (is_watched_ && now - set_at_ >= let_go_after) {
+        dhd_.enable_force(1, device_);  // its firmware may have let go meanwhile
+    }
+    set_at_ = now;
+    return !failed(twists_
+                       ? wrist_.set_all(force.z, force.x, force.y, torque.z, torque.x, torque.y, 0.0, device_)
+                       : dhd_.set_force(force.z, force.x, force.y, device_));
 }
 
 void ForceDimensionDriver::close() {
     if (is_open_) {
-        dhd_.set_force(0.0, 0.0, 0.0, device_);
+        set(Vec3(0.0), Vec3(0.0));
         dhd_.close(device_);
         is_open_ = false;
     }
@@ -115,8 +156,14 @@ Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds u
     sample.velocity = from_device(vx, vy, vz);
     sample.buttons = dhd_.get_buttons(device_);
     sample.connected = true;
+    if (double rows[3][3]{}; turns_) {
+        if (failed(wrist_.get_frame(rows, device_))) {
+            return Exchange::lost;
+        }
+        sample.rotation = from_device(rows);
+    }
     const Vec3 force = forces.living(monotonic_now());
-    return failed(dhd_.set_force(force.z, force.x, force.y, device_)) ? Exchange::lost : Exchange::reading;
+    return set(force, forces.torque()) ? Exchange::reading : Exchange::lost;
 }
 
 // Brakes, and no force.
@@ -132,6 +179,9 @@ DeviceCapabilities ForceDimensionDriver::capabilities() const {
         device.max_force = 12.0;
         device.damping = 3.0;
     }
+    device.rotates = turns_;
+    device.max_torque = twists_ ? 0.15 : 0.0;
+    device.max_torque_slew = 50.0;
     return device;
 }
 

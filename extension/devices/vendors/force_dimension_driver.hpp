@@ -38,18 +38,31 @@ private:
         int (*stop)(char) = nullptr;
         const char* (*last_error)() = nullptr;
     };
+    // Of those with a wrist.
+    struct WristFunctions {
+        int (*has_wrist)(char) = nullptr;
+        int (*has_active_wrist)(char) = nullptr;
+        int (*get_frame)(double (*)[3], char) = nullptr;
+        int (*set_all)(double, double, double, double, double, double, double, char) = nullptr;
+    };
 
     std::string load();
     std::string open_one(int index);
+    bool set(const Vec3& force, const Vec3& torque);
 
     std::string wanted_, id_;
     RuntimeLibrary library_;
     Functions dhd_;
+    WristFunctions wrist_;
+    int (*set_watchdog_)(unsigned char, char) = nullptr;  // null: this version has none
     SleepTimer timer_;
     char device_ = -1;
     bool is_open_ = false;
     int type_ = 0;
-    Nanoseconds next_ = 0;  // exchange
+    bool turns_ = false, twists_ = false;  // it has a wrist; with motors
+    bool is_watched_ = false;              // by its own firmware
+    Nanoseconds set_at_ = 0;               // the last force
+    Nanoseconds next_ = 0;                 // exchange
 };
 
 }  // namespace tactus

@@ -19,11 +19,14 @@ enum : unsigned {
     hd_model = 0x2501,
     hd_serial = 0x2504,
     hd_workspace = 0x2551,  // corners of the usable part (unit: millimeters)
+    hd_output_dof = 0x2554,
     hd_calibration_style = 0x2555,
     hd_update_rate = 0x2600,
     hd_max_force = 0x2603,
     hd_continuous_force = 0x2604,
+    hd_max_torque = 0x2622,  // (unit: newton millimeters)
     hd_force = 0x2700,
+    hd_torque = 0x2703,  // (the same unit)
     hd_force_output = 0x4000,
     hd_calibration_update = 0x5001,
     hd_calibration_by_hand = 0x5002,
@@ -101,12 +104,16 @@ std::string OpenHapticsDriver::open(const std::atomic<bool>&) {
 
 void OpenHapticsDriver::read_capabilities() {
     std::array<double, 6> box{};
-    double most = 0.0, lasting = 0.0;
-    int rate = 0;
+    double most = 0.0, lasting = 0.0, torque = 0.0;
+    int rate = 0, motors = 0;
     hd_.get_doubles(hd_workspace, box.data());
     hd_.get_doubles(hd_max_force, &most);
     hd_.get_doubles(hd_continuous_force, &lasting);
     hd_.get_integers(hd_update_rate, &rate);
+    hd_.get_integers(hd_output_dof, &motors);
+    if (motors == 6) {
+        hd_.get_doubles(hd_max_torque, &torque);
+    }
     capabilities_ = {};
     capabilities_.feels = true;
     capabilities_.rotates = true;
@@ -114,6 +121,8 @@ void OpenHapticsDriver::read_capabilities() {
     capabilities_.rate = rate > 0 ? rate : 1000.0;
     capabilities_.delay = 1.0 / capabilities_.rate;
     capabilities_.max_force = std::max(most, lasting);
+    capabilities_.max_torque = millimeters * torque;
+    capabilities_.max_torque_slew = 500.0 * capabilities_.max_torque;
     capabilities_.max_slew = 500.0 * capabilities_.max_force;
     capabilities_.max_power = 3.0;
     capabilities_.max_energy = 0.3;
@@ -155,6 +164,10 @@ void OpenHapticsDriver::serve_frame() {
     ForceSlot* const forces = forces_.load(std::memory_order_acquire);
     const Vec3 force = forces != nullptr ? forces->living(monotonic_now()) : Vec3(0.0);
     hd_.set_doubles(hd_force, &force.x);
+    if (capabilities_.max_torque > 0.0) {
+        const Vec3 torque = (forces != nullptr ? forces->torque() : Vec3(0.0)) / millimeters;
+        hd_.set_doubles(hd_torque, &torque.x);
+    }
     hd_.end_frame(device_);
     if (const Error error = hd_.get_error(); is_fault(error.code)) {
         fault_.store(error.code, std::memory_order_release);

@@ -49,6 +49,49 @@ TEST(HandSafety, TheForceGrowsFromNothingAfterEveryPause) {
     grows();
 }
 
+TEST(HandSafety, ATorqueLeavesWithinItsOwnLimits) {
+    HandSafety safety;
+    SafetySettings settings;
+    SafetySample sample;
+    sample.torque = {0.0, 3.0, 0.0};
+    EXPECT_EQ(safety.pass(settings, sample).torque, Vec3(0.0)) << "nothing can give it";
+    settings.max_torque = 0.2;
+    settings.torque_limits.slew = 50.0;
+    for (int tick = 1; tick <= 10; ++tick) {
+        const SafeForce safe = safety.pass(settings, sample);
+        EXPECT_NEAR(safe.torque.y, std::min(0.2, 0.05 * tick), 1e-12);
+        EXPECT_EQ(safe.limited, hand_limited_force);
+        EXPECT_EQ(safe.force, Vec3(0.0));
+    }
+    sample.torque = Vec3(std::nan(""));
+    EXPECT_EQ(safety.pass(settings, sample).limited & hand_limited_command, hand_limited_command);
+    sample.torque = {0.0, 0.1, 0.0};
+    sample.enabled = false;
+    EXPECT_EQ(safety.pass(settings, sample).torque, Vec3(0.0));
+    settings.ramp = 0.1;
+    sample.enabled = true;
+    EXPECT_NEAR(safety.pass(settings, sample).torque.y, 0.001, 1e-12) << "it grows from nothing";
+}
+
+// A handle that goes with the torque, faster and faster.
+TEST(HandSafety, ATorqueGivesNoMorePowerThanIsAllowed) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.max_torque = 1.0;
+    settings.torque_limits = {SafetySettings::none, 0.01, 0.5};
+    SafetySample sample;
+    sample.torque = {0.0, 1.0, 0.0};
+    double angle = 0.0, given = 0.0;
+    for (int tick = 1; tick <= 1'000; ++tick) {
+        const double spin = 0.02 * tick;
+        angle += spin * sample.seconds;
+        sample.rotation = {std::cos(0.5 * angle), 0.0, std::sin(0.5 * angle), 0.0};
+        given += safety.pass(settings, sample).torque.y * spin * sample.seconds;
+    }
+    EXPECT_LE(given, 0.01 + 0.5 * 1.0 + 1e-9);
+    EXPECT_GT(given, 0.4);
+}
+
 TEST(HandSafety, WithoutTheButtonThereIsNoForceAtOnce) {
     HandSafety safety;
     SafetySettings settings;
@@ -145,7 +188,7 @@ TEST(SafeWall, MakesNoEnergyAndComesToRestWhereAStifferOneDoesNot) {
 }
 
 TEST(ForceWatch, AForceDiesWithItsLoop) {
-    const ForceCommand command{{1.0, 0.0, 0.0}, 5'000'000};
+    const ForceCommand command{{1.0, 0.0, 0.0}, {}, 5'000'000};
     EXPECT_TRUE(is_alive(command, 5'000'000));
     EXPECT_TRUE(is_alive(command, 5'000'000 + force_lifetime));
     EXPECT_FALSE(is_alive(command, 5'000'001 + force_lifetime));

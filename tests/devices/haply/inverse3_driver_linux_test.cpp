@@ -2,77 +2,18 @@
 #include "devices/haply/inverse3_driver.hpp"
 
 #include <gtest/gtest.h>
-#include <poll.h>
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <functional>
 #include <glm/geometric.hpp>
 #include <string>
 
 #include "shared/driven_device.hpp"
+#include "shared/haply_service.hpp"
 
 namespace tactus {
 namespace {
 
-class Service {
-public:
-    explicit Service(const char* manner = "") {
-        int in[2], out[2];
-        if (pipe(in) != 0 || pipe(out) != 0) {
-            return;
-        }
-        process_ = fork();
-        if (process_ == 0) {
-            prctl(PR_SET_PDEATHSIG, SIGKILL);
-            dup2(in[0], 0);
-            dup2(out[1], 1);
-            close(in[1]);
-            close(out[0]);
-            execlp("python3", "python3", "tests/stand_ins/haply_service.py", manner, nullptr);
-            _exit(127);
-        }
-        close(in[0]);
-        close(out[1]);
-        to_ = in[1];
-        from_ = out[0];
-        port_ = static_cast<std::uint16_t>(std::strtol(line().c_str(), nullptr, 10));
-    }
-    ~Service() {
-        close(to_);
-        kill(process_, SIGKILL);
-        waitpid(process_, nullptr, 0);
-        close(from_);
-    }
-    Service(const Service&) = delete;
-    Service& operator=(const Service&) = delete;
-
-    std::uint16_t port() const { return port_; }
-    void drop() { EXPECT_EQ(write(to_, "drop\n", 5), 5); }
-    // The newest force that it was told, in its axes.
-    std::string force() {
-        for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
-            force_ = line();
-        }
-        return force_;
-    }
-
-private:
-    std::string line() {
-        std::string text;
-        for (char c = 0; read(from_, &c, 1) == 1 && c != '\n';) {
-            text += c;
-        }
-        return text;
-    }
-
-    pid_t process_ = 0;
-    int to_ = -1, from_ = -1;
-    std::uint16_t port_ = 0;
-    std::string force_;
-};
+using shared::HaplyService;
 
 // Whether both libraries are here; they come with no other part of the project.
 bool is_supported() {
@@ -89,13 +30,13 @@ bool says(const DriverDevice& device, const std::string& words) {
     return wait_until([&] { return device.health().text.find(words) != std::string::npos; });
 }
 
-std::unique_ptr<DriverDevice> inverse3(const Service& service, std::string id = {}) {
+std::unique_ptr<DriverDevice> inverse3(const HaplyService& service, std::string id = {}) {
     return std::make_unique<DriverDevice>(std::make_unique<Inverse3Driver>(std::move(id), service.port()));
 }
 
 TEST(Inverse3, PlacesTurnsButtonsAndForcesAreInOurAxes) {
     NEEDS_LIBRARIES();
-    Service service;
+    HaplyService service;
     const auto device = inverse3(service);
     ASSERT_TRUE(
         tick_until(*device, {1.0, 2.0, 3.0}, [&](const auto&) { return service.force() == "1.0 -3.0 2.0"; }));
@@ -110,16 +51,31 @@ TEST(Inverse3, PlacesTurnsButtonsAndForcesAreInOurAxes) {
 
 TEST(Inverse3, AStalledLoopLetsTheHandGo) {
     NEEDS_LIBRARIES();
-    Service service;
+    HaplyService service;
     const auto device = inverse3(service);
     ASSERT_TRUE(
         tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
     EXPECT_TRUE(wait_until([&] { return service.force() == "0.0 0.0 0.0"; }));
 }
 
+TEST(Inverse3, NonsenseIsGivenNoForceAndNoHand) {
+    NEEDS_LIBRARIES();
+    HaplyService service;
+    const auto device = inverse3(service);
+    ASSERT_TRUE(
+        tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+    service.go_mad();
+    EXPECT_TRUE(tick_until(*device, {1.0, 0.0, 0.0}, [&](const DeviceSample& sample) {
+        return !sample.connected && service.force() == "0.0 0.0 0.0";
+    }));
+    service.drop();
+    EXPECT_TRUE(
+        tick_until(*device, {1.0, 0.0, 0.0}, [&](const auto&) { return service.force() == "1.0 0.0 0.0"; }));
+}
+
 TEST(Inverse3, ConnectsAnewWhenTheServiceHasClosed) {
     NEEDS_LIBRARIES();
-    Service service;
+    HaplyService service;
     const auto device = inverse3(service);
     ASSERT_TRUE(tick_until(*device, Vec3(0.0), [](const DeviceSample& sample) { return sample.connected; }));
     service.drop();
@@ -132,7 +88,7 @@ TEST(Inverse3, SaysWhatIsMissing) {
     NEEDS_LIBRARIES();
     DriverDevice nobody(std::make_unique<Inverse3Driver>("", std::uint16_t{9}));
     EXPECT_TRUE(says(nobody, "Haply Hub"));
-    Service service, silent("silent"), mad("nonsense"), fresh("uncalibrated");
+    HaplyService service, silent("silent"), mad("nonsense"), fresh("uncalibrated");
     EXPECT_TRUE(says(*inverse3(service, "FFFF"), "no Inverse3 FFFF"));
     EXPECT_TRUE(says(*inverse3(silent), "says nothing"));
     EXPECT_TRUE(says(*inverse3(mad), "no Inverse3"));

@@ -51,6 +51,31 @@ TEST(ForceDimension, PlacesAndForcesAreInOurAxes) {
     EXPECT_EQ(dhd().wrong_calls, 0);
 }
 
+TEST(ForceDimension, AWristIsTurnedAndTwistedInOurAxes) {
+    dhd().has_wrist = true;
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    device.twist({0.01, 0.02, 0.03});
+    EXPECT_TRUE(tick_until(device, {1.0, 2.0, 3.0}, [](const DeviceSample& sample) {
+        return sample.connected && values_of(dhd().torque) == Vec3(0.03, 0.01, 0.02) &&
+               values_of(dhd().force) == Vec3(3.0, 1.0, 2.0);
+    }));
+    // About their x, which is our z: our x goes to our y.
+    EXPECT_LT(glm::distance(device.read(0).rotation * Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0)), 1e-12);
+    EXPECT_TRUE(device.capabilities().rotates);
+    EXPECT_GT(device.capabilities().max_torque, 0.0);
+    EXPECT_TRUE(wait_until([] { return values_of(dhd().torque) == Vec3(0.0); })) << "the loop has stopped";
+    dhd().has_wrist = false;
+    EXPECT_EQ(dhd().wrong_calls, 0);
+}
+
+// Where the whole process is frozen, nobody but the device can.
+TEST(ForceDimension, ItsFirmwareLetsGoAfterTwoMilliseconds) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    ASSERT_TRUE(tick_until(device, Vec3(0.0), is_connected));
+    EXPECT_EQ(dhd().watchdog, 16);
+    EXPECT_EQ(device.capabilities().max_torque, 0.0);
+}
+
 // By the driver itself, or by the watchdog where the driver is late, too.
 TEST(ForceDimension, AStalledLoopLetsTheHandGo) {
     DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
@@ -103,6 +128,19 @@ TEST(OpenHaptics, PlacesTurnsAndForcesComeThroughItsFrames) {
     EXPECT_EQ(device.capabilities().max_force, 3.3);
     EXPECT_NEAR(device.capabilities().radius, 0.035, 1e-12);
     EXPECT_EQ(device.health().id, "Touch 0815");
+    EXPECT_EQ(hd().wrong_calls, 0);
+}
+
+TEST(OpenHaptics, SixMotorsGiveATorque) {
+    hd().has_six_motors = true;
+    DriverDevice device(std::make_unique<OpenHapticsDriver>(""));
+    device.twist({0.01, 0.02, 0.03});
+    EXPECT_TRUE(tick_until(device, {0.5, 1.0, 1.5}, [](const auto&) {
+        return glm::distance(values_of(hd().torque), Vec3(10.0, 20.0, 30.0)) < 1e-9;
+    }));
+    EXPECT_NEAR(device.capabilities().max_torque, 0.188, 1e-12);
+    EXPECT_TRUE(wait_until([] { return values_of(hd().torque) == Vec3(0.0); })) << "the loop has stopped";
+    hd().has_six_motors = false;
     EXPECT_EQ(hd().wrong_calls, 0);
 }
 

@@ -1,0 +1,77 @@
+// Answers as Haply's service does (tests/stand_ins/haply_service.py), in a process of its own. Linux only.
+#pragma once
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+namespace tactus::shared {
+
+class HaplyService {
+public:
+    explicit HaplyService(const char* manner = "") {
+        int in[2], out[2];
+        if (pipe(in) != 0 || pipe(out) != 0) {
+            return;
+        }
+        process_ = fork();
+        if (process_ == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGKILL);
+            dup2(in[0], 0);
+            dup2(out[1], 1);
+            close(in[1]);
+            close(out[0]);
+            execlp("python3", "python3", "tests/stand_ins/haply_service.py", manner, nullptr);
+            _exit(127);
+        }
+        close(in[0]);
+        close(out[1]);
+        to_ = in[1];
+        from_ = out[0];
+        port_ = static_cast<std::uint16_t>(std::strtol(line().c_str(), nullptr, 10));
+    }
+    ~HaplyService() {
+        close(to_);
+        kill(process_, SIGKILL);
+        waitpid(process_, nullptr, 0);
+        close(from_);
+    }
+    HaplyService(const HaplyService&) = delete;
+    HaplyService& operator=(const HaplyService&) = delete;
+
+    std::uint16_t port() const { return port_; }
+    void drop() { tell("drop\n"); }
+    void go_mad() { tell("mad\n"); }
+    // The newest force that it was told, in its axes.
+    std::string force() {
+        for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
+            force_ = line();
+        }
+        return force_;
+    }
+
+private:
+    void tell(const std::string& line) {
+        static_cast<void>(write(to_, line.data(), line.size()) == static_cast<ssize_t>(line.size()));
+    }
+    std::string line() {
+        std::string text;
+        for (char c = 0; read(from_, &c, 1) == 1 && c != '\n';) {
+            text += c;
+        }
+        return text;
+    }
+
+    pid_t process_ = 0;
+    int to_ = -1, from_ = -1;
+    std::uint16_t port_ = 0;
+    std::string force_;
+};
+
+}  // namespace tactus::shared
