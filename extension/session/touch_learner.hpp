@@ -20,6 +20,8 @@ struct RobotTip {
 
 class TouchLearner {
 public:
+    TouchLearner() { touching_.fill(no_handle); }
+
     // Once a tick for each pointer whose robot is held.
     void feel(SessionLoop& loop, std::size_t pointer, const RobotTip& tip);
     // Nobody holds it.
@@ -38,14 +40,8 @@ private:
     Learnt& lesson(SessionHandle body);
 
     std::array<Learnt, 16> learnt_;
-    std::array<SessionHandle, max_proxies> touching_ = filled(no_handle);
+    std::array<SessionHandle, max_proxies> touching_;  // by pointer; no_handle: none
     std::uint64_t touches_ = 0;
-
-    static constexpr std::array<SessionHandle, max_proxies> filled(SessionHandle with) {
-        std::array<SessionHandle, max_proxies> all{};
-        all.fill(with);
-        return all;
-    }
 };
 
 }  // namespace tactus

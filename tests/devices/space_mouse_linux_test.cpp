@@ -23,7 +23,7 @@ using Message = std::array<std::int32_t, 8>;
 
 class Daemon {
 public:
-    Daemon() : path_("/tmp/tactus_spacenavd_" + std::to_string(getpid())) { start(); }
+    Daemon() : path_(testing::TempDir() + "tactus_spacenavd_" + std::to_string(getpid())) { start(); }
     ~Daemon() { stop(); }
     Daemon(const Daemon&) = delete;
     Daemon& operator=(const Daemon&) = delete;
@@ -178,7 +178,7 @@ TEST(SpaceMouse, ADaemonThatGoesIsLookedForUntilItIsBack) {
 }
 
 TEST(SpaceMouse, SaysWhatIsInTheWay) {
-    SpaceMouse nobody("/tmp/tactus_no_spacenavd");
+    SpaceMouse nobody(testing::TempDir() + "tactus_no_spacenavd");
     nobody.look(0);
     EXPECT_NE(nobody.problem().find("apt-get install spacenavd"), std::string::npos) << nobody.problem();
     SpaceMouse nowhere(std::string(1'000, 'x'));

@@ -75,7 +75,7 @@ func test_a_stick_is_a_place_where_that_is_asked_for() -> void:
 
 
 func test_a_space_mouse_without_its_daemon_says_so() -> void:
-	OS.set_environment("SPNAV_SOCKET", "/tmp/no_such_spacenavd")
+	OS.set_environment("SPNAV_SOCKET", OS.get_user_data_dir().path_join("no_such_spacenavd"))
 	expect_error("needs spacenavd")
 	var world := add_world()
 	var device := _device(world, HapticDevice.DRIVER_SPACE_MOUSE)

@@ -129,6 +129,8 @@ private:
     void place_nodes(const TriangleMesh& mesh, const CornerExtent& extent, const ParallelRunner& run);
     void place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run);
     void fit_boxes(const ParallelRunner& run);
+    void fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle,
+                        std::span<const std::uint32_t> packs) const;
     void fit_turned_boxes(const ParallelRunner& run);
     std::size_t packs_below(std::uint32_t child, std::span<std::uint32_t> out) const;
 

@@ -121,6 +121,34 @@ std::size_t TriangleTree::packs_below(std::uint32_t child, std::span<std::uint32
     return count;
 }
 
+// `middle`: of the child's box, in the frame of the mesh. Left as it is where no plane fits the packs.
+void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle,
+                                  std::span<const std::uint32_t> packs) const {
+    Vec3 area(0.0);
+    for (const std::uint32_t p : packs) {
+        area += area_of(pack(p));
+    }
+    if (const double size = glm::length(area); !(size > 0.0 && std::isfinite(size))) {
+        return;
+    }
+    const Vec3 normal = glm::normalize(area);
+    Spread spread(normal, middle);
+    for (const std::uint32_t p : packs) {
+        spread.take(pack(p));
+    }
+    set_axes(turned, slot, normal, spread.longest());
+    const TurnedAxes axes = axes_of(turned);
+    TurnedBox box;
+    box.middle = middle;
+    box.normal = lane(turned.normal, slot);
+    box.along = lane(axes.along, slot);
+    box.third = lane(axes.third, slot);
+    for (const std::uint32_t p : packs) {
+        box.take(pack(p));
+    }
+    box.put(turned, slot);
+}
+
 void TriangleTree::fit_turned_boxes(const ParallelRunner& run) {
     turned_.assign(nodes_.size(), TurnedNode{});
     run_in_parts(run, nodes_.size(), nodes_a_task, [&](std::size_t, std::size_t n, std::size_t end) {
@@ -130,33 +158,9 @@ void TriangleTree::fit_turned_boxes(const ParallelRunner& run) {
             for (int i = 0; i < node_width; ++i) {
                 const std::uint32_t child = nodes_[n].child[i];
                 const std::size_t count = child == BoxNode::unused ? 0 : packs_below(child, room);
-                if (count == 0 || count > max_packs) {
-                    continue;
+                if (count > 0 && count <= max_packs) {
+                    fit_turned_box(turned_[n], i, origin_ + lane(middles, i), {room.data(), count});
                 }
-                const std::span<const std::uint32_t> below(room.data(), count);
-                Vec3 area(0.0);
-                for (const std::uint32_t p : below) {
-                    area += area_of(pack(p));
-                }
-                if (const double size = glm::length(area); !(size > 0.0 && std::isfinite(size))) {
-                    continue;
-                }
-                TurnedBox box;
-                box.middle = origin_ + lane(middles, i);
-                const Vec3 normal = glm::normalize(area);
-                Spread spread(normal, box.middle);
-                for (const std::uint32_t p : below) {
-                    spread.take(pack(p));
-                }
-                set_axes(turned_[n], i, normal, spread.longest());
-                const TurnedAxes axes = axes_of(turned_[n]);
-                box.normal = lane(turned_[n].normal, i);
-                box.along = lane(axes.along, i);
-                box.third = lane(axes.third, i);
-                for (const std::uint32_t p : below) {
-                    box.take(pack(p));
-                }
-                box.put(turned_[n], i);
             }
         }
     });
