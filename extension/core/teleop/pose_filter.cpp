@@ -50,12 +50,14 @@ double Chance::variance() const {
     return std::min(std::max(0.0, -lagged) / 3.0, std::max(0.0, squares - open) / 6.0);
 }
 
-// A product e_k . e_(k-1) of three axes has a variance of 15 R^2: two deviations of the mean are added.
+// Two deviations of the mean are added. A square |e_k|^2 of three axes has a variance of 24 R^2, half as much
+// again for those that share an n_k, where its mean is 6 R; a product e_k . e_(k-1) one of 15 R^2.
 double Chance::variance_at_most() const {
+    const double states = std::max(1.0, count);
     const double by_squares = std::max(0.0, squares - open) / 6.0;
     const double by_lagged =
-        std::max(0.0, -lagged) / 3.0 + 2.0 * by_squares * std::sqrt(5.0 / (3.0 * std::max(1.0, count)));
-    return std::min(by_squares, by_lagged);
+        std::max(0.0, -lagged) / 3.0 + 2.0 * by_squares * std::sqrt(5.0 / (3.0 * states));
+    return std::min(by_squares * (1.0 + 2.0 / std::sqrt(states)), by_lagged);
 }
 
 Chance together(const Chance& own, const Chance& others) {
