@@ -93,6 +93,13 @@ Vec3 RoughVector::believed(const PoseFilterSettings& settings, const Chance& cha
     return trusting_.off;
 }
 
+double RoughVector::doubt(double none, const Chance& others) const {
+    const Chance chance = together(chance_, others);
+    const double variance = chance.variance();
+    const double gain = chance.count < states_to_tell ? seeing_.gain : trusting_.gain;
+    return variance <= square(none) ? 0.0 : 3.0 * gain * variance;
+}
+
 Vec3 RoughVector::begin(const PoseFilterSettings& settings, double none, const Off& off,
                         const Chance& others) {
     trusting_.off = off.trusting;
@@ -166,6 +173,22 @@ Pose PoseFilter::filter(const PoseFilterSettings& settings, const Pose& seen, co
         believed.rotation = seen.rotation;
     }
     return believed;
+}
+
+Pose PoseFilter::unless_said(const PoseFilterSettings& settings, const Pose& believed, const Pose& model,
+                             const FarEyes& eyes) const {
+    const double said = square(settings.unsaid);
+    const double place = said * place_.doubt(settings.place, eyes.place);
+    const Vec3 apart = believed.position - model.position;
+    const Vec3 turn = turn_vector(believed.rotation * glm::conjugate(model.rotation));
+    Pose result = believed;
+    if (square(apart) <= place) {
+        result.position = model.position;
+    }
+    if (square(turn) <= said * turn_.doubt(settings.turn, eyes.turn)) {
+        result.rotation = model.rotation;
+    }
+    return result;
 }
 
 }  // namespace tactus
