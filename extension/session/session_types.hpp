@@ -10,6 +10,8 @@
 #include "core/math/pose.hpp"
 #include "core/safety/hand_safety.hpp"
 #include "core/safety/stiffness_limit.hpp"
+#include "core/teleop/body_motion.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "core/tool/soft_finger.hpp"
 #include "physics/physics_world.hpp"
 #include "session/hand_mapping.hpp"
@@ -42,6 +44,13 @@ struct ProxyDescription {
     ForceLaw force_law = ForceLaw::spring;
     SoftFinger finger;  // what bodies are held by against turning
     bool enabled = true;
+};
+
+// Where a body is seen to be, and how it moves there.
+struct BodySighting {
+    BodyMotion motion;  // when it was seen
+    double age = 0.0;   // since then (unit: seconds), >= 0
+    PoseDoubt doubt;
 };
 
 // Bits of the TickStatus a session's tick returns (realtime/tick_status.hpp has the loop's own).
