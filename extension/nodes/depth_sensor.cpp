@@ -25,8 +25,8 @@ namespace {
 
 constexpr double never = -1.0;
 
-// What moves is guessed to go on as it did for three images, and no longer (unit: seconds).
-constexpr double longest_guess = 0.1;
+// What a synthetic camera sees is to stand as worlds show it in this frame.
+constexpr int after_worlds = 1;
 
 const char* word_of(SightState state) {
     switch (state) {
@@ -124,12 +124,15 @@ const Sight& DepthSensor::sight() const {
 }
 
 double DepthSensor::age() const {
-    return std::clamp(to_seconds(monotonic_now() - sight().arrived), 0.0, longest_guess);
+    return std::clamp(to_seconds(monotonic_now() - sight().seen_at), 0.0, longest_guess);
 }
 
 // The rest of the scene, which a synthetic camera looks at, may not be there yet.
 void DepthSensor::begin() {
-    set_process_internal(active_ && !is_edited() && is_inside_tree());
+    if (!is_edited()) {
+        set_process_priority(after_worlds);
+        set_process_internal(active_ && is_inside_tree());
+    }
 }
 
 void DepthSensor::make_sensor() {
@@ -210,6 +213,7 @@ void DepthSensor::pass_on_settings() {
     settings.camera = pose_of(get_global_transform());
     settings.min_confidence = min_confidence_;
     settings.max_rate = rate_;
+    settings.camera_delay = source_ == SOURCE_CAMERA ? 1e-3 * camera_delay_ : 0.0;
     settings.wants_cloud = show_cloud_;
     settings.wants_surface = touches_cloud();
     settings.knows_support = knows_support_;

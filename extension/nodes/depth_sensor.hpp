@@ -95,6 +95,7 @@ private:
     godot::PackedStringArray meshes_;
     double min_confidence_ = 0.5;
     double rate_ = 30.0;
+    double camera_delay_ = 0.0;  // (unit: milliseconds)
     bool knows_support_ = false;
     double support_height_ = 0.0;
     Bodies bodies_ = BODIES_NONE;

@@ -73,8 +73,8 @@ public:
     // It becomes a side of a teleoperation, or none, or another one: it starts anew.
     void link_changed() { world_changed(); }
     godot::Vector3 get_gravity() const { return gravity_; }
-    // How surely the body is where it is put, which a camera sees.
-    void set_doubt(const godot::Node* body, const PoseDoubt& doubt);
+    // A camera sees the body. False where it is not in the session.
+    bool see(const godot::Node* body, const BodySighting& sighting);
     // The last rows are written before the recorder closes its files.
     static void finish_recording(HapticRecorder& recorder);
     BodyDefaults body_defaults() const;

@@ -74,10 +74,12 @@ void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
     push("apply_torque", body, {.central = true, .turn = from_godot(torque)}, true);
 }
 
-void HapticWorld::set_doubt(const Node* body, const PoseDoubt& doubt) {
-    if (run_ != nullptr && run_->body_of(body) != no_handle) {
-        run_->session().set_body_doubt(run_->body_of(body), doubt);
+bool HapticWorld::see(const Node* body, const BodySighting& sighting) {
+    const SessionHandle seen = run_ != nullptr ? run_->body_of(body) : no_handle;
+    if (seen != no_handle) {
+        run_->session().see_body(seen, sighting);
     }
+    return seen != no_handle;
 }
 
 Vector3 HapticWorld::get_linear_velocity(Body* body) const {

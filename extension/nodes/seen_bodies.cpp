@@ -14,6 +14,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/tree_walk.hpp"
+#include "physics/solid_properties.hpp"
 
 namespace tactus {
 
@@ -23,7 +24,6 @@ namespace {
 
 const Color known_color(0.25f, 0.65f, 0.35f, 1.0f);
 const Color unknown_color(0.85f, 0.6f, 0.2f, 1.0f);
-const Color cloud_color(0.2f, 0.75f, 0.9f, 1.0f);
 
 // Of what nobody knows the mass of: that of water (unit: kilograms per cubic meter).
 constexpr double unknown_density = 1000.0;
@@ -36,13 +36,10 @@ TriangleMesh copy_of(const MeshView& view) {
     return {{view.vertices.begin(), view.vertices.end()}, {view.triangles.begin(), view.triangles.end()}};
 }
 
-// Of a closed mesh, by the tetrahedra between its triangles and the origin.
+// (unit: cubic meters)
 double volume_of(const TriangleMesh& mesh) {
-    double volume = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        volume += glm::dot(mesh.vertices[a], glm::cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
-    }
-    return std::abs(volume);
+    const std::optional<SolidProperties> solid = solid_properties(mesh);
+    return solid ? solid->volume : 0.0;
 }
 
 bool is_known(std::int32_t mesh, std::span<const SeenMesh> library) {
@@ -110,23 +107,26 @@ Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> 
     return made;
 }
 
-void SeenBodies::place(const SightedObject& object, double age) const {
+// What is pushed belongs to the loop, which is told at once; its node follows. All else goes where its node
+// is put.
+void SeenBodies::place(HapticWorld* world, const SightedObject& object, double age) const {
     Node3D* const node = node_of(object.id);
     if (node == nullptr) {
         return;
     }
-    node->set_global_transform(to_godot(pose_after(object, age)));
-    auto* const body = Object::cast_to<RigidBody3D>(node);
-    if (body != nullptr && !body->is_freeze_enabled()) {
-        body->set_linear_velocity(to_godot(object.linear_velocity));
-        body->set_angular_velocity(to_godot(object.angular_velocity));
+    const BodySighting sighting{
+        {object.pose, object.linear_velocity, object.angular_velocity}, age, object.chance};
+    const bool is_told =
+        looks_.objects == SeenAs::free_bodies && world != nullptr && world->see(node, sighting);
+    if (!is_told) {
+        node->set_global_transform(to_godot(pose_after(object, age)));
     }
 }
 
 void SeenBodies::go_on(const Sight& sight, double age) {
     for (const SightedObject& object : sight.objects) {
-        if (moves(object)) {
-            place(object, age);
+        if (moves(object) && looks_.objects != SeenAs::free_bodies) {
+            place(nullptr, object, age);
         }
     }
 }
@@ -150,10 +150,7 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const Seen
     roll_.update(sight, show, free_later);
     HapticWorld* const world = HapticWorld::above(&sensor);
     for (const SightedObject& object : sight.objects) {
-        place(object, age);
-        if (world != nullptr && looks.objects == SeenAs::free_bodies) {
-            world->set_doubt(node_of(object.id), object.chance);
-        }
+        place(world, object, age);
     }
     hold_support(sensor, sight.plane, looks.objects != SeenAs::pictures || looks.touch_cloud);
     if (looks.touch_cloud) {

@@ -15,6 +15,8 @@
 
 namespace tactus {
 
+class HapticWorld;
+
 struct SeenMesh {
     godot::String name;  // in the mesh library
     std::shared_ptr<const TriangleMesh> mesh;
@@ -54,7 +56,7 @@ public:
 private:
     godot::Node3D* make(const SightedObject& object, std::span<const SeenMesh> library,
                         const Looks& looks) const;
-    void place(const SightedObject& object, double age) const;
+    void place(HapticWorld* world, const SightedObject& object, double age) const;
     void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
     void hold_support(godot::Node3D& sensor, const SupportPlane& plane, bool is_wanted);
 

@@ -74,7 +74,7 @@ std::shared_ptr<TriangleSource> source_of(const godot::ConcavePolygonShape3D& co
     if (source == nullptr || !is_same) {
         const std::shared_ptr<TriangleSource> made = tactus::source_of(faces);
         if (source != nullptr) {
-            made->succeed(*source);
+            made->succeed(source);
         }
         source = made;
         known = {faces, source};

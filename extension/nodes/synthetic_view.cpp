@@ -1,12 +1,12 @@
 #include "nodes/synthetic_view.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/time.hpp>
 #include <godot_cpp/core/object.hpp>
 
 #include "nodes/conversions.hpp"
 #include "nodes/mesh_source.hpp"
 #include "nodes/tree_walk.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -100,7 +100,7 @@ bool SyntheticView::show(const Pose& camera) {
             bodies_.push_back({static_cast<std::uint32_t>(i), pose_of(drawn->get_global_transform())});
         }
     }
-    scene_->show(camera, bodies_, Time::get_singleton()->get_ticks_usec());
+    scene_->show(camera, bodies_, static_cast<std::uint64_t>(monotonic_now() / 1000));
     return is_another;
 }
 

@@ -18,8 +18,6 @@ using namespace godot;
 
 namespace {
 
-const Color cloud_color(0.2f, 0.75f, 0.9f, 1.0f);
-
 // What collides instead, where nothing is: hands alone feel the points, for bodies they are too rough (unit:
 // meters).
 constexpr float away = -10.0f;

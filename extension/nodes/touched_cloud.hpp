@@ -3,10 +3,14 @@
 
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/variant/color.hpp>
 
 #include "core/ports/depth_sensing.hpp"
 
 namespace tactus {
+
+// Of what is seen and not known, as points and as a surface.
+inline const godot::Color cloud_color(0.2f, 0.75f, 0.9f, 1.0f);
 
 class TouchedCloud {
 public:

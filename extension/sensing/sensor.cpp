@@ -152,6 +152,7 @@ bool Sensor::try_to_open() {
         if (error.empty()) {
             say(SensorState::waiting, camera->name() + " is open, waiting for its first frame");
             camera_ = std::move(camera);
+            clock_.forget();
             last_frame_ = monotonic_now();
             return true;
         }
@@ -197,6 +198,9 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
         return;
     }
     last_frame_ = last_fade_ = arrived;
+    const Nanoseconds seen_at = camera_->has_our_clock() ? static_cast<Nanoseconds>(image.time_us) * 1000
+                                                         : clock_.taken_at(image.time_us, arrived) -
+                                                               from_seconds(now_.settings.camera_delay);
     if (const std::string wrong = observer_.look(image, now_.settings, seen_); !wrong.empty()) {
         ++seen_.sight.dropped;
         say(SensorState::waiting, wrong);
@@ -207,7 +211,7 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
     seen_.text = "seeing through " + camera_->name();
     ++seen_.sight.frames;
     seen_.sight.camera_time = image.time_us;
-    seen_.sight.arrived = arrived;
+    seen_.sight.seen_at = seen_at;
     seen_.sight.times.frame = to_seconds(monotonic_now() - arrived);
     publish(true);
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/ports/depth_sensing.hpp"
+#include "sensing/image/camera_clock.hpp"
 #include "sensing/image/depth_image.hpp"
 #include "sensing/observer.hpp"
 #include "sensing/openni/camera.hpp"
@@ -73,6 +74,7 @@ private:
     Wanted now_;
     std::unique_ptr<Camera> camera_;
     Observer observer_;
+    CameraClock clock_;
     DepthImage image_;
     Picture seen_, spare_;
     Nanoseconds last_frame_ = 0, last_fade_ = 0;

@@ -20,7 +20,8 @@ constexpr double least_contact = 0.3;
 constexpr double usual_mass = 0.2;
 
 RobotBody body_of(const DeviceCapabilities& robot) {
-    return {robot.mass > 0.0 ? robot.mass : usual_mass, robot.viscous, robot.coulomb};
+    return {robot.mass > 0.0 ? robot.mass : usual_mass, robot.viscous, robot.coulomb,
+            robot.velocity_smoothed};
 }
 
 }  // namespace
@@ -82,8 +83,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
     // Forces keep their size in the scene, ways do not.
     pointer.contact =
         pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
-    touch_.feel(loop, index,
-                {slot.hand, slot.hand_velocity, pointer.contact, slot.description.settings.radius, seconds_});
+    touch_.feel(loop, index, {slot.hand, pointer.contact, slot.description.settings.radius, seconds_});
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
     const Wall coupling = safe_wall({seconds_, robot.capabilities.delay}, robot.capabilities.damping / scale,
                                     {wanted_coupling.stiffness / scale, wanted_coupling.damping / scale});

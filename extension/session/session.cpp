@@ -321,9 +321,11 @@ void Session::set_body_push(SessionHandle body, const Vec3& force, const Vec3& t
     }
 }
 
-void Session::set_body_doubt(SessionHandle body, const std::optional<PoseDoubt>& doubt) {
-    if (!doubt || is_sound(*doubt)) {
-        impl_->send(command::SetBodyDoubt{body, doubt});
+void Session::see_body(SessionHandle body, const BodySighting& sighting) {
+    const BodyMotion& motion = sighting.motion;
+    if (is_sound(sighting.doubt) && limits::is_pose(motion.pose) && sighting.age >= 0.0 &&
+        limits::is_number(motion.linear_velocity) && limits::is_number(motion.angular_velocity)) {
+        impl_->send(command::SeeBody{body, sighting});
     }
 }
 

@@ -18,7 +18,6 @@
 #include <string>
 
 #include "core/ports/device.hpp"
-#include "core/teleop/seen_pose.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "realtime/tick_status.hpp"
 #include "realtime/tick_trace.hpp"
@@ -92,8 +91,9 @@ public:
     // Pushes a dynamic body in every tick from now on: a force at its centre of mass and a torque, in the
     // world (units: newtons, newton meters).
     void set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque);
-    // The body is put where it is seen, so surely; none: where it is.
-    void set_body_doubt(SessionHandle body, const std::optional<PoseDoubt>& doubt);
+    // A dynamic body is seen: it is where it must be by now. Where nothing is simulated it goes on so until
+    // it is seen again, for longest_guess at most (core/teleop/seen_pose.hpp).
+    void see_body(SessionHandle body, const BodySighting& sighting);
     // Once, in the next tick.
     void push_body(SessionHandle body, const BodyPush& push);
     void set_gravity(const Vec3& gravity);

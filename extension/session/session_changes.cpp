@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/teleop/body_motion.hpp"
 #include "realtime/thread_role.hpp"
 #include "session/session_loop.hpp"
 
@@ -15,6 +16,7 @@ bool changes_touch(const Command& command) {
     return std::holds_alternative<command::AddBody>(command) ||
            std::holds_alternative<command::RemoveBody>(command) ||
            std::holds_alternative<command::TeleportBody>(command) ||
+           std::holds_alternative<command::SeeBody>(command) ||
            std::holds_alternative<command::SetTouchMaterial>(command) ||
            std::holds_alternative<command::SetBodyLayers>(command) ||
            std::holds_alternative<command::SetProxy>(command);
@@ -130,6 +132,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     end_travel(c.handle);
     std::erase(magnets_, c.handle);
     std::erase(pushed_, c.handle);
+    std::erase(guessed_, c.handle);
     std::erase(forming_, c.handle);
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
@@ -302,9 +305,25 @@ bool SessionLoop::carry_out(command::SetBodyPush& c, Retired&) {
     return false;
 }
 
-bool SessionLoop::carry_out(command::SetBodyDoubt& c, Retired&) {
-    if (Body* const seen = body(c.handle)) {
-        seen->doubt = c.doubt;
+bool SessionLoop::carry_out(command::SeeBody& c, Retired&) {
+    Body* const seen = body(c.handle);
+    if (seen == nullptr || seen->motion != Motion::Dynamic) {
+        return false;
+    }
+    const BodyMotion& then = c.sighting.motion;
+    const double age = std::min(c.sighting.age, longest_guess);
+    const bool moves = then.linear_velocity != Vec3(0.0) || then.angular_velocity != Vec3(0.0);
+    const Pose now =
+        moves ? carried_on(then.pose, then.linear_velocity, then.angular_velocity, age) : then.pose;
+    end_travel(c.handle);
+    physics_.set_velocity(seen->id, then.linear_velocity, then.angular_velocity);
+    physics_.set_pose(seen->id, now);
+    place(c.handle, now, true);
+    seen->doubt = c.sighting.doubt;
+    seen->guessed_until = time_ + from_seconds(longest_guess - age);
+    std::erase(guessed_, c.handle);
+    if (moves) {
+        guessed_.push_back(c.handle);
     }
     return false;
 }

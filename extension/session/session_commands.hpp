@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "core/ports/device.hpp"
-#include "core/teleop/seen_pose.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
 #include "session/teleop_side.hpp"
@@ -77,9 +76,9 @@ struct SetBodyPush {
     SessionHandle handle;
     Vec3 force, torque;
 };
-struct SetBodyDoubt {
+struct SeeBody {
     SessionHandle handle;
-    std::optional<PoseDoubt> doubt;
+    BodySighting sighting;
 };
 struct PushBody {
     SessionHandle handle;
@@ -151,7 +150,7 @@ using Command = std::variant<
     command::AddBody, command::RemoveBody, command::DeformBody, command::TeleportBody, command::MoveBody,
     command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
     command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-    command::SetBodyDoubt, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
+    command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
     command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy,
     command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool, command::Record,
     command::EndRecording, command::Attach>;

@@ -45,6 +45,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     forming_.reserve(settings.max_bodies);
     magnets_.reserve(settings.max_bodies);
     pushed_.reserve(settings.max_bodies);
+    guessed_.reserve(settings.max_bodies);
     joints_.resize(settings.physics.max_joints);
     states_.reserve(settings.max_bodies);
     hands_.reserve(max_proxies + max_tools);
@@ -83,9 +84,13 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         const TraceScope scope(trace, TickStage::write_device);
         write_devices(now);
     }
-    if (!side_ || side_->simulates()) {
+    {
         const TraceScope scope(trace, TickStage::step_physics);
-        step_physics();
+        if (!side_ || side_->simulates()) {
+            step_physics();
+        } else {
+            guess();
+        }
     }
     if (side_) {
         const TraceScope scope(trace, TickStage::send_link);
@@ -378,6 +383,19 @@ void SessionLoop::step_physics() {
     status_ |= step & step_contacts_full ? static_cast<TickStatus>(session_step_contacts_full) : 0u;
     status_ |= step & step_body_lost ? static_cast<TickStatus>(session_body_lost) : 0u;
     status_ |= step & step_memory_full ? static_cast<TickStatus>(session_step_memory_full) : 0u;
+}
+
+// What is only seen goes on as it moves, until its next image.
+void SessionLoop::guess() {
+    std::erase_if(guessed_, [this](SessionHandle handle) {
+        const Body& seen = bodies_[handle];
+        const BodyMotion now = motion(handle);
+        const Pose next =
+            carried_on(scene_.body(seen.slot).pose, now.linear_velocity, now.angular_velocity, seconds_);
+        physics_.set_pose(seen.id, next);
+        place(handle, next, false);
+        return time_ >= seen.guessed_until;
+    });
 }
 
 void SessionLoop::publish(Nanoseconds now) {

@@ -42,7 +42,9 @@ public:
         int ticks_left = 0;
         Vec3 push{0.0};  // in every tick, see Session::set_body_push
         Vec3 twist{0.0};
-        std::optional<PoseDoubt> doubt;  // see Session::set_body_doubt
+        // See Session::see_body.
+        std::optional<PoseDoubt> doubt;  // none: it has never been seen
+        Nanoseconds guessed_until = 0;   // it goes on as it was seen to
     };
 
     // What touching the scene gives a hand.
@@ -104,6 +106,9 @@ public:
     std::size_t max_bodies() const { return bodies_.size(); }
     Body* body(SessionHandle handle);  // null where there is none
     const Body* body(SessionHandle handle) const;
+    SessionHandle body_in(int slot) const {  // of the touch scene
+        return slot < 0 ? no_handle : handle_of_slot_[static_cast<std::size_t>(slot)];
+    }
     ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
     const TouchScene& scene() const { return scene_; }
     DeviceSample device_sample(SessionHandle device) const;
@@ -190,7 +195,7 @@ private:
     bool carry_out(command::SetBodyGravityScale& c, Retired&);
     bool carry_out(command::SetBodyDamping& c, Retired&);
     bool carry_out(command::SetBodyPush& c, Retired&);
-    bool carry_out(command::SetBodyDoubt& c, Retired&);
+    bool carry_out(command::SeeBody& c, Retired&);
     bool carry_out(command::PushBody& c, Retired&);
     bool carry_out(command::AddJoint& c, Retired&);
     bool carry_out(command::RemoveJoint& c, Retired& retired);
@@ -238,6 +243,7 @@ private:
     void write_devices(Nanoseconds now);
     SafetySample safety_sample(const DeviceSlot& slot, std::size_t index) const;
     void step_physics();
+    void guess();
     void publish(Nanoseconds now);
     void append_record(const Recording& recording, Nanoseconds now);
     void describe(ProxySlot& slot, const ProxyTick& tick);
@@ -253,6 +259,7 @@ private:
     std::vector<SessionHandle> travelling_;
     std::vector<SessionHandle> forming_;   // bodies that take another form in the coming tick
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
+    std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<JointId> joints_;          // by handle
     std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched
     std::vector<Vec3> hands_;              // where the proxies are (unit: meters)

@@ -10,6 +10,8 @@
 #include "core/math/pose.hpp"
 #include "core/safety/hand_safety.hpp"
 #include "core/safety/stiffness_limit.hpp"
+#include "core/teleop/body_motion.hpp"
+#include "core/teleop/seen_pose.hpp"
 #include "core/tool/soft_finger.hpp"
 #include "core/tool/tool_proxy.hpp"
 #include "physics/physics_world.hpp"
@@ -52,6 +54,13 @@ struct ToolUse {
     ToolSettings settings;
     Pose grasp;  // of the tool in the hand's frame
     bool enabled = true;
+};
+
+// Where a body is seen to be, and how it moves there.
+struct BodySighting {
+    BodyMotion motion;  // when it was seen
+    double age = 0.0;   // since then (unit: seconds), >= 0
+    PoseDoubt doubt;
 };
 
 // Bits of the TickStatus a session's tick returns (realtime/tick_status.hpp has the loop's own).

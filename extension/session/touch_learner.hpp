@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/estimation/touch_estimate.hpp"
+#include "core/haptics/nearest_body.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
@@ -12,7 +13,6 @@ namespace tactus {
 // One tick of a robot's tip, in this side's scene.
 struct RobotTip {
     Vec3 position{0.0};    // of its centre (unit: meters)
-    Vec3 velocity{0.0};    // (unit: meters per second)
     Vec3 contact{0.0};     // force on it (unit: newtons)
     double radius = 0.0;   // (unit: meters)
     double seconds = 0.0;  // of a tick
@@ -36,11 +36,12 @@ private:
         TouchEstimate estimate;
     };
 
-    SessionHandle touched_by(SessionLoop& loop, const RobotTip& tip, Vec3& normal) const;
+    SessionHandle touched_by(SessionLoop& loop, std::size_t pointer, const RobotTip& tip, Vec3& normal);
     Learnt& lesson(SessionHandle body);
 
     std::array<Learnt, 16> learnt_;
     std::array<SessionHandle, max_proxies> touching_;  // by pointer; no_handle: none
+    std::array<NearestBody, max_proxies> nearest_;     // by pointer
     std::uint64_t touches_ = 0;
 };
 

@@ -24,22 +24,31 @@ bool BodyTwin::plan(BodyPlan plan, Workers& workers) {
     if (handle_ == no_handle) {
         place_ = plan_.place;
     }
-    const auto job = std::make_shared<Job>();
-    job->plan = plan_;
-    job_ = job;
-    if (triangle_count(plan_.form) <= max_triangles_at_once) {
-        job->built = build_body(job->plan, run_serially);
-        job->done = true;
-        return true;
+    workers_ = &workers;
+    const bool is_small = triangle_count(plan_.form) <= max_triangles_at_once;
+    is_waiting_ = !is_small && job_ != nullptr;
+    if (is_small) {
+        job_ = std::make_shared<Job>();
+        job_->plan = plan_;
+        job_->built = build_body(job_->plan, run_serially);
+        job_->done = true;
+    } else if (!is_waiting_) {
+        begin();
     }
-    workers.add([job, run = workers.runner()] {
+    return is_small;
+}
+
+void BodyTwin::begin() {
+    is_waiting_ = false;
+    job_ = std::make_shared<Job>();
+    job_->plan = plan_;
+    workers_->add([job = job_, run = workers_->runner()] {
         // Nobody else holds it: nobody waits for it any more.
         if (job.use_count() > 1) {
             job->built = build_body(job->plan, run);
         }
         job->done.store(true, std::memory_order_release);
     });
-    return false;
 }
 
 bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {
@@ -48,6 +57,9 @@ bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {
     }
     const std::shared_ptr<Job> job = std::move(job_);
     job_.reset();
+    if (is_waiting_) {
+        begin();
+    }
     problems_ = std::move(job->built.problems);
     if (deform(session, *job)) {
         return false;
@@ -107,6 +119,7 @@ void BodyTwin::take_out(Session& session) {
 void BodyTwin::remove(Session& session) {
     take_out(session);
     job_.reset();
+    is_waiting_ = false;
 }
 
 void BodyTwin::set_values(Session& session, const BodyValues& values) {

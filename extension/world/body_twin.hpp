@@ -17,7 +17,7 @@ class BodyTwin {
 public:
     SessionHandle handle() const { return handle_; }
     // One of many triangles is built by the workers; until it is ready the body is as it was before, or
-    // absent.
+    // absent. What is planned meanwhile waits for that one: however often it changes, it gets on.
     bool is_building() const { return job_ != nullptr; }
     // As it was read when the newest twin was planned.
     const BodyPlan& planned() const { return plan_; }
@@ -63,6 +63,7 @@ private:
         std::atomic<bool> done{false};
     };
 
+    void begin();
     void take_out(Session& session);
     bool deform(Session& session, Job& job);
 
@@ -73,7 +74,9 @@ private:
     BodyPlace place_;
     BodyValues values_;
     std::uint64_t revision_ = 0;
-    std::shared_ptr<Job> job_;  // null: nothing is being built
+    std::shared_ptr<Job> job_;    // null: nothing is being built
+    Workers* workers_ = nullptr;  // that build it
+    bool is_waiting_ = false;     // plan_, for job_
     BodyPlan plan_;
     BodyAddition addition_;  // that the session's body was made from
     BodyMakings made_of_;    // likewise

@@ -27,11 +27,8 @@ bool moves(const SightedObject& object) {
 }
 
 Pose pose_after(const SightedObject& object, double seconds) {
-    if (!moves(object)) {
-        return object.pose;
-    }
-    return {object.pose.position + seconds * object.linear_velocity,
-            glm::normalize(turn_by(object.angular_velocity, seconds) * object.pose.rotation)};
+    return moves(object) ? carried_on(object.pose, object.linear_velocity, object.angular_velocity, seconds)
+                         : object.pose;
 }
 
 bool is_elsewhere(const SupportPlane& plane, const SupportPlane& before) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <glm/matrix.hpp>
+#include <iterator>
 #include <utility>
 
 #include "core/geometry/mesh_check.hpp"
@@ -40,17 +41,29 @@ TriangleSource::TriangleSource(Checked checked) : checked_(std::move(checked)) {
     triangle_count_ = checked_.mesh != nullptr ? checked_.mesh->triangles.size() : 0;
 }
 
-void TriangleSource::succeed(TriangleSource& before) {
-    const std::unique_lock lock(before.mutex_, std::try_to_lock);
-    if (!lock.owns_lock()) {
-        return;  // it is still being built: waiting would take as long as building anew
+// One that is not built yet has its trees later: they are asked for when this one is built. Whom it waits for
+// itself does as well.
+void TriangleSource::succeed(const std::shared_ptr<TriangleSource>& before) {
+    const std::unique_lock lock(before->mutex_, std::try_to_lock);
+    if (lock.owns_lock()) {
+        take_trees_of(*before);
     }
-    former_ = std::move(before.former_);
+    if (former_.empty()) {
+        before_ = lock.owns_lock() && before->before_ != nullptr ? before->before_ : before;
+    }
+}
+
+// Whose lock is held. What it has been built from it may still need.
+void TriangleSource::take_trees_of(TriangleSource& before) {
+    std::vector<Former> former = before.former_;
     for (const Kept& kept : before.kept_) {
         if (std::shared_ptr<TriangleTree> tree = kept.tree.lock()) {
-            former_.push_back({kept.scaling, kept.mesh, std::move(tree)});
+            former.push_back({kept.scaling, kept.mesh, std::move(tree)});
+            before.former_.clear();
         }
     }
+    former_.insert(former_.begin(), std::make_move_iterator(former.begin()),
+                   std::make_move_iterator(former.end()));
     if (former_.size() > max_former_trees) {
         former_.erase(former_.begin(), former_.end() - max_former_trees);
     }
@@ -99,7 +112,13 @@ std::uint64_t TriangleSource::trees_refitted() {
 }
 
 BuiltMesh TriangleSource::built(const Mat3& scaling, const ParallelRunner& run) {
+    std::shared_ptr<TriangleSource> before;  // ends after its lock
     const std::lock_guard lock(mutex_);
+    while ((before = std::exchange(before_, nullptr)) != nullptr) {
+        const std::lock_guard lock_of_before(before->mutex_);
+        take_trees_of(*before);
+        before_ = former_.empty() ? before->before_ : nullptr;
+    }
     std::erase_if(kept_, [](const Kept& kept) { return kept.tree.expired(); });
     for (const Kept& kept : kept_) {
         if (std::shared_ptr<TriangleTree> tree = kept.tree.lock();

@@ -39,7 +39,8 @@ public:
     explicit TriangleSource(Checked checked);  // read elsewhere
 
     // The same mesh with its corners elsewhere: trees that nobody touches any more are refitted, not rebuilt.
-    void succeed(TriangleSource& before);
+    // Before anybody else has this one.
+    void succeed(const std::shared_ptr<TriangleSource>& before);
 
     // About, before anything is built.
     std::size_t triangle_count() const { return triangle_count_; }
@@ -66,6 +67,7 @@ private:
         std::shared_ptr<TriangleTree> tree;
     };
 
+    void take_trees_of(TriangleSource& before);
     std::shared_ptr<TriangleTree> refitted(const Mat3& scaling, const TriangleMesh& mesh,
                                            const ParallelRunner& run);
 
@@ -75,6 +77,7 @@ private:
     Checked checked_;
     std::vector<Kept> kept_;
     std::vector<Former> former_;
+    std::shared_ptr<TriangleSource> before_;  // had no trees yet when this one came; null: none
 };
 
 // Sources by what they are read from: each is read by the first who asks, as long as somebody has it. One
@@ -92,7 +95,7 @@ public:
         if (source == nullptr || source == former) {
             source = make();
             if (former != nullptr) {
-                source->succeed(*former);
+                source->succeed(former);
             }
             all_[key] = source;
         }

@@ -199,3 +199,80 @@ func test_an_empty_scene_is_said_to_be_empty() -> void:
 
 func test_cameras_are_found_by_name() -> void:
 	check_equal(DepthSensor.find_cameras(), {}, "cameras on a machine without any")
+
+
+## Nobody knows the box: its points are touched, and take the hand along when it is put elsewhere.
+func test_a_cloud_is_touched_until_what_it_is_of_is_recognised() -> void:
+	var world := add_world()
+	var sensor := _sensor(world)
+	sensor.knows_support = true
+	sensor.bodies = DepthSensor.BODIES_HELD
+	sensor.touch_cloud = true
+	sensor.meshes = PackedStringArray(["torus"])
+	var cube := _drawn(HapticMesh.create_library_mesh("cube"), Vector3(0, 0.06, 0), world.get_node("Table"))
+	world.add_child(sensor)
+	var top := cube.global_position.y + 0.05
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, top + 0.005, 0), 0.2))
+	var touches := func() -> bool:
+		world.advance(0.02)
+		return proxy.is_touching() and absf(proxy.get_proxy_position().y - top - 0.01) < 0.004
+	check(
+		await until(touches, 60.0),
+		(
+			"it touches nothing at %s; it says: %s, and has %s"
+			% [proxy.get_proxy_position(), sensor.get_state_text(), sensor.get_objects()]
+		)
+	)
+	check(proxy.get_force().y > 0.1, "force on the hand: %s" % proxy.get_force())
+	cube.position.y += 0.03
+	top += 0.03
+	check(await until(touches, 60.0), "lifted to %s, the hand is at %s" % [top, proxy.get_proxy_position()])
+	sensor.meshes = PackedStringArray(["cube"])
+	cube.position.y -= 0.03
+	top -= 0.03
+	check(
+		await until(func() -> bool: return touches.call() and _named(sensor, "cube").size() > 0, 60.0),
+		"as a cube it is not touched: the hand is at %s" % proxy.get_proxy_position()
+	)
+	var statistics := world.get_statistics()
+	check(
+		statistics.trees_refitted > 3,
+		"refitted: %d, built: %d" % [statistics.trees_refitted, statistics.trees_built]
+	)
+	sensor.touch_cloud = false
+	await frames(3)
+	world.advance(0.05)
+	check(sensor.find_children("cloud", "StaticBody3D", false, false).is_empty(), "the cloud is still there")
+
+
+## Thirty surfaces a second, each of thousands of triangles: more than some machines can build.
+func test_in_real_time_a_cloud_is_touched_too_and_lifts_the_hand() -> void:
+	var world := HapticWorld.new()
+	world.gravity = Vector3.ZERO
+	add_child(world)
+	var sensor := _sensor(world)
+	sensor.knows_support = true
+	sensor.touch_cloud = true
+	sensor.meshes = PackedStringArray(["torus"])
+	var cube := _drawn(HapticMesh.create_library_mesh("cube"), Vector3(0, 0.06, 0), world.get_node("Table"))
+	world.add_child(sensor)
+	var top := cube.global_position.y + 0.05
+	var proxy := add_hand(world, path(Vector3(0, 0.3, 0), Vector3(0, top + 0.005, 0), 0.2))
+	var rests := func() -> bool:
+		return proxy.is_touching() and absf(proxy.get_proxy_position().y - top - 0.01) < 0.004
+	check(
+		await until(rests, 60.0),
+		(
+			"it touches nothing at %s; it says: %s, and has %s"
+			% [proxy.get_proxy_position(), sensor.get_state_text(), sensor.get_objects()]
+		)
+	)
+	# As it rises under the hand, it takes it along.
+	var lowest := 1.0
+	for _step in 40:
+		cube.position.y += 0.001
+		top += 0.001
+		await frames(3)
+		lowest = minf(lowest, proxy.get_proxy_position().y - top)
+	check(lowest > -0.02, "the hand was passed through: %.1f mm beneath its top" % [-1e3 * lowest])
+	check(await until(rests, 60.0), "lifted to %s, the hand is at %s" % [top, proxy.get_proxy_position()])

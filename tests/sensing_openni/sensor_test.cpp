@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "platform/clock.hpp"
 #include "scene.hpp"
 
 namespace tactus {
@@ -63,6 +64,21 @@ TEST(Sensor, SaysWhatItWaitsFor) {
     }));
 }
 
+TEST(Sensor, KnowsWhenItsImageWasTaken) {
+    SyntheticCamera camera = testing::exact_camera();
+    camera.rate = 30.0;
+    Scene scene(camera);
+    const Nanoseconds shown = monotonic_now();
+    scene.show(static_cast<std::uint64_t>(shown / 1000));
+    const OwnedSensor eyes = sensor_of(scene);
+    const std::string uri = scene.uri();
+    eyes->open({uri.c_str()});
+    ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.frames > 1; }));
+    EXPECT_GE(eyes->sight().seen_at, shown - 1000);
+    EXPECT_LT(eyes->sight().seen_at, monotonic_now());
+    EXPECT_EQ(eyes->sight().seen_at, static_cast<Nanoseconds>(eyes->sight().camera_time) * 1000);
+}
+
 TEST(Sensor, SeesACloudWhereTheTableIs) {
     Scene scene;
     scene.show(7);
@@ -72,7 +88,7 @@ TEST(Sensor, SeesACloudWhereTheTableIs) {
     ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::seeing; }));
     const Sight& sight = eyes->sight();
     EXPECT_EQ(sight.camera_time, 7u);
-    EXPECT_GT(sight.arrived, 0);
+    EXPECT_EQ(sight.seen_at, 7000) << "as the camera says";
     EXPECT_EQ(sight.cloud.size(),
               static_cast<std::size_t>(std::ranges::count_if(
                   scene.image().depth_mm, [](std::uint16_t depth) { return depth != 0; })));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model_rig.hpp"
+#include "shared/robot_at_block.hpp"
 #include "shared/teleop_run.hpp"
 
 namespace tactus {
@@ -73,6 +74,25 @@ TEST(RobotSide, TellsWhatIsKnownOfItsPlace) {
     EXPECT_NEAR(glm::distance(rig.near->pose("found").position, Vec3(0.02, 0.05, 0.01)), 0.0, 1e-3);
     // The hand feels the model, not what comes from far away.
     EXPECT_EQ(rig.near->port->statistics.front().link.peer_hello.scenario, 5);
+}
+
+// Two seconds of touch: half of them it rubs, half of them it pushes.
+TEST(RobotSide, LearnsHowStiffHowRoughAndHowHeavyWhatItTouchesIs) {
+    unsigned seed = 1;
+    for (const shared::BlockTruth& truth : {shared::BlockTruth{300.0, 0.3, 0.3, 0.5, 1},
+                                            {800.0, 0.6, 0.4, 0.8, 2},
+                                            {1200.0, 0.5, 0.5, 0.25, 3}}) {
+        shared::RobotAtBlock robot(truth);
+        robot.rub(1.0);
+        robot.push(1.0);
+        ASSERT_GT(robot.block().x, 0.02) << "it has not been pushed";
+        const ObjectEstimate& told = robot.told();
+        EXPECT_TRUE(told.stiffness.known && told.friction.known && told.mass.known) << seed;
+        EXPECT_NEAR(told.stiffness.value, truth.stiffness, 0.1 * truth.stiffness);
+        EXPECT_NEAR(told.friction.value, truth.friction, 0.1 * truth.friction);
+        EXPECT_NEAR(told.mass.value, truth.mass, 0.1 * truth.mass);
+        ++seed;
+    }
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "core/geometry/surface_query.hpp"
+
 namespace tactus {
 namespace {
 
@@ -38,7 +40,7 @@ TriangleMesh sheet(std::uint32_t n, double height) {
 BodyPlan mesh_plan(std::uint32_t n, double height, const BodyPlan* before = nullptr) {
     auto source = std::make_shared<TriangleSource>([n, height] { return sheet(n, height); }, 2u * n * n);
     if (before != nullptr) {
-        source->succeed(*before->form.meshes.front().source);
+        source->succeed(before->form.meshes.front().source);
     }
     BodyPlan plan;
     plan.form.meshes = {MeshDraft{source, Mat3(1.0), Pose{}, 0.0, false, "'Sheet': "}};
@@ -121,6 +123,32 @@ TEST(BodyTwin, MovedCornersAreADeformationOfTheSameTwin) {
     EXPECT_FALSE(scene.add(twin, mesh_plan(8, 0.02, &flat)));
     EXPECT_EQ(twin.handle(), handle);
     EXPECT_NE(twin.revision(), revision) << "it is to be described anew";
+}
+
+// As a camera's does, thirty times a second, on a machine that takes longer to build one.
+TEST(BodyTwin, AFormThatChangesFasterThanItIsBuiltGetsOn) {
+    Scene scene;
+    BodyTwin twin;
+    constexpr std::uint32_t n = 40;
+    std::vector<BodyPlan> plans = {mesh_plan(n, 0.01)};
+    for (const double height : {0.02, 0.03}) {
+        plans.push_back(mesh_plan(n, height, &plans.back()));
+    }
+    const std::uint64_t refitted = TriangleSource::trees_refitted();
+    for (const BodyPlan& plan : plans) {
+        EXPECT_FALSE(twin.plan(plan, scene.workers));
+    }
+    scene.workers.wait();
+    EXPECT_TRUE(twin.take_ready(scene.session, 1)) << "the first is touched, though it is out of date";
+    const SessionHandle handle = twin.handle();
+    EXPECT_TRUE(twin.is_building());
+    scene.workers.wait();
+    EXPECT_FALSE(twin.take_ready(scene.session, 1));
+    EXPECT_EQ(twin.handle(), handle) << "the last is a deformation of it";
+    EXPECT_FALSE(twin.is_building());
+    EXPECT_EQ(TriangleSource::trees_refitted(), refitted + 1);
+    const SurfaceHit top = nearest_surface(*twin.touch(), Pose{}, {0.005 * n, 0.1, 0.005 * n}, 1.0);
+    EXPECT_NEAR(top.point.y, 0.03, 1e-9);
 }
 
 TEST(BodyTwin, AnotherMassIsAnotherTwin) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <latch>
+#include <thread>
+
 namespace tactus {
 namespace {
 
@@ -56,13 +59,13 @@ TEST(TriangleSource, AMirroredMeshKeepsItsOutside) {
 }
 
 TEST(TriangleSource, CornersThatMovedAreRefittedInATreeThatNobodyTouches) {
-    TriangleSource before([] { return sheet(0.0); }, 2);
-    BuiltMesh flat = before.built(Mat3(1.0), run_serially);
+    const auto before = std::make_shared<TriangleSource>([] { return sheet(0.0); }, 2);
+    BuiltMesh flat = before->built(Mat3(1.0), run_serially);
     const TriangleTree* const first = flat.tree.get();
 
-    TriangleSource second([] { return sheet(0.5); }, 2);
-    second.succeed(before);
-    BuiltMesh high = second.built(Mat3(1.0), run_serially);
+    const auto second = std::make_shared<TriangleSource>([] { return sheet(0.5); }, 2);
+    second->succeed(before);
+    BuiltMesh high = second->built(Mat3(1.0), run_serially);
     EXPECT_NE(high.tree.get(), first) << "the first one is still touched";
 
     flat = {};
@@ -71,9 +74,30 @@ TEST(TriangleSource, CornersThatMovedAreRefittedInATreeThatNobodyTouches) {
     EXPECT_EQ(third.built(Mat3(1.0), run_serially).tree.get(), first);
 }
 
+TEST(TriangleSource, OneThatIsStillBeingBuiltIsRefittedLater) {
+    std::latch begun(1), may_end(1);
+    const auto before = std::make_shared<TriangleSource>(
+        [&] {
+            begun.count_down();
+            may_end.wait();
+            return sheet(0.0);
+        },
+        2);
+    BuiltMesh flat;
+    std::thread builder([&] { flat = before->built(Mat3(1.0), run_serially); });
+    begun.wait();
+    TriangleSource second([] { return sheet(0.5); }, 2);
+    second.succeed(before);
+    may_end.count_down();
+    builder.join();
+    const std::uint64_t refitted = TriangleSource::trees_refitted();
+    EXPECT_NEAR(second.built(Mat3(1.0), run_serially).mesh->vertices[1].y, 0.5, 0.0);
+    EXPECT_EQ(TriangleSource::trees_refitted(), refitted + 1);
+}
+
 TEST(TriangleSource, OtherTrianglesAreBuiltAnew) {
-    TriangleSource before([] { return sheet(0.0); }, 2);
-    std::shared_ptr<const TriangleTree> old = before.built(Mat3(1.0), run_serially).tree;
+    const auto before = std::make_shared<TriangleSource>([] { return sheet(0.0); }, 2);
+    std::shared_ptr<const TriangleTree> old = before->built(Mat3(1.0), run_serially).tree;
     TriangleSource other(
         [] {
             TriangleMesh mesh = sheet(0.0);

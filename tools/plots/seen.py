@@ -31,12 +31,32 @@ def seen_from(points: np.ndarray) -> np.ndarray:
     return points[:, :2] / -points[:, 2:3]
 
 
+def depth_image(points: np.ndarray) -> tuple[np.ndarray, list[float]]:
+    """Depths by rows and columns of an image, not a number where nothing is seen; and where it lies (left, right, top, bottom).
+
+    Points come row by row, some of each row: a cell is as wide as two that follow each other are mostly apart.
+    """
+    at = seen_from(points) * np.array([1.0, -1.0])
+    steps = np.diff(at[:, 0])
+    cell = np.median(steps[steps > 0.0])
+    low = at.min(axis=0)
+    column, row = np.round((at - low) / cell).astype(int).T
+    sums, counts = np.zeros((row.max() + 1, column.max() + 1)), np.zeros((row.max() + 1, column.max() + 1))
+    np.add.at(sums, (row, column), -points[:, 2])
+    np.add.at(counts, (row, column), 1.0)
+    image = np.where(counts > 0.0, sums / np.maximum(counts, 1.0), np.nan)
+    left, top = low - 0.5 * cell
+    rows, columns = image.shape
+    return image, [left, left + columns * cell, -(top + rows * cell), -top]
+
+
 def draw_seen(seen: dict, path: Path) -> None:
     """Depths as the camera has them, and over them the objects at the places where they were found."""
     points = np.array(seen["points"]).reshape(-1, 3)
     drawn, ((axes,),) = style.figure(1, 1, 7.2, 5.4)
-    at = seen_from(points)
-    depths = axes.scatter(at[:, 0], at[:, 1], c=-points[:, 2], s=1.5, marker="s", linewidths=0, cmap="viridis")
+    image, extent = depth_image(points)
+    axes.set_facecolor(style.QUIET)
+    depths = axes.imshow(image, extent=extent, cmap="viridis", interpolation="nearest")
     drawn.colorbar(depths, ax=axes, label="depth (mm)", shrink=0.8)
     for name, (x, y, z, origin) in seen["objects"].items():
         if not (MESHES / f"{name}.obj").is_file():

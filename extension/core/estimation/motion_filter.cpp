@@ -53,7 +53,7 @@ Vec3 turn_between(const Quat& from, const Quat& to) {
 }
 
 Pose moved(const Pose& pose, const Vec3& way, const Vec3& turn) {
-    return {pose.position + way, glm::normalize(turn_by(turn, 1.0) * pose.rotation)};
+    return carried_on(pose, way, turn, 1.0);
 }
 
 bool is_finite(const Pose& pose) {

@@ -14,6 +14,7 @@ namespace {
 // In the frame of the part.
 SurfaceHit nearest_in(const TouchPart& part, const Vec3& point, double max_distance, WorkBudget& work) {
     if (!part.tree()) {
+        work.spend(cost::solid_look);
         const SolidDistance at = distance_to_solid(part.solid(), point);
         return {at.distance < max_distance, true, point - at.distance * at.normal, at.normal, at.distance};
     }
@@ -39,6 +40,11 @@ SurfaceHit nearest_surface(const TouchShape& shape, const Pose& body, const Vec3
     SurfaceHit best{.distance = max_distance};
     const Vec3 in_body = to_local(body, point);
     for (const TouchPart& part : shape.parts) {
+        if (work.is_gone()) {
+            best.complete = false;
+            break;
+        }
+        work.spend(cost::part_look);
         const Vec3 in_part = to_local(part.pose, in_body);
         if (glm::length(in_part - part.center) - part.radius >= best.distance) {
             continue;

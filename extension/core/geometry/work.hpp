@@ -31,6 +31,7 @@ private:
 namespace cost {
 constexpr std::int64_t box_node = 6;       // eight boxes, with their place in the queue
 constexpr std::int64_t pack_look = 3;      // distances of four triangles
+constexpr std::int64_t part_look = 1;      // whether a part is in reach at all
 constexpr std::int64_t solid_look = 6;     // distance of a solid
 constexpr std::int64_t closest_point = 4;  // of one triangle, by scalars
 constexpr std::int64_t half_space = 1;     // one test in the solver

@@ -58,6 +58,7 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
         parts_[slot->first_part + i] = {&shape.parts[i], static_cast<std::uint32_t>(index), placed, placed};
     }
     bodies_full_below_ = static_cast<std::size_t>(index) + 1;
+    used_ = std::max(used_, bodies_full_below_);
     if (slot->first_part <= parts_full_below_) {
         parts_full_below_ = slot->first_part + shape.parts.size();
     }
@@ -76,6 +77,9 @@ void TouchScene::remove(int body) {
     bodies_full_below_ = std::min(bodies_full_below_, static_cast<std::size_t>(body));
     parts_full_below_ = std::min(parts_full_below_, static_cast<std::size_t>(removed.first_part));
     removed = {};
+    while (used_ > 0 && bodies_[used_ - 1].shape == nullptr) {
+        --used_;
+    }
 }
 
 void TouchScene::note_change(int index, Change::Kind kind, const Pose& from, std::uint32_t layer_from) {

@@ -62,6 +62,7 @@ public:
     bool deform(int body, const TouchShape& shape);
 
     std::size_t slots() const { return bodies_.size(); }
+    std::size_t slots_in_use() const { return used_; }  // all bodies are below
     const TouchBody& body(int slot) const {
         assert(slot >= 0 && static_cast<std::size_t>(slot) < bodies_.size());
         return bodies_[static_cast<std::size_t>(slot)];
@@ -98,6 +99,7 @@ private:
     std::vector<int> moved_;
     std::vector<int> deformed_;
     std::size_t bodies_full_below_ = 0, parts_full_below_ = 0;  // no slot is free before these
+    std::size_t used_ = 0;                                      // every slot from here on is free
     std::array<Change, remembered_changes> changes_;
     std::uint64_t revision_ = 1;
     std::uint64_t material_changes_ = 0;

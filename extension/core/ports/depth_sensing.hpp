@@ -17,7 +17,7 @@
 namespace tactus {
 
 // Both sides must have been built from the same file: another one has another number.
-inline constexpr int depth_sensing_version = 2;
+inline constexpr int depth_sensing_version = 3;
 
 // The one function that the library shows: const DepthSensing* (*)(int version); null where it is of another
 // version.
@@ -48,6 +48,7 @@ struct SensorSettings {
     Pose camera;                  // in the scene; looks along its −z
     double min_confidence = 0.5;  // of an object to be told of, 0 to 1
     double max_rate = 30.0;       // frames looked at in a second; the others are dropped
+    double camera_delay = 0.0;    // from what a camera sees to its image, at least (unit: seconds), >= 0
     bool wants_cloud = false;
     bool wants_surface = false;
     // Where the support is level at a known height, the camera's error of depth is learnt from it.
@@ -100,8 +101,8 @@ struct Sight {
     std::uint64_t frames = 0;       // looked at so far, since it was opened
     std::uint64_t dropped = 0;      // damaged, or come while another one was looked at
     std::uint64_t camera_time = 0;  // of this frame, on the camera's own clock (unit: microseconds)
-    Nanoseconds arrived = 0;        // on the machine's monotonic clock
-    Pose camera;                    // in the scene, as the objects and the plane were told by it
+    Nanoseconds seen_at = 0;  // on the machine's monotonic clock, as the objects are told: see camera_delay
+    Pose camera;              // in the scene, as the objects and the plane were told by it
     std::span<const SightedObject> objects;
     std::span<const glm::vec3> cloud;  // in the frame of the camera (unit: meters)
     // Over what is not recognised, in the scene; from sight to sight of the same camera only its corners
@@ -152,8 +153,8 @@ public:
     // For CameraChoice::uri. Empty where there is none; error() says why.
     virtual const char* uri() const noexcept = 0;
     virtual const char* error() const noexcept = 0;
-    // The bodies as they stand from now on. `time`: of the frame that shows them, where there is one for each
-    // (unit: microseconds).
+    // The bodies as they stand from now on. `time`: of the frame that shows them, on the machine's monotonic
+    // clock (unit: microseconds).
     virtual void show(const Pose& camera, std::span<const ShownBody> bodies, std::uint64_t time) noexcept = 0;
     // As if its plug were pulled, and put in again.
     virtual void set_plugged(bool is_plugged) noexcept = 0;

@@ -26,10 +26,11 @@ struct DeviceCapabilities {
     double max_damping = 0.0;  // that may be rendered on top (the same unit)
     double delay = 0.0;        // from a place's reading to its force, besides the tick (unit: seconds)
     // Of what moves with the hand, as a drive that moves it needs it.
-    double mass = 0.0;     // (unit: kilograms); 0: unknown
-    double viscous = 0.0;  // friction (unit: newton seconds per meter)
-    double coulomb = 0.0;  // friction (unit: newtons)
-    double ramp = 0.0;     // until a force that begins is there (unit: seconds)
+    double mass = 0.0;               // (unit: kilograms); 0: unknown
+    double viscous = 0.0;            // friction (unit: newton seconds per meter)
+    double coulomb = 0.0;            // friction (unit: newtons)
+    double velocity_smoothed = 0.0;  // DeviceSample::velocity, to first order (unit: seconds), >= 0
+    double ramp = 0.0;               // until a force that begins is there (unit: seconds)
 };
 
 struct DeviceSample {

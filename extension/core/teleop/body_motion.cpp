@@ -28,6 +28,11 @@ Quat turn_by(const Vec3& angular_velocity, double seconds) {
     return glm::angleAxis(angle, glm::normalize(angular_velocity));
 }
 
+Pose carried_on(const Pose& pose, const Vec3& linear_velocity, const Vec3& angular_velocity, double seconds) {
+    return {pose.position + seconds * linear_velocity,
+            glm::normalize(turn_by(angular_velocity, seconds) * pose.rotation)};
+}
+
 bool poses_differ(const Pose& a, const Pose& b, const MotionThreshold& threshold) {
     return glm::length(a.position - b.position) > threshold.position ||
            angle_between(a.rotation, b.rotation) > threshold.angle;

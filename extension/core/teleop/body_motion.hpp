@@ -28,6 +28,9 @@ Vec3 turn_vector(const Quat& turn);
 // The turn of length |w| t about w.
 Quat turn_by(const Vec3& angular_velocity, double seconds);
 
+// Where it is after that time if it goes on so: the way and the turn of that time.
+Pose carried_on(const Pose& pose, const Vec3& linear_velocity, const Vec3& angular_velocity, double seconds);
+
 bool poses_differ(const Pose& a, const Pose& b, const MotionThreshold& threshold);
 bool differs(const BodyMotion& a, const BodyMotion& b, const MotionThreshold& threshold);
 

@@ -8,10 +8,7 @@ namespace {
 
 BodyMotion extrapolated(const BodyMotion& from, const Vec3& linear_rate, const Vec3& angular_rate,
                         double seconds) {
-    return {{from.pose.position + linear_rate * seconds,
-             glm::normalize(turn_by(angular_rate, seconds) * from.pose.rotation)},
-            linear_rate,
-            angular_rate};
+    return {carried_on(from.pose, linear_rate, angular_rate, seconds), linear_rate, angular_rate};
 }
 
 // The mean rate over the way is x' + x'' dt / 2, the rate at its end x' + x'' dt.

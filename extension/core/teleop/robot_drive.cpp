@@ -36,11 +36,13 @@ Vec3 ContactObserver::observe(const RobotBody& body, const Vec3& drive, const Ve
     const Vec3 momentum = body.mass * velocity;
     if (!begun_) {
         begun_ = true;
+        drive_ = drive;
         explained_ = momentum;
         return contact_;
     }
+    drive_ += seconds / (seconds + body.smoothed) * (drive - drive_);
     // r is taken at the end of the tick, so that no tick is too long: r = L (p - e - r T), solved for r.
-    explained_ += seconds * (drive - friction_of(body, velocity));
+    explained_ += seconds * (drive_ - friction_of(body, velocity));
     contact_ = bandwidth * (momentum - explained_) / (1.0 + bandwidth * seconds);
     explained_ += seconds * contact_;
     return contact_;

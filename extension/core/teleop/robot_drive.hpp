@@ -6,7 +6,8 @@
 //   contact   m x'' = F - f(x') + h, with friction f. The momentum observer (De Luca and others 2006)
 //                 r = L (m x' - integral of (F - f(x') + r) dt)
 //             is h behind a first-order low-pass of bandwidth L, and needs no acceleration and no force
-//             sensor.
+//             sensor. Where x' is told smoothed, F is smoothed alike: else each change of F, which moves the
+//             robot at once, would pass for contact.
 //
 // Pure values: no clock, no allocation.
 #pragma once
@@ -17,9 +18,10 @@
 namespace tactus {
 
 struct RobotBody {
-    double mass = 0.0;     // of what moves with its tip (unit: kilograms), > 0
-    double viscous = 0.0;  // friction (unit: newton seconds per meter), >= 0
-    double coulomb = 0.0;  // friction (unit: newtons), >= 0
+    double mass = 0.0;      // of what moves with its tip (unit: kilograms), > 0
+    double viscous = 0.0;   // friction (unit: newton seconds per meter), >= 0
+    double coulomb = 0.0;   // friction (unit: newtons), >= 0
+    double smoothed = 0.0;  // its velocity as it is told, to first order (unit: seconds), >= 0
 };
 
 // What friction takes at this velocity (unit: newtons).
@@ -44,6 +46,7 @@ public:
 
 private:
     bool begun_ = false;
+    Vec3 drive_{0.0};      // as late as the velocity (unit: newtons)
     Vec3 explained_{0.0};  // momentum that drive, friction and contact have given (unit: newton seconds)
     Vec3 contact_{0.0};
 };

@@ -15,6 +15,10 @@
 
 namespace tactus {
 
+// What is seen to move goes on so until it is seen again: for four images of a camera's thirty a second, and
+// no longer (unit: seconds).
+inline constexpr double longest_guess = 0.15;
+
 // How sure a place is: covariances about it, in the axes of the frame around.
 struct PoseDoubt {
     Mat3 place{0.0};  // (unit: square meters)

@@ -88,6 +88,7 @@ DeviceCapabilities falcon_capabilities() {
     falcon.mass = 0.2;
     falcon.viscous = 1.0;
     falcon.coulomb = 0.15;
+    falcon.velocity_smoothed = rate_time;
     falcon.ramp = 0.3;
     return falcon;
 }

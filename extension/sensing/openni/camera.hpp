@@ -5,9 +5,11 @@
 
 #include <atomic>
 #include <string>
+#include <string_view>
 
 #include "sensing/image/depth_image.hpp"
 #include "sensing/openni/openni.hpp"
+#include "sensing/synthetic_camera/scene_memory.hpp"
 
 namespace tactus {
 
@@ -42,6 +44,8 @@ public:
 
     const std::string& name() const { return name_; }
     bool is_recording() const { return frame_count_ > 0; }
+    // Its images are stamped with the time at which they were taken, on this machine's monotonic clock.
+    bool has_our_clock() const { return std::string_view(info_.uri).starts_with(synthetic_scheme); }
 
 private:
     std::string open_device(const std::string& uri);

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <utility>
+
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -118,8 +121,7 @@ void SyntheticStream::run() {
     const double rate = scene_.camera().rate;
     const auto period = std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(rate > 0.0 ? 1.0 / rate : 1.0));
-    const Clock::time_point began = Clock::now();
-    Clock::time_point next = began;
+    Clock::time_point next = Clock::now();
     SceneState state;
     std::uint32_t drawn = 0;
     while (!ends_) {
@@ -134,11 +136,9 @@ void SyntheticStream::run() {
             (rate == 0.0 && state.shown == drawn)) {
             continue;
         }
-        drawn = state.shown;
-        if (rate > 0.0) {
-            // On a clock of its own, as cameras have.
-            state.time = static_cast<std::uint64_t>(
-                std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - began).count());
+        if (state.shown == std::exchange(drawn, state.shown)) {
+            // Nobody has shown anything else since: so it stands now, too.
+            state.time = static_cast<std::uint64_t>(monotonic_now() / 1000);
         }
         draw(state);
     }
