@@ -77,8 +77,10 @@ void TouchEstimate::feel_surface(const TipSample& sample, double pressing) {
     const double share = sample.seconds / (sample.seconds + settings_.smoothing);
     tip_ += share * (tip - tip_);
     force_ += share * (sample.force - force_);
+    const Vec3 from = held_;
     const Vec3 way = slide(tip_ - force_ / spring(), sample.normal);
-    felt.slides = way != Vec3(0.0) && slid_ > slack();
+    const double speed = glm::distance(held_, from) / sample.seconds;
+    felt.slides = speed > settings_.slides_from && slid_ > slack();
     felt.dragging = glm::dot(force_, way);
     felt.pressed = -glm::dot(force_, sample.normal);
 }

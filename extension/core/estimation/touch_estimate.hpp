@@ -37,6 +37,7 @@ struct TouchEstimateSettings {
     double least_force = 0.2;       // a lighter touch teaches nothing (unit: newtons), > 0
     double slack = 2e-4;  // p has slid when it is farther from where it was than this, and than chance may
                           // make of its force (unit: meters)
+    double slides_from = 0.02;   // of p: slower, a surface may creep (unit: meters per second), > 0
     double moves_from = 0.01;    // of a body (unit: meters per second), > 0
     double turns_from = 0.3;     // of a body whose mass is not learnt (unit: radians per second), > 0
     double stretch = 0.2;        // T (unit: seconds), > 0
