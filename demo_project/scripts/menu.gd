@@ -10,6 +10,7 @@ const SCENES := {
 	"Dynamic: a box that can be pushed": "res://dynamic_testbed.tscn",
 	"Materials: rubber, ice, sandpaper, steel, sponge": "res://materials.tscn",
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
+	"A tool with six degrees of freedom: a peg, its hole, a stack": "res://tool.tscn",
 	"Over a network: the box, far away": "res://networked_testbed.tscn",
 	"Over a network: a robot at a table": "res://robot_testbed.tscn",
 	"Over a network: what a camera sees, and a robot there": "res://camera_testbed.tscn",

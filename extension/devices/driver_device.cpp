@@ -131,9 +131,9 @@ void DriverDevice::close() {
     {
         const std::lock_guard lock(open_mutex_);
         is_open_ = false;
+        forces_.rest();
     }
     driver_->close();
-    forces_.rest();
 }
 
 void DriverDevice::run_open() {
@@ -165,6 +165,8 @@ void DriverDevice::run_open() {
     readings_.publish(reading);
 }
 
+// Each round either sleeps or settles what was due: at its priority, a round that does neither would take the
+// loop's processor away for as long as nothing changes.
 void DriverDevice::keep_watch() {
     SleepTimer timer;
     while (!stop_.load(std::memory_order_acquire)) {
@@ -178,12 +180,14 @@ void DriverDevice::keep_watch() {
             continue;
         }
         const std::lock_guard lock(open_mutex_);
-        // Nobody has looked since.
-        if (is_open_ && forces_.due() == due) {
+        if (forces_.due() != due) {
+            continue;  // somebody has looked since
+        }
+        if (is_open_) {
             driver_->let_go();
-            forces_.rest(due);
             let_go_.fetch_add(1, std::memory_order_relaxed);
         }
+        forces_.rest(due);
     }
 }
 

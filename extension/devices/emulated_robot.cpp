@@ -26,7 +26,8 @@ EmulatedRobot::EmulatedRobot(const EmulatedRobotSettings& settings,
       arm_(settings.data),
       middle_(delta_centre(settings.data.geometry)),
       place_(middle_),
-      shown_(delta_pose(settings.data.geometry, place_).angles) {}
+      pose_(delta_pose(settings.data.geometry, place_)),
+      shown_(pose_.angles) {}
 
 DeviceCapabilities EmulatedRobot::capabilities() const {
     DeviceCapabilities robot = falcon_capabilities();
@@ -59,7 +60,7 @@ void EmulatedRobot::write(Nanoseconds, const Vec3& force) {
 
 FalconReport EmulatedRobot::encoders() {
     const FalconData& data = settings_.data;
-    const Vec3 angles = delta_pose(data.geometry, place_).angles;
+    const Vec3& angles = pose_.angles;
     FalconReport report;
     report.homed = 7;
     for (int leg = 0; leg < 3; ++leg) {
@@ -73,17 +74,16 @@ FalconReport EmulatedRobot::encoders() {
 }
 
 void EmulatedRobot::step(double seconds) {
-    const DeltaGeometry& geometry = settings_.data.geometry;
-    const DeltaPose pose = delta_pose(geometry, place_);
-    const Mat3 jacobian = delta_jacobian(pose);
+    const Mat3 jacobian = delta_jacobian(pose_);
     const Mat3 mass =
         Mat3(settings_.body.mass) + settings_.leg_inertia * (glm::transpose(jacobian) * jacobian);
-    const Vec3 force = delta_force(pose, torques_) + contact_ - friction_of(settings_.body, velocity_);
+    const Vec3 force = delta_force(pose_, torques_) + contact_ - friction_of(settings_.body, velocity_);
     velocity_ += seconds * (glm::inverse(mass) * force);
     const Vec3 next = place_ + seconds * velocity_;
-    const DeltaState there = delta_pose(geometry, next).state;
-    if (there == DeltaState::sound) {
+    const DeltaPose there = delta_pose(settings_.data.geometry, next);
+    if (there.state == DeltaState::sound) {
         place_ = next;
+        pose_ = there;
     } else {
         velocity_ = Vec3(0.0);  // against its stops
     }

@@ -54,6 +54,7 @@ private:
     FalconArm arm_;
     Vec3 middle_;  // of the workspace, in the arm's own frame
     Vec3 place_, velocity_{0.0};
+    DeltaPose pose_;     // of place_
     Vec3 shown_;         // angles before the gears' play (unit: radians)
     Vec3 torques_{0.0};  // of the legs (unit: newton meters)
     Vec3 contact_{0.0};  // (unit: newtons)

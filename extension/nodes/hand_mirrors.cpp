@@ -1,6 +1,8 @@
 #include "nodes/hand_mirrors.hpp"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
@@ -14,8 +16,9 @@ using namespace godot;
 
 namespace {
 
-ProxyPointer::BodyIds body_ids(const ProxyState& state, const HandMirrors::NodeOf& node_of) {
-    ProxyPointer::BodyIds ids{};
+template <class State>
+auto body_ids(const State& state, const HandMirrors::NodeOf& node_of) {
+    std::array<std::uint64_t, std::tuple_size_v<decltype(state.bodies)>> ids{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(state.contact_count); ++i) {
         ids[i] = node_of(state.bodies[i]);
     }
@@ -88,17 +91,40 @@ void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& sess
     complaints.say(node, twin.synchronise(session, node.description(device)));
 }
 
-void HandMirrors::synchronise(Session& session, Complaints& complaints) {
+void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints,
+                              bool waits) {
+    complaints.say(node, node.problem());
+    if (is_linked_) {
+        complaints.say(node,
+                       "over a link only fingertips touch: use a ProxyPointer, or take the MMTLink away");
+        return;
+    }
+    node.make_shape(waits);
+    complaints.say(node, node.problem_of_shape());
+    if (node.is_kept_out()) {
+        complaints.say(node,
+                       "it touches something where its hand begins, and is not felt until it has been where "
+                       "it fits: move the device, or make the tool smaller than the room it is in");
+    }
+    const SessionHandle device = handle_in(devices_, node.device_node());
+    complaints.say(node, twin.synchronise(session, node.shape(), node.use(device)));
+}
+
+void HandMirrors::synchronise(Session& session, Complaints& complaints, bool waits) {
     const auto each = [&](auto& node, auto& twin) { synchronise(node, twin, session, complaints); };
     match<HapticDevice>(devices_, session);
     for_each_node<HapticDevice>(devices_, each);
     match<ProxyPointer>(proxies_, session);
     for_each_node<ProxyPointer>(proxies_, each);
+    match<HapticTool>(tools_, session);
+    for_each_node<HapticTool>(
+        tools_, [&](auto& node, auto& twin) { synchronise(node, twin, session, complaints, waits); });
 }
 
 void HandMirrors::forget(std::uint64_t node, Session& session) {
     forget<HapticDevice>(node, devices_, session);
     forget<ProxyPointer>(node, proxies_, session);
+    forget<HapticTool>(node, tools_, session);
 }
 
 template <class NodeType, class Mirror>
@@ -122,15 +148,19 @@ SessionHandle HandMirrors::handle_of(const ProxyPointer* proxy) const {
 }
 
 void HandMirrors::clear_forces() {
-    for_each_node<ProxyPointer>(proxies_, [](ProxyPointer& node, const ProxyTwin&) { node.clear_force(); });
+    const auto clear = [](auto& node, const auto&) { node.clear_force(); };
+    for_each_node<ProxyPointer>(proxies_, clear);
+    for_each_node<HapticTool>(tools_, clear);
 }
 
 void HandMirrors::release() {
     const auto clear = [](auto& node, const auto&) { node.clear_state(); };
     for_each_node<HapticDevice>(devices_, clear);
     for_each_node<ProxyPointer>(proxies_, clear);
+    for_each_node<HapticTool>(tools_, clear);
     devices_.clear();
     proxies_.clear();
+    tools_.clear();
 }
 
 void HandMirrors::show_devices(const SessionSnapshot& snapshot) {
@@ -142,25 +172,32 @@ void HandMirrors::show_devices(const SessionSnapshot& snapshot) {
 }
 
 // From copies: a node that is moved may call a script.
-void HandMirrors::show_proxies(const SessionSnapshot& snapshot, const NodeOf& node_of) {
+template <class NodeType, class State, class Mirror, std::size_t capacity>
+void HandMirrors::show(const std::vector<Mirror>& mirrors, const std::array<State, capacity>& states,
+                       std::size_t count, const NodeOf& node_of) {
     struct News {
-        std::uint64_t proxy;
-        ProxyState state;
-        ProxyPointer::BodyIds bodies;
+        std::uint64_t node;
+        State state;
+        decltype(body_ids(State{}, node_of)) bodies;
     };
     std::vector<News> all;
-    for (const auto& [id, twin] : proxies_) {
-        if (const ProxyState* state = state_of(snapshot.proxies, snapshot.proxy_count, twin.handle())) {
+    for (const auto& [id, twin] : mirrors) {
+        if (const State* state = state_of(states, count, twin.handle())) {
             all.push_back({id, *state, body_ids(*state, node_of)});
         }
     }
-    touched_.clear();
     for (const News& news : all) {
         std::ranges::copy_if(news.bodies, std::back_inserter(touched_), [](auto body) { return body != 0; });
-        if (auto* proxy = node_of_id<ProxyPointer>(news.proxy)) {
-            proxy->take_state(news.state, news.bodies);
+        if (auto* node = node_of_id<NodeType>(news.node)) {
+            node->take_state(news.state, news.bodies);
         }
     }
+}
+
+void HandMirrors::show_pointers(const SessionSnapshot& snapshot, const NodeOf& node_of) {
+    touched_.clear();
+    show<ProxyPointer>(proxies_, snapshot.proxies, snapshot.proxy_count, node_of);
+    show<HapticTool>(tools_, snapshot.tools, snapshot.tool_count, node_of);
 }
 
 }  // namespace tactus

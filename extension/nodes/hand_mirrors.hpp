@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "nodes/haptic_tool.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "session/session.hpp"
@@ -19,10 +20,12 @@ class HandMirrors {
 public:
     // `stand_in`: what plays every device, as at a far side, where the hand is the operator's; null: each
     // its own.
-    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in)
-        : world_(world), stand_in_(std::move(stand_in)) {}
+    // `is_linked`: hands are told over a link, which knows fingertips alone.
+    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in, bool is_linked)
+        : world_(world), stand_in_(std::move(stand_in)), is_linked_(is_linked) {}
 
-    void synchronise(Session& session, Complaints& complaints);
+    // `waits`: what takes time to be made is waited for.
+    void synchronise(Session& session, Complaints& complaints, bool waits);
     // Says what keeps fingertips from touching this.
     void look_at_scene(const SceneFacts& facts, Complaints& complaints) const;
     // Nothing where the node is none of them.
@@ -31,8 +34,9 @@ public:
     // The node that shows a body; 0: none.
     using NodeOf = std::function<std::uint64_t(SessionHandle)>;
     void show_devices(const SessionSnapshot& snapshot);
-    void show_proxies(const SessionSnapshot& snapshot, const NodeOf& node_of);
-    // Ids of what proxies touch, as shown last.
+    // Fingertips and tools.
+    void show_pointers(const SessionSnapshot& snapshot, const NodeOf& node_of);
+    // Ids of what they touch, as shown last.
     const std::vector<std::uint64_t>& touched() const { return touched_; }
     void clear_forces();
     // All of them are told that nothing runs.
@@ -52,11 +56,20 @@ private:
         std::uint64_t id = 0;
         ProxyTwin twin;
     };
+    struct ToolMirror {
+        std::uint64_t id = 0;
+        ToolTwin twin;
+    };
 
     void synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints);
     void synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints);
+    void synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints, bool waits);
+    template <class NodeType, class State, class Mirror, std::size_t capacity>
+    void show(const std::vector<Mirror>& mirrors, const std::array<State, capacity>& states,
+              std::size_t count, const NodeOf& node_of);
     void remove(DeviceTwin& twin, Session& session) { twin.remove(session, retired_); }
     void remove(ProxyTwin& twin, Session& session) { twin.remove(session); }
+    void remove(ToolTwin& twin, Session& session) { twin.remove(session); }
     template <class NodeType, class Mirror>
     void forget(std::uint64_t node, std::vector<Mirror>& mirrors, Session& session);
     template <class NodeType, class Mirror>
@@ -64,8 +77,10 @@ private:
 
     const HapticWorld& world_;
     std::shared_ptr<Device> stand_in_;
+    bool is_linked_;
     std::vector<DeviceMirror> devices_;
     std::vector<ProxyMirror> proxies_;
+    std::vector<ToolMirror> tools_;
     RetiredPorts retired_;
     std::vector<std::uint64_t> touched_;
 };

@@ -59,42 +59,13 @@ TypedArray<Dictionary> ProxyPointer::get_contacts() const {
     return contacts;
 }
 
-// By the steps from node to node; where two are as near, the one that came first.
-HapticDevice* ProxyPointer::nearest_device() const {
-    if (nearest_as_of_ == Roll<HapticDevice>::revision()) {
-        return node_of_id<HapticDevice>(nearest_);
-    }
-    nearest_as_of_ = Roll<HapticDevice>::revision();
-    HapticDevice* nearest = nullptr;
-    int64_t fewest = INT64_MAX;
-    for (HapticDevice* device : Roll<HapticDevice>::all()) {
-        const int64_t steps = get_path_to(device).get_name_count();
-        if (steps < fewest && HapticWorld::above(device) == HapticWorld::above(this)) {
-            nearest = device;
-            fewest = steps;
-        }
-    }
-    nearest_ = nearest != nullptr ? nearest->get_instance_id() : 0;
-    return nearest;
-}
-
 HapticDevice* ProxyPointer::device_node() const {
-    return is_inside_tree() && device_.is_empty() ? nearest_device() : node_at<HapticDevice>(*this, device_);
+    return device_.of(*this);
 }
 
 String ProxyPointer::problem() const {
-    const HapticDevice* device = device_node();
-    if (device == nullptr) {
-        return device_.is_empty() ? String("there is no HapticDevice in its world: add one")
-                                  : wrong_path("device", device_, "a HapticDevice") +
-                                        ", or leave it empty for the nearest one";
-    }
-    const auto world_of = [](const Node* node) {
-        return is_edited() ? HapticWorld::above(node) : HapticWorld::of(node);
-    };
-    if (world_of(device) != world_of(this)) {
-        return "its device '" + name_of(*device) +
-               "' belongs to another HapticWorld: choose one of its own world, or put it there";
+    if (const String wrong = device_.problem(*this); !wrong.is_empty()) {
+        return wrong;
     }
     return mask_ == 0 ? String("its 'collision_mask' is empty, so it touches nothing: set a layer in it")
                       : String();
@@ -159,15 +130,7 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
 
 void ProxyPointer::emit_changes(std::set<std::uint64_t> touched) {
     const std::set<std::uint64_t> before = std::exchange(touched_, std::move(touched));
-    const auto emit_for_missing = [this](const auto& in, const auto& from, const char* signal) {
-        for (const std::uint64_t body : in) {
-            if (!from.contains(body)) {
-                post_signal(*this, signal, {SignalArgument::object(body)});
-            }
-        }
-    };
-    emit_for_missing(before, touched_, "contact_ended");
-    emit_for_missing(touched_, before, "contact_started");
+    post_touch_changes(*this, before, touched_);
 }
 
 void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {

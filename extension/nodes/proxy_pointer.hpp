@@ -4,10 +4,10 @@
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
-#include <godot_cpp/variant/node_path.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
 #include <set>
 
+#include "nodes/device_choice.hpp"
 #include "nodes/properties.hpp"
 #include "session/session_types.hpp"
 #include "world/scene_facts.hpp"
@@ -80,12 +80,9 @@ private:
     void make_pictures();
     void place_pictures();
 
-    HapticDevice* nearest_device() const;
     bool has(ProxyStatus bit) const { return (state_.status & bit) != 0; }
 
-    godot::NodePath device_;
-    mutable std::uint64_t nearest_ = 0;        // id of the nearest device
-    mutable std::uint64_t nearest_as_of_ = 0;  // revision of the devices that it was found among
+    DeviceChoice device_;
     double radius_ = 0.01;
     bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;

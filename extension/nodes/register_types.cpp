@@ -11,6 +11,7 @@
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_path.hpp"
 #include "nodes/haptic_recorder.hpp"
+#include "nodes/haptic_tool.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/network_conditions.hpp"
@@ -33,6 +34,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticMesh);
     GDREGISTER_CLASS(HapticDevice);
     GDREGISTER_CLASS(ProxyPointer);
+    GDREGISTER_CLASS(HapticTool);
     GDREGISTER_CLASS(HapticRecorder);
     GDREGISTER_CLASS(HapticFeedback);
     GDREGISTER_CLASS(NetworkConditions);

@@ -46,6 +46,19 @@ void post_signal(const Object& from, const char* name, const std::vector<SignalA
 }
 
 // A handler may post more, or deliver by itself: each signal is off the list before it is sent.
+void post_touch_changes(const Object& from, const std::set<std::uint64_t>& before,
+                        const std::set<std::uint64_t>& now) {
+    const auto post_missing = [&from](const auto& in, const auto& among, const char* signal) {
+        for (const std::uint64_t body : in) {
+            if (!among.contains(body)) {
+                post_signal(from, signal, {SignalArgument::object(body)});
+            }
+        }
+    };
+    post_missing(before, now, "contact_ended");
+    post_missing(now, before, "contact_started");
+}
+
 void deliver_signals() {
     while (!posted().empty()) {
         const Posted next = std::move(posted().front());

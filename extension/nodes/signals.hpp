@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/variant.hpp>
+#include <set>
 #include <vector>
 
 namespace tactus {
@@ -35,6 +36,11 @@ private:
 
 void post_signal(const godot::Object& from, const char* name,
                  const std::vector<SignalArgument>& arguments = {});
+
+// "contact_ended" for each body (by its node's id) that is touched no more, then "contact_started" for each
+// that is touched since.
+void post_touch_changes(const godot::Object& from, const std::set<std::uint64_t>& before,
+                        const std::set<std::uint64_t>& now);
 
 // At the end of what a script has called: nothing may be used after it that a handler could free.
 void deliver_signals();

@@ -59,7 +59,8 @@ WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
     // At the far side the hand is the operator's: what is plugged in here has no part in it, but for robots.
     const bool stands_in =
         !settings.links.empty() && model_ == nullptr && !settings.links.front()->has_robots();
-    hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
+    hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr,
+                                           !settings.links.empty());
 }
 
 WorldRun::~WorldRun() {
@@ -97,7 +98,7 @@ void WorldRun::synchronise(double seconds) {
     } else {
         synchronise_bodies(seconds);
     }
-    hands_->synchronise(session(), complaints_);
+    hands_->synchronise(session(), complaints_, !loop().is_real_time());
     look_at_scene();
     synchronise_recorders();
     for (HapticFeedback* feedback : Roll<HapticFeedback>::all()) {
@@ -232,7 +233,7 @@ void WorldRun::show() {
         hands_->show_devices(snapshot);
         show_bodies(snapshot);
         if (!is_over()) {
-            hands_->show_proxies(snapshot, [this](SessionHandle body) { return view().node_of(body); });
+            hands_->show_pointers(snapshot, [this](SessionHandle body) { return view().node_of(body); });
         }
     }
     // A script may have freed some of them by now.

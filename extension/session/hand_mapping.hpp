@@ -33,6 +33,11 @@ inline Vec3 force_on_device(const Workspace& workspace, const Vec3& force) {
     return direction_to_local(workspace.pose, force * workspace.force_scale);
 }
 
+// The same turns the hand by the same angle: as much energy as the force gives, over the same ways.
+inline Vec3 torque_on_device(const Workspace& workspace, const Vec3& torque) {
+    return direction_to_local(workspace.pose, torque * (workspace.force_scale / workspace.scale));
+}
+
 // A wall of the scene is K·scale·force_scale stiff at the device: what the device's damping is worth in the
 // scene, and likewise its energy.
 inline double damping_in_scene(const Workspace& workspace, double damping) {

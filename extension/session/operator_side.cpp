@@ -246,7 +246,10 @@ BodyMotion OperatorSide::believed(SessionLoop& loop, SessionHandle body, SampleS
         const Pose model = expected ? expected->pose : loop.motion(body).pose;
         const Pose steady = filters_[body].filter(settings().filter, result.pose, model,
                                                   step_to(body, sample, received), eyes_);
-        result.pose = is_right ? result.pose : steady;
+        if (!is_right) {
+            result.pose =
+                expected ? filters_[body].unless_said(settings().filter, steady, model, eyes_) : steady;
+        }
     }
     return result;
 }

@@ -113,6 +113,14 @@ std::string check_proxy(const ProxyDescription& d) {
                : "the finger's modulus is below 0 or its radius is no positive length: set them anew";
 }
 
+std::string check_tool(const ToolUse& use) {
+    const auto is_stiffness = [](double value) { return value > 0.0 && value <= limits::stiffest; };
+    if (!is_stiffness(use.settings.stiffness) || !is_stiffness(use.settings.turning_stiffness)) {
+        return "the tool's stiffness or turning stiffness is not above 0: set both anew";
+    }
+    return limits::is_pose(use.grasp) ? "" : "the tool's grasp is no place: reset it";
+}
+
 // In commands of the least kind (SessionSettings::commands_per_tick).
 std::uint32_t share_of_tick(const Command& command) {
     const auto* const body = std::get_if<command::AddBody>(&command);
@@ -131,6 +139,7 @@ struct Session::Impl {
           bodies(s.max_bodies),
           devices(max_devices),
           proxies(max_proxies),
+          tools(max_tools),
           joints(s.physics.max_joints) {}
 
     void send(Command&& command) {
@@ -187,7 +196,7 @@ struct Session::Impl {
     SpscRing<Retired> retired;
     SessionLoop loop;
 
-    HandlePool bodies, devices, proxies, joints;
+    HandlePool bodies, devices, proxies, tools, joints;
     bool has_twin = false;  // the side that was attached last has one
     std::vector<RecorderRing<SessionRecord>*> recorded;
     std::deque<Command> backlog;
@@ -400,6 +409,34 @@ void Session::remove_proxy(SessionHandle proxy) {
     }
 }
 
+AddResult Session::add_tool(std::shared_ptr<const ToolShape> shape, const ToolUse& use) {
+    if (shape == nullptr) {
+        return {no_handle, "the tool has no shape: give it a closed mesh"};
+    }
+    if (std::string error = check_tool(use); !error.empty()) {
+        return {no_handle, std::move(error)};
+    }
+    const SessionHandle handle = impl_->tools.take();
+    if (handle == no_handle) {
+        return {no_handle, "a world takes at most " + std::to_string(max_tools) + " tools: remove one"};
+    }
+    impl_->send(command::AddTool{
+        handle, std::make_unique<ToolSlot>(std::move(shape), impl_->settings.max_parts, use)});
+    return {handle, {}};
+}
+
+void Session::set_tool(SessionHandle tool, const ToolUse& use) {
+    if (impl_->tools.in_use(tool) && check_tool(use).empty()) {
+        impl_->send(command::SetTool{tool, use});
+    }
+}
+
+void Session::remove_tool(SessionHandle tool) {
+    if (impl_->tools.let_go(tool)) {
+        impl_->send(command::RemoveTool{tool});
+    }
+}
+
 bool Session::record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, SessionHandle object) {
     if (std::ranges::find(impl_->recorded, &ring) == impl_->recorded.end()) {
         if (impl_->recorded.size() == max_recordings) {
@@ -435,6 +472,9 @@ bool Session::collect() {
                 break;
             case Retired::Kind::proxy:
                 impl_->proxies.give_back(remains.handle);
+                break;
+            case Retired::Kind::tool:
+                impl_->tools.give_back(remains.handle);
                 break;
             case Retired::Kind::joint:
                 impl_->joints.give_back(remains.handle);

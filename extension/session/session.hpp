@@ -113,6 +113,11 @@ public:
     void set_proxy(SessionHandle proxy, const ProxyDescription& description);
     void remove_proxy(SessionHandle proxy);
 
+    // The shape is made by make_tool_shape.
+    AddResult add_tool(std::shared_ptr<const ToolShape> shape, const ToolUse& use);
+    void set_tool(SessionHandle tool, const ToolUse& use);
+    void remove_tool(SessionHandle tool);
+
     // Records every tick of a proxy, with the place of `object` (or no_handle), into a ring that the owner
     // drains; again for the same ring: of another proxy or object. The ring must live until its end has been
     // carried out. False where as many are recorded as can be (max_recordings).

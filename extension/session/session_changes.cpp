@@ -454,6 +454,9 @@ struct Duplicate {
         return true;
     }
     bool operator()(command::MoveBody&) { return false; }
+    bool operator()(command::AddTool&) { return false; }
+    bool operator()(command::SetTool&) { return false; }
+    bool operator()(command::RemoveTool&) { return false; }
     bool operator()(command::Record&) { return false; }
     bool operator()(command::EndRecording&) { return false; }
     bool operator()(command::Attach&) { return false; }

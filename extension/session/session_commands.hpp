@@ -10,6 +10,7 @@
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
 #include "session/teleop_side.hpp"
+#include "session/tool_slot.hpp"
 
 namespace tactus::command {
 
@@ -119,6 +120,17 @@ struct SetProxy {
 struct RemoveProxy {
     SessionHandle handle;
 };
+struct AddTool {
+    SessionHandle handle;
+    std::unique_ptr<ToolSlot> tool;
+};
+struct SetTool {
+    SessionHandle handle;
+    ToolUse use;
+};
+struct RemoveTool {
+    SessionHandle handle;
+};
 struct Record {
     RecorderRing<SessionRecord>* ring;
     SessionHandle proxy, object;
@@ -140,11 +152,12 @@ using Command = std::variant<
     command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
     command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
     command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy,
-    command::RemoveProxy, command::Record, command::EndRecording, command::Attach>;
+    command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool, command::Record,
+    command::EndRecording, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, form, device, proxy, texture, joint, side } kind = Kind::body;
+    enum class Kind { body, form, device, proxy, tool, texture, joint, side } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
@@ -152,6 +165,7 @@ struct Retired {
     std::shared_ptr<const HeightImage> texture;
     std::unique_ptr<TeleopSide> side;
     std::shared_ptr<const TouchShape> former_shape = nullptr;
+    std::unique_ptr<ToolSlot> tool = nullptr;
 };
 
 // The same command for a twin, where it concerns one: what it owns is taken from `command`. False where it

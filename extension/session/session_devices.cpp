@@ -53,6 +53,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
         }
         place_hand(slot);
         slot.force = Vec3(0.0);
+        slot.torque = Vec3(0.0);
     }
     for (ProxySlot& slot : proxies_) {
         if (slot.proxy && slot.description.device < max_devices) {
@@ -72,18 +73,22 @@ void SessionLoop::place_hand(DeviceSlot& slot) const {
         drift = drift_at_edge(slot.workspace, slot.capabilities.radius, slot.sample.position);
         slot.offset += drift * seconds_;
     }
+    const Quat turned = slot.workspace.pose.rotation * slot.sample.rotation;
+    if (held && slot.was_held) {
+        slot.turn_offset = slot.orientation * glm::conjugate(turned);
+    }
+    slot.orientation = slot.turn_offset * turned;
     slot.was_held = held;
     slot.hand = reached + slot.offset;
     slot.hand_velocity = held ? Vec3(0.0) : velocity_in_scene(slot.workspace, slot.sample.velocity) + drift;
     if (slot.capabilities.rotates) {
-        const Quat rotation = slot.workspace.pose.rotation * slot.sample.rotation;
-        const Quat before = std::exchange(slot.rotation, rotation);
-        slot.hand_turn = held ? Vec3(0.0) : turn_vector(rotation * glm::conjugate(before));
+        const Quat before = std::exchange(slot.rotation, turned);
+        slot.hand_turn = held ? Vec3(0.0) : turn_vector(turned * glm::conjugate(before));
     }
 }
 
-double SessionLoop::force_limit(const ProxySlot& slot) const {
-    const Workspace& workspace = devices_[slot.description.device].workspace;
+double SessionLoop::force_limit(SessionHandle device) const {
+    const Workspace& workspace = devices_[device].workspace;
     return workspace.force_limit / workspace.force_scale;
 }
 
@@ -99,6 +104,12 @@ void SessionLoop::write_devices(Nanoseconds now) {
     for (const ProxySlot& slot : proxies_) {
         if (slot.proxy && slot.description.device < max_devices) {
             devices_[slot.description.device].force += slot.state.force;
+        }
+    }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot && slot->use.device < max_devices) {
+            devices_[slot->use.device].force += slot->state.force;
+            devices_[slot->use.device].torque += slot->state.torque;
         }
     }
     for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -133,7 +144,8 @@ void SessionLoop::write_devices(Nanoseconds now) {
 SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t index) const {
     SafetySample sample;
     sample.wanted = force_on_device(slot.workspace, slot.force);
-    sample.torque = direction_to_local(slot.workspace.pose, slot.workspace.torque);
+    sample.torque = direction_to_local(slot.workspace.pose, slot.workspace.torque) +
+                    torque_on_device(slot.workspace, slot.torque);
     sample.rotation = slot.sample.rotation;
     sample.position = slot.heard.position;
     sample.velocity = slot.heard.velocity;
@@ -149,6 +161,11 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
         }
         if (proxy.proxy && proxy.description.device == index) {
             sample.own_change += proxy.own_change;
+        }
+    }
+    for (const std::unique_ptr<ToolSlot>& tool : tools_) {
+        if (tool && tool->use.device == index) {
+            sample.source += energy_on_device(slot.workspace, tool->source);
         }
     }
     return sample;
@@ -182,6 +199,15 @@ void SessionLoop::rest() {
         slot.state.force = Vec3(0.0);
         slot.fading.clear();
         slot.rested = true;
+    }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot) {
+            slot->force = Vec3(0.0);
+            slot->state.force = Vec3(0.0);
+            slot->state.torque = Vec3(0.0);
+            slot->fading.clear();
+            slot->rested = true;
+        }
     }
     publish(time_);
 }

@@ -48,7 +48,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     guessed_.reserve(settings.max_bodies);
     joints_.resize(settings.physics.max_joints);
     states_.reserve(settings.max_bodies);
-    hands_.reserve(max_proxies);
+    hands_.reserve(max_proxies + max_tools);
 }
 
 TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
@@ -70,12 +70,14 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     {
         const TraceScope scope(trace, TickStage::move_proxy);
         touch_all(now);
+        touch_tools();
     }
     if (side_) {
         const TraceScope scope(trace, TickStage::correct_model);
         side_->set_forces(*this, now);
     } else {
         fade_jumps();
+        fade_tools();
     }
     press_all();
     {
@@ -202,6 +204,11 @@ void SessionLoop::press_all() {
         if (slot.proxy) {
             press_bodies(slot);
             attract(slot, true);
+        }
+    }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot) {
+            press_bodies(*slot);
         }
     }
 }
@@ -365,6 +372,11 @@ void SessionLoop::step_physics() {
             hands_.push_back(slot.proxy->position());
         }
     }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot && slot->use.enabled) {
+            hands_.push_back(slot->state.pose.position);
+        }
+    }
     physics_.set_hands(hands_);
     const std::uint32_t step = physics_.step(seconds_);
     status_ |= step & step_pairs_full ? static_cast<TickStatus>(session_step_pairs_full) : 0u;
@@ -406,6 +418,13 @@ void SessionLoop::publish(Nanoseconds now) {
         if (proxies_[i].proxy) {
             proxies_[i].state.handle = static_cast<SessionHandle>(i);
             out.proxies[out.proxy_count++] = proxies_[i].state;
+        }
+    }
+    out.tool_count = 0;
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+        if (tools_[i]) {
+            tools_[i]->state.handle = static_cast<SessionHandle>(i);
+            out.tools[out.tool_count++] = tools_[i]->state;
         }
     }
     out.device_count = 0;

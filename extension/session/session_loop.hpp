@@ -139,7 +139,7 @@ public:
     // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
     void touch(ProxySlot& slot, Nanoseconds now);
     // What the hand may be given of a pointer's force (unit: newtons).
-    double force_limit(const ProxySlot& slot) const;
+    double force_limit(const ProxySlot& slot) const { return force_limit(slot.description.device); }
     // What touch leaps by is spread over many ticks.
     void fade_jumps();
 
@@ -167,11 +167,14 @@ private:
         Vec3 offset{0.0};         // in the world: what clutch and edge have made of it so far (unit: meters)
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
-        Quat rotation{1.0, 0.0, 0.0, 0.0};  // of the handle, in the world
-        Vec3 hand_turn{0.0};                // in this tick, in the world (unit: radians)
-        Vec3 force{0.0};                    // of all its proxies, in the world (unit: newtons)
-        Vec3 refused{0.0};                  // of what they wanted, by its limits (unit: newtons)
-        DeviceSample heard;                 // as it came, with whatever nonsense
+        Quat rotation{1.0, 0.0, 0.0, 0.0};     // of the handle, in the world
+        Vec3 hand_turn{0.0};                   // in this tick, in the world (unit: radians)
+        Quat turn_offset{1.0, 0.0, 0.0, 0.0};  // in the world: what the clutch has made of it
+        Quat orientation{1.0, 0.0, 0.0, 0.0};  // of the hand, in the world
+        Vec3 torque{0.0};                      // of all its tools, in the world (unit: newton meters)
+        Vec3 force{0.0};                       // of all its proxies, in the world (unit: newtons)
+        Vec3 refused{0.0};                     // of what they wanted, by its limits (unit: newtons)
+        DeviceSample heard;                    // as it came, with whatever nonsense
         DeviceCapabilities capabilities;
         HandSafety safety;
         SafeForce safe;
@@ -203,6 +206,9 @@ private:
     bool carry_out(command::AddProxy& c, Retired&);
     bool carry_out(command::SetProxy& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
+    bool carry_out(command::AddTool& c, Retired&);
+    bool carry_out(command::SetTool& c, Retired&);
+    bool carry_out(command::RemoveTool& c, Retired& retired);
     bool carry_out(command::Record& c, Retired&);
     bool carry_out(command::EndRecording& c, Retired&);
     bool carry_out(command::Attach& c, Retired& retired);
@@ -219,6 +225,12 @@ private:
     void read_devices(Nanoseconds now);
     void place_hand(DeviceSlot& slot) const;
     void touch_all(Nanoseconds now);
+    double force_limit(SessionHandle device) const;
+    void touch_tools();
+    void touch(ToolSlot& slot);
+    void fade_tools();
+    void press_bodies(const ToolSlot& slot);
+    void describe(ToolSlot& slot, const ToolTick& tick) const;
     FadingForce::Step step_of(const ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
@@ -257,7 +269,8 @@ private:
     std::uint64_t states_changed_at_ = 0;  // tick at which a state came or went
     std::array<DeviceSlot, max_devices> devices_;
     std::array<ProxySlot, max_proxies> proxies_;
-    std::unique_ptr<TeleopSide> side_;  // null: nobody at the far side
+    std::array<std::unique_ptr<ToolSlot>, max_tools> tools_;  // by handle
+    std::unique_ptr<TeleopSide> side_;                        // null: nobody at the far side
     std::array<Recording, max_recordings> recordings_;
     std::size_t recording_count_ = 0;
     Vec3 gravity_;                // (unit: meters per second squared)

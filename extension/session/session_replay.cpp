@@ -71,7 +71,8 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
     const Pose motion = displacement(scene_.body(corrected->slot).pose, to.pose);
     for (ProxySlot& slot : proxies_) {
         if (slot.proxy && rests_on(*slot.proxy, handle)) {
-            slot.proxy->displace(to_parent(motion, slot.proxy->position()) - slot.proxy->position());
+            slot.proxy->go_along(to_parent(motion, slot.proxy->position()) - slot.proxy->position(),
+                                 corrected->slot);
             rides = true;
         }
     }

@@ -13,6 +13,7 @@
 #include "core/teleop/body_motion.hpp"
 #include "core/teleop/seen_pose.hpp"
 #include "core/tool/soft_finger.hpp"
+#include "core/tool/tool_proxy.hpp"
 #include "physics/physics_world.hpp"
 #include "session/hand_mapping.hpp"
 
@@ -25,6 +26,7 @@ constexpr SessionHandle no_handle = 0xffff'ffffu;
 constexpr std::size_t max_devices = 8;
 constexpr std::size_t max_recordings = 8;
 constexpr std::size_t max_proxies = 16;
+constexpr std::size_t max_tools = 4;
 
 struct SessionSettings {
     Nanoseconds period = 1'000'000;   // of a tick, > 0
@@ -43,6 +45,14 @@ struct ProxyDescription {
     ProxySettings settings;
     ForceLaw force_law = ForceLaw::spring;
     SoftFinger finger;  // what bodies are held by against turning
+    bool enabled = true;
+};
+
+// How a hand holds a tool.
+struct ToolUse {
+    SessionHandle device = no_handle;
+    ToolSettings settings;
+    Pose grasp;  // of the tool in the hand's frame
     bool enabled = true;
 };
 
@@ -112,6 +122,23 @@ struct ProxyState {
     std::array<Vec3, HandForce::max_contacts> normals{};
 };
 
+struct ToolState {
+    static constexpr std::size_t max_contacts = 6;
+
+    SessionHandle handle = no_handle;
+    Pose pose;                 // in the world
+    Pose hand;                 // where the hand would have it, in the world
+    Vec3 force{0.0};           // on the hand, in the world (unit: newtons)
+    Vec3 torque{0.0};          // likewise, about its place (unit: newton meters)
+    double residual = 0.0;     // see ToolTick
+    std::uint32_t status = 0;  // ToolStatus
+    int contact_count = 0;
+    std::array<SessionHandle, max_contacts> bodies{no_handle, no_handle, no_handle,
+                                                   no_handle, no_handle, no_handle};
+    std::array<Vec3, max_contacts> points{};
+    std::array<Vec3, max_contacts> normals{};
+};
+
 struct DeviceState {
     SessionHandle handle = no_handle;
     Vec3 position{0.0};  // in the world (unit: meters)
@@ -138,6 +165,8 @@ struct SessionSnapshot {
     std::size_t body_count = 0;
     std::array<ProxyState, max_proxies> proxies;
     std::size_t proxy_count = 0;
+    std::array<ToolState, max_tools> tools;
+    std::size_t tool_count = 0;
     std::array<DeviceState, max_devices> devices;
     std::size_t device_count = 0;
     std::size_t awake_bodies = 0;

@@ -18,6 +18,14 @@ bool same(const ProxyDescription& a, const ProxyDescription& b) {
            a.enabled == b.enabled;
 }
 
+bool same(const ToolUse& a, const ToolUse& b) {
+    return a.device == b.device && a.settings.mask == b.settings.mask &&
+           a.settings.stiffness == b.settings.stiffness &&
+           a.settings.turning_stiffness == b.settings.turning_stiffness &&
+           a.grasp.position == b.grasp.position && a.grasp.rotation == b.grasp.rotation &&
+           a.enabled == b.enabled;
+}
+
 }  // namespace
 
 std::string DeviceTwin::synchronise(Session& session, const std::shared_ptr<Device>& port,
@@ -68,6 +76,35 @@ void ProxyTwin::remove(Session& session) {
         session.remove_proxy(handle_);
         handle_ = no_handle;
     }
+}
+
+std::string ToolTwin::synchronise(Session& session, const std::shared_ptr<const ToolShape>& shape,
+                                  const ToolUse& use) {
+    if (shape != shape_) {
+        remove(session);
+        shape_ = shape;
+    }
+    if (shape_ == nullptr) {
+        return {};
+    }
+    if (handle_ == no_handle) {
+        AddResult added = session.add_tool(shape_, use);
+        handle_ = added.handle;
+        sent_ = use;
+        return std::move(added.error);
+    }
+    if (!same(use, std::exchange(sent_, use))) {
+        session.set_tool(handle_, use);
+    }
+    return {};
+}
+
+void ToolTwin::remove(Session& session) {
+    if (handle_ != no_handle) {
+        session.remove_tool(handle_);
+        handle_ = no_handle;
+    }
+    shape_.reset();
 }
 
 }  // namespace tactus

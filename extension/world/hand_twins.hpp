@@ -40,6 +40,21 @@ private:
     ProxyDescription sent_;
 };
 
+class ToolTwin {
+public:
+    SessionHandle handle() const { return handle_; }
+
+    // Without a shape there is none yet. Says why the session takes no more tools; else empty.
+    std::string synchronise(Session& session, const std::shared_ptr<const ToolShape>& shape,
+                            const ToolUse& use);
+    void remove(Session& session);
+
+private:
+    std::shared_ptr<const ToolShape> shape_;
+    SessionHandle handle_ = no_handle;
+    ToolUse sent_;
+};
+
 // Where another hand is put in the place of the device's own.
 class StandInDevice final : public Device {
 public:

@@ -122,4 +122,14 @@ std::string state_of_fingertip(const ProxyState& state) {
     return (state.status & proxy_touching) != 0 ? "touching" : "free";
 }
 
+std::string state_of_tool(const ToolState& state) {
+    if (state.handle == no_handle) {
+        return "waiting for the first tick";
+    }
+    if ((state.status & tool_absent) != 0) {
+        return "the tool does not fit in where the hand holds it: move it to where it touches nothing";
+    }
+    return (state.status & tool_touching) != 0 ? "touching" : "free";
+}
+
 }  // namespace tactus

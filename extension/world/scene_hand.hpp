@@ -99,7 +99,8 @@ std::string problem_of_gamepad(int wanted, const std::vector<Gamepad>& there);
 // driver has to say.
 std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said);
 
-// What a fingertip does, or why it is not felt.
+// What a fingertip or a tool does, or why it is not felt.
 std::string state_of_fingertip(const ProxyState& state);
+std::string state_of_tool(const ToolState& state);
 
 }  // namespace tactus

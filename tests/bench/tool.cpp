@@ -1,8 +1,12 @@
 // What more than a point does: build/bench/tool.json.
 #include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "shared/bench_kit.hpp"
+#include "shared/rough_meshes.hpp"
+#include "shared/tool_figures.hpp"
 #include "shared/torsion_figures.hpp"
 
 namespace {
@@ -32,14 +36,76 @@ void report_torsion(Report& report) {
                 point.turned);
 }
 
+double percentile(std::vector<double>& values, double share) {
+    if (values.empty()) {
+        return 0.0;
+    }
+    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
+    std::ranges::nth_element(values, place);
+    return *place;
+}
+
+void report_plays(Report& report, const std::string& name, ToolFigures& figures) {
+    const double p99 = percentile(figures.microseconds, 0.99);
+    const double longest = percentile(figures.microseconds, 1.0);
+    report.set(name + ".ticks", figures.ticks);
+    report.set(name + ".contact_ticks", figures.contact_ticks);
+    report.set(name + ".unfinished", figures.unfinished);
+    report.set(name + ".penetrations", figures.penetrations);
+    report.set(name + ".deepest_m", figures.deepest);
+    report.set(name + ".passes", figures.passes);
+    report.set(name + ".still_way_m", figures.still_way);
+    report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
+    report.set(name + ".tick_p99_us", p99);
+    report.set(name + ".tick_max_us", longest);
+    std::printf(
+        "%s: %d ticks, %d in contact, %d unfinished; penetrations %d, passes %d, still way %g m; "
+        "p50 %.0f, p99 %.0f, longest %.0f us\n",
+        name.c_str(), figures.ticks, figures.contact_ticks, figures.unfinished, figures.penetrations,
+        figures.passes, figures.still_way, percentile(figures.microseconds, 0.5), p99, longest);
+}
+
+void report_peg(Report& report, int angles) {
+    ToolFigures all;
+    for (int i = 0; i < angles; ++i) {
+        for (const double tilt : {0.0, 0.1, 0.3, 0.6}) {
+            all.add(play_peg(tilt, 6.2832 * i / angles, 8, i == 0 && tilt == 0.0));
+        }
+    }
+    report_plays(report, "peg", all);
+    report.set("peg.plays", all.plays);
+    report.set("peg.arrivals", all.arrivals);
+    report.set("peg.force_error_percent", all.force_error);
+    report.set("peg.torque_error_percent", all.torque_error);
+    std::printf("peg: %d of %d went in; force off by %.3f %%, torque by %.3f %%\n", all.arrivals, all.plays,
+                all.force_error, all.torque_error);
+}
+
+void report_rough(Report& report, int ticks) {
+    const tactus::TriangleMesh mesh = displaced(6);
+    ToolFigures all = play_rough(mesh, mesh, ticks, 10, 1);
+    report_plays(report, "rough_on_rough", all);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
     Options options(count, arguments);
+    const std::string only = options.text("only");
+    const int angles = static_cast<int>(options.number("angles", 8));
+    const int ticks = static_cast<int>(options.number("ticks", 10'000));
     if (!options.understood()) {
         return 2;
     }
     Report report;
-    report_torsion(report);
+    if (is_chosen("torsion", only)) {
+        report_torsion(report);
+    }
+    if (is_chosen("peg", only)) {
+        report_peg(report, angles);
+    }
+    if (is_chosen("rough_on_rough", only)) {
+        report_rough(report, ticks);
+    }
     return report.write_json(result_path("tool")) ? 0 : 1;
 }

@@ -15,15 +15,14 @@ constexpr Nanoseconds period = 1'000'000;
 // A device whose handle is where the test says, and which keeps the force it was given.
 class HeldDevice final : public Device {
 public:
-    DeviceSample read(Nanoseconds) override {
-        return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, buttons, true};
-    }
+    DeviceSample read(Nanoseconds) override { return {position, rotation, velocity, buttons, true}; }
     void write(Nanoseconds, const Vec3& given) override { force = given; }
     void twist(const Vec3& given) override { torque = given; }
     DeviceCapabilities capabilities() const override { return can; }
 
     DeviceCapabilities can;
     Vec3 position{0.0};
+    Quat rotation{1.0, 0.0, 0.0, 0.0};
     Vec3 velocity{0.0};
     Vec3 force{0.0};
     Vec3 torque{0.0};

@@ -14,6 +14,7 @@
 namespace tactus::shared {
 
 Options::Options(int count, char** arguments) {
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a bench of minutes says what it has, also into a file
     for (int i = 1; i < count; ++i) {
         const std::string_view argument = arguments[i];
         const std::size_t equals = argument.find('=');

@@ -21,7 +21,6 @@ namespace tactus::shared {
 namespace {
 
 constexpr std::size_t max_failures = 40;
-constexpr int side_unknown = -12345;
 
 // Of this thread (unit: microseconds).
 double processor_time() {
@@ -133,6 +132,8 @@ struct Kind {
     bool dense = false, friction = false, moving = false, deforming = false, visited = false, pressed = false;
 
     bool may_excuse() const { return moving || deforming || visited || pressed; }
+    // What stands still in its form lets nobody through, whatever comes and presses.
+    bool main_may_let_out() const { return moving || deforming; }
 };
 
 // One case, played from its seed; judged where somebody counts.
@@ -184,7 +185,7 @@ private:
     std::optional<ReferenceDescent> reference_;
     std::optional<Visitor> visitor_;
     std::optional<Press> press_;
-    int side_ = side_unknown;
+    SideJudge side_;
     const char* told_ = nullptr;
 };
 
@@ -233,12 +234,11 @@ void StressCase::judge_side(int tick, const Vec3& local, const Vec3& hand, const
     const Vec3 seen = setting_.from_world(local);
     // Beyond the sheets' rims the way leads around.
     const bool within = std::max({std::abs(seen.x), std::abs(seen.y), std::abs(seen.z)}) < stress_sheet_end;
-    const int side = within && !main_->is_excused() ? setting_.side(setting_, local) : side_unknown;
-    if (side != side_unknown && side_ != side_unknown && side != side_) {
+    const std::optional<int> side = within ? std::optional(setting_.side(setting_, local)) : std::nullopt;
+    if (side_.has_passed(side)) {
         ++counts.passes;
-        fail("pass", tick, hand, at, side, counts);
+        fail("pass", tick, hand, at, *side, counts);
     }
-    side_ = side;
 }
 
 void StressCase::judge_end(int tick, const Vec3& hand, const Vec3& before, const Vec3& local,
@@ -275,7 +275,7 @@ void StressCase::judge(int tick, const Vec3& hand, const Vec3& before, const Pro
         return;
     }
     if (at.status & proxy_absent) {
-        side_ = side_unknown;
+        side_.excuse();
         return;
     }
     counts.contact_ticks += (at.status & proxy_touching) != 0;
@@ -304,7 +304,11 @@ void StressCase::judge(int tick, const Vec3& hand, const Vec3& before, const Pro
         watch(press_->floor_judge(), "penetration of a floor");
     }
     const Vec3 local = to_local(pose_, p);
-    judge_side(tick, local, to_local(pose_, hand), at, counts);
+    if (kind_.main_may_let_out() && (excused || main_->is_excused())) {
+        side_.excuse();
+    } else {
+        judge_side(tick, local, to_local(pose_, hand), at, counts);
+    }
     judge_end(tick, hand, before, local, at, counts);
 }
 

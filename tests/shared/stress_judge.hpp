@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "core/math/pose.hpp"
 #include "shared/judge_tree.hpp"
@@ -55,6 +57,21 @@ private:
     bool excused_ = false;
     double known_ = -1.0;  // distance of known_at_, which is in the body's frame
     Vec3 known_at_{0.0};
+};
+
+// Watches which side of a surface the sphere is on, whenever it is asked.
+class SideJudge {
+public:
+    // True where it is on another side than when it was last seen: `side` is empty where there is none.
+    bool has_passed(std::optional<int> side) {
+        const std::optional<int> before = std::exchange(side_, side);
+        return before && side && *before != *side;
+    }
+    // It may go through the surface: wherever it is seen next it begins anew.
+    void excuse() { side_.reset(); }
+
+private:
+    std::optional<int> side_;
 };
 
 }  // namespace tactus::shared

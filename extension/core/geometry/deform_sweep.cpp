@@ -2,87 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace tactus {
 
 namespace {
 
-constexpr int stack_size = 24 * (node_width - 1) + 1;  // see triangle_tree.cpp
-
-struct Pending {
-    std::uint32_t node;
-    double key;
-};
-
-// Those of a node's children whose key is below the bound, the least on top of the stack.
-template <class Key>
-void push_children(const BoxNode& node, double bound, Pending* stack, int& depth, Key&& key) {
-    const int bottom = depth;
-    for (int slot = 0; slot < node_width; ++slot) {
-        if (node.child[slot] == BoxNode::unused) {
-            continue;
-        }
-        const double at = key(slot);
-        if (!(at < bound)) {
-            continue;
-        }
-        int place = depth++;
-        while (place > bottom && stack[place - 1].key < at) {
-            stack[place] = stack[place - 1];
-            --place;
-        }
-        stack[place] = {node.child[slot], at};
-    }
-}
-
-struct Box {
-    Vec3 low, high;
-};
-
-Box box_of(const BoxNode& node, int slot) {
-    return {{node.low[0][slot], node.low[1][slot], node.low[2][slot]},
-            {node.high[0][slot], node.high[1][slot], node.high[2][slot]}};
-}
-
-double distance_to(const Box& from, const Box& to, double t, const Vec3& p) {
-    const Vec3 low = from.low * (1.0 - t) + to.low * t;
-    const Vec3 high = from.high * (1.0 - t) + to.high * t;
-    return glm::length(p - glm::clamp(p, low, high));
-}
-
-// When the point enters the box between the two, grown by `room`: a lower bound in [t, 1], or 2 where it does
-// not. Along each axis the point and both sides move evenly.
-double entry_into(const Box& from, const Box& to, double t, const Vec3& p, const Vec3& motion, double room) {
-    double enter = t, leave = 1.0;
-    const auto stays_above_zero = [&](double now, double rate) {  // now + rate (s - t) >= 0
-        if (rate > 0.0) {
-            enter = std::max(enter, t - now / rate);
-        } else if (rate < 0.0) {
-            leave = std::min(leave, t - now / rate);
-        } else if (now < 0.0) {
-            leave = -1.0;
-        }
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-        const double low = from.low[axis] * (1.0 - t) + to.low[axis] * t - room;
-        const double high = from.high[axis] * (1.0 - t) + to.high[axis] * t + room;
-        stays_above_zero(p[axis] - low, motion[axis] - (to.low[axis] - from.low[axis]));
-        stays_above_zero(high - p[axis], to.high[axis] - from.high[axis] - motion[axis]);
-    }
-    return enter <= leave + 1e-12 ? enter * (1.0 - 1e-12) : 2.0;
-}
-
-TrianglePack between(const TrianglePack& from, const TrianglePack& to, double t) {
-    const Lanes share = splat(t);
-    return {along(from.a, to.a - from.a, share), along(from.b, to.b - from.b, share),
-            along(from.c, to.c - from.c, share)};
-}
-
 // How much each corner counts in a point of the triangle.
-Vec3 weights_of(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 ab = b - a, ac = c - a, ap = point - a;
+Vec3 weights_of(const Vec3& point, const TriangleCorners& t) {
+    const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = point - t.a;
     const double bb = glm::dot(ab, ab), bc = glm::dot(ab, ac), cc = glm::dot(ac, ac);
     const double area = bb * cc - bc * bc;
     if (!(area > 1e-18 * bb * cc)) {
@@ -98,89 +26,93 @@ double longest(const LanesVec3& v, int i) {
     return glm::length(lane(v, i));
 }
 
+// A point that goes evenly, and boxes whose sides do as well.
+struct FloatDrive {
+    float t;
+    FloatPoint at, motion;  // at t, and as t grows by 1
+    float room;
+};
+
+// When the point enters each box between the two, grown by the room: lower bounds in [t, 1], infinite where
+// it does not.
+FloatLanes entry_into(const BoxNode& from, const BoxNode& to, const FloatDrive& drive) {
+    const FloatLanes share = splat_float(drive.t);
+    const FloatLanes room = splat_float(drive.room);
+    const FloatLanes zero = splat_float(0.0f);
+    const BoxNode now = between(from, to, share);
+    FloatLanes enter = share;
+    FloatLanes leave = splat_float(1.0f);
+    const auto stays_above_zero = [&](FloatLanes gap, FloatLanes rate) {  // gap + rate (s - t) >= 0
+        const FloatLanes crossing = share - gap / rate;
+        enter = (rate > zero) ? box_detail::most(enter, crossing) : enter;
+        leave = (rate < zero) ? box_detail::least(leave, crossing) : leave;
+        leave = (rate == zero) & (gap < zero) ? splat_float(-1.0f) : leave;
+    };
+    const FloatLanes* const place[] = {&drive.at.x, &drive.at.y, &drive.at.z};
+    const FloatLanes* const motion[] = {&drive.motion.x, &drive.motion.y, &drive.motion.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        stays_above_zero(*place[axis] - now.low[axis] + room,
+                         *motion[axis] - (to.low[axis] - from.low[axis]));
+        stays_above_zero(now.high[axis] + room - *place[axis],
+                         to.high[axis] - from.high[axis] - *motion[axis]);
+    }
+    const auto used = from.low[0] <= from.high[0];
+    return (used & (enter <= leave)) ? enter : splat_float(__builtin_inff());
+}
+
 }  // namespace
 
-DeformSweep::Nearest DeformSweep::nearest(double t, const Vec3& point, double far, WorkBudget& work) const {
-    Nearest nearest{far};
-    const Vec3 relative = point - from_.origin_;
-    const LanesVec3 exact = splat(point);
-    Pending stack[stack_size];
-    int depth = 0;
-    stack[depth++] = {0, 0.0};
-    while (depth > 0 && !work.is_gone()) {
-        const Pending item = stack[--depth];
-        if (!(item.key < nearest.distance)) {
-            continue;
-        }
-        work.spend(item.node & BoxNode::leaf_bit ? cost::pack_look : 2 * cost::box_node);
-        if (!(item.node & BoxNode::leaf_bit)) {
-            push_children(from_.nodes_[item.node], nearest.distance, stack, depth, [&](int slot) {
-                return distance_to(box_of(from_.nodes_[item.node], slot), box_of(to_.nodes_[item.node], slot),
-                                   t, relative) *
-                       (1.0 - 1e-12);
-            });
-            continue;
-        }
-        const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
-        const TrianglePack& was = from_.pack(index);
-        const TrianglePack& is = to_.pack(index);
-        const TrianglePack now = between(was, is, t);
-        const PackOffset seen = offset_from_triangles(now, exact);
-        for (int i = 0; i < lane_count; ++i) {
-            const double distance = std::sqrt(seen.squared[i]);
-            if (distance < nearest.distance) {
-                const Vec3 offset = lane(seen.offset, i);
-                const Vec3 weights =
-                    weights_of(point - offset, lane(now.a, i), lane(now.b, i), lane(now.c, i));
-                nearest = {distance, offset,
-                           weights.x * lane(is.a - was.a, i) + weights.y * lane(is.b - was.b, i) +
-                               weights.z * lane(is.c - was.c, i)};
-            }
-        }
-    }
-    return nearest;
+TrianglePack DeformSweep::pack_at(std::uint32_t index, double t) const {
+    const TrianglePack was = from_.pack(index);
+    const TrianglePack is = to_.pack(index);
+    const Lanes share = splat(t);
+    return {along(was.a, is.a - was.a, share), along(was.b, is.b - was.b, share),
+            along(was.c, is.c - was.c, share)};
+}
+
+Vec3 DeformSweep::motion_of(const Seen& seen, double t, const Vec3& point) const {
+    const TriangleCorners was = from_.corners(seen.slot);
+    const TriangleCorners is = to_.corners(seen.slot);
+    const TriangleCorners motion{is.a - was.a, is.b - was.b, is.c - was.c};
+    const Vec3 weights =
+        weights_of(point - seen.offset, {was.a + motion.a * t, was.b + motion.b * t, was.c + motion.c * t});
+    return motion.a * weights.x + motion.b * weights.y + motion.c * weights.z;
 }
 
 // A triangle that is `distance` away comes nearer by no more than its fastest corner does, seen from the
 // point; and not before its box lets it.
 double DeformSweep::free_until(double t, const Vec3& point, const Vec3& motion, double room,
                                WorkBudget& work) const {
-    double until = 1.0;
     const Vec3 relative = point - from_.origin_;
+    const Vec3 end = relative + motion;
+    const double slack = slack_at(relative) + slack_at(end);
+    const FloatDrive drive{static_cast<float>(t), to_float_point(relative), to_float_point(motion),
+                           static_cast<float>(room + slack)};
     const LanesVec3 exact = splat(point);
     const LanesVec3 way = splat(motion);
-    Pending stack[stack_size];
-    int depth = 0;
-    stack[depth++] = {0, t};
-    while (depth > 0) {
-        const Pending item = stack[--depth];
-        if (!(item.key < until)) {
-            continue;
-        }
-        if (work.is_gone()) {
-            return t;
-        }
-        work.spend(item.node & BoxNode::leaf_bit ? cost::pack_look : 2 * cost::box_node);
-        if (!(item.node & BoxNode::leaf_bit)) {
-            push_children(from_.nodes_[item.node], until, stack, depth, [&](int slot) {
-                return entry_into(box_of(from_.nodes_[item.node], slot), box_of(to_.nodes_[item.node], slot),
-                                  t, relative, motion, room);
-            });
-            continue;
-        }
-        const std::uint32_t index = item.node & ~BoxNode::leaf_bit;
-        const TrianglePack& was = from_.pack(index);
-        const TrianglePack& is = to_.pack(index);
-        const PackOffset seen = offset_from_triangles(between(was, is, t), exact);
-        for (int i = 0; i < lane_count; ++i) {
-            const double gap = std::sqrt(seen.squared[i]) - room;
-            const double speed = std::max({longest(is.a - was.a - way, i), longest(is.b - was.b - way, i),
-                                           longest(is.c - was.c - way, i)});
-            const double meets = gap <= 0.0 ? t : gap < speed * (until - t) ? t + gap / speed : until;
-            until = std::min(until, std::max(meets, item.key));
-        }
-    }
-    return until;
+    constexpr double blur = 1e-6;  // of times in single precision
+    float until = 1.0f;
+    const float left_out = from_.visit_best_first(
+        until, work,
+        [&](std::uint32_t node) {
+            work.spend(cost::box_node);
+            return entry_into(from_.nodes_[node], to_.nodes_[node], drive);
+        },
+        [&](std::uint32_t pack, float key) {
+            work.spend(2 * cost::pack_look);
+            const TrianglePack was = from_.pack(pack);
+            const TrianglePack is = to_.pack(pack);
+            const PackOffset seen = offset_from_triangles(pack_at(pack, t), exact);
+            for (int i = 0; i < lane_count; ++i) {
+                const double gap = std::sqrt(seen.squared[i]) - room;
+                const double speed = std::max({longest(is.a - was.a - way, i), longest(is.b - was.b - way, i),
+                                               longest(is.c - was.c - way, i)});
+                const double meets = gap <= 0.0 ? t : gap < speed * (until - t) ? t + gap / speed : until;
+                until = std::min(until, std::max(static_cast<float>(meets), key));
+            }
+        });
+    const double known = std::min(until, left_out);
+    return std::max(t, known >= 1.0 ? 1.0 : known * (1.0 - blur));
 }
 
 }  // namespace tactus

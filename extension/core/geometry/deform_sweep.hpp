@@ -9,27 +9,79 @@
 
 namespace tactus {
 
+// The boxes of the same triangles between two forms.
+inline BoxNode between(const BoxNode& from, const BoxNode& to, FloatLanes share) {
+    const auto used = from.low[0] <= from.high[0];
+    BoxNode node = from;
+    for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis] += used ? (to.low[axis] - from.low[axis]) * share : splat_float(0.0f);
+        node.high[axis] += used ? (to.high[axis] - from.high[axis]) * share : splat_float(0.0f);
+    }
+    return node;
+}
+
 class DeformSweep {
 public:
     // `to` must be a refit of `from` (see TriangleTree::is_refit_of). Both are used as long as this is.
     DeformSweep(const TriangleTree& from, const TriangleTree& to) : from_(from), to_(to) {}
 
-    struct Nearest {
-        double distance = 0.0;  // `far` where nothing is nearer (unit: meters)
-        Vec3 offset{0.0};       // from the nearest point to the one asked for (unit: meters)
-        Vec3 motion{0.0};       // of the nearest point from t = 0 to 1 (unit: meters)
+    // One triangle on its way, seen from a point.
+    struct Seen {
+        double distance;     // (unit: meters)
+        Vec3 offset;         // from its nearest point to the one asked for (unit: meters)
+        std::uint32_t slot;  // of the triangle in both trees
     };
 
-    // The nearest triangle at t. Where `work` is used up there may be a nearer one.
-    Nearest nearest(double t, const Vec3& point, double far, WorkBudget& work) const;
+    // Calls visit(seen) for the triangles within `limit` of the point at t; visit may lower the limit. Where
+    // `work` is used up there may be others.
+    template <class Visit>
+    void visit_near(double t, const Vec3& point, const double& limit, WorkBudget& work, Visit&& visit) const;
+
+    // How the nearest point of a triangle that was seen goes on, from t = 0 to 1 (unit: meters).
+    Vec3 motion_of(const Seen& seen, double t, const Vec3& point) const;
 
     // The way is free up to here: before, no triangle comes nearer than `room` to a point that is at `point`
     // at t and goes on by `motion` in the time from 0 to 1. At most 1. A lower bound: on from there.
     double free_until(double t, const Vec3& point, const Vec3& motion, double room, WorkBudget& work) const;
 
 private:
+    // What single precision may hide of a distance: twice that of one form, and as much between them.
+    double slack_at(const Vec3& relative) const {
+        return 4.0 * std::max(from_.float_slack(relative), to_.float_slack(relative));
+    }
+    TrianglePack pack_at(std::uint32_t index, double t) const;
+
     const TriangleTree& from_;
     const TriangleTree& to_;
 };
+
+template <class Visit>
+void DeformSweep::visit_near(double t, const Vec3& point, const double& limit, WorkBudget& work,
+                             Visit&& visit) const {
+    const Vec3 relative = point - from_.origin_;
+    const double slack = slack_at(relative);
+    const FloatPoint at = to_float_point(relative);
+    const LanesVec3 exact = splat(point);
+    const FloatLanes share = splat_float(static_cast<float>(t));
+    float bound = square_up(limit + slack);
+    from_.visit_best_first(
+        bound, work,
+        [&](std::uint32_t node) {
+            work.spend(cost::box_node);
+            return squared_distance_to_boxes(between(from_.nodes_[node], to_.nodes_[node], share), at);
+        },
+        [&](std::uint32_t pack, float) {
+            work.spend(2 * cost::pack_look);
+            const PackOffset seen = offset_from_triangles(pack_at(pack, t), exact);
+            for (int i = 0; i < lane_count; ++i) {
+                const double distance = std::sqrt(seen.squared[i]);
+                if (distance <= limit) {
+                    visit(Seen{distance, lane(seen.offset, i),
+                               pack * lane_count + static_cast<std::uint32_t>(i)});
+                }
+            }
+            bound = square_up(limit + slack);
+        });
+}
 
 }  // namespace tactus

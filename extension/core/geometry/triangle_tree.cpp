@@ -34,9 +34,7 @@ FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudg
     float limit = square_up(radius + slack);
     const float left_out = visit_best_first(
         limit, work,
-        [&](const BoxNode& node, const TurnedNode& turned) {
-            return squared_distance(node, turned, at, rounding);
-        },
+        [&](std::uint32_t node) { return squared_distance(nodes_[node], turned_[node], at, rounding); },
         [&](std::uint32_t pack, float squared) {
             out[found.count++] = {pack, static_cast<float>(distance(squared) * (1.0 - 1e-7))};
             limit = found.count < out.size() ? limit : -1.0f;
@@ -102,8 +100,7 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
     const auto a_little_more = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
     float bound = a_little_more(limit);
     const float left_out = visit_best_first(
-        bound, work,
-        [&](const BoxNode& node, const TurnedNode& turned) { return earliest_meeting(node, turned, boxes); },
+        bound, work, [&](std::uint32_t node) { return earliest_meeting(nodes_[node], turned_[node], boxes); },
         [&](std::uint32_t pack, float) {
             const PackHit met = sweep_to_triangles(packs_[pack], way, hit.t);
             work.spend(met.looks * cost::pack_look);

@@ -208,7 +208,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
         }
         work.spend(cost::box_node);
         const BoxNode& node = nodes_[entry.node];
-        const FloatLanes key = keys(node, turned_[entry.node]);
+        const FloatLanes key = keys(entry.node);
         const auto within = key <= splat_float(limit);
         beyond = within ? beyond : box_detail::least(beyond, key);
         VisitQueue::Entry packs[node_width];
@@ -255,9 +255,7 @@ double TriangleTree::visit_near(const Vec3& point, const double& limit, WorkBudg
     float bound = square_up(limit + slack);
     const float left_out = visit_best_first(
         bound, work,
-        [&](const BoxNode& node, const TurnedNode& turned) {
-            return squared_distance(node, turned, at, rounding);
-        },
+        [&](std::uint32_t node) { return squared_distance(nodes_[node], turned_[node], at, rounding); },
         [&](std::uint32_t pack, float) {
             visit(pack);
             bound = square_up(limit + slack);

@@ -1,6 +1,7 @@
 #include "core/haptics/proxy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -24,6 +25,29 @@ void Proxy::put(const Vec3& place) {
     surroundings_.jumped(glm::distance(place, position_));
     position_ = place;
     contacts_hold_ = false;
+}
+
+void Proxy::go_along(const Vec3& offset, int body) {
+    if (!sliding_) {
+        displace(offset);
+        return;
+    }
+    Vec3 pushed(0.0);
+    std::array<Vec3, TouchList::capacity> across;  // the body's normals, made orthogonal
+    int count = 0;
+    for (const Touch& touch : touching()) {
+        Vec3 normal = touch.body == body ? touch.normal : Vec3(0.0);
+        for (int i = 0; i < count; ++i) {
+            normal -=
+                glm::dot(normal, across[static_cast<std::size_t>(i)]) * across[static_cast<std::size_t>(i)];
+        }
+        if (const double length = glm::length(normal); length > 1e-6) {
+            normal /= length;
+            across[static_cast<std::size_t>(count++)] = normal;
+            pushed += glm::dot(offset, normal) * normal;
+        }
+    }
+    displace(pushed);
 }
 
 // A proxy cannot start inside a surface: it appears where the hand is once there is room, so touch begins

@@ -5,7 +5,9 @@
 #include <utility>
 
 #include "core/geometry/deform_sweep.hpp"
+#include "core/haptics/constrained_step.hpp"
 #include "core/haptics/proxy.hpp"
+#include "core/math/shortened.hpp"
 
 namespace tactus {
 
@@ -17,48 +19,85 @@ namespace {
 // The time between the two forms is walked in steps. In each, no triangle comes nearer to the centre than
 // half of what the nearest one was; then the sphere is lifted off again, each time by less than the distance
 // to the nearest triangle. So no step and no lift leads the centre through a surface.
-struct DeformRide {
-    const DeformSweep& sweep;
-    double radius;  // (unit: meters), > 0
-    bool carried;   // it rests on the mesh
-};
+class DeformRide {
+public:
+    // `center` is the sphere's in the frame of the mesh, `same` is what counts as no distance (unit: meters).
+    DeformRide(const DeformSweep& sweep, const Vec3& center, double radius, double same, WorkBudget& work)
+        : sweep_(sweep), center_(center), radius_(radius), same_(same), work_(work) {}
 
-// `center` is the sphere's in the frame of the mesh (unit: meters). `advance(motion)` moves the sphere by as
-// much of the motion as nothing else is in the way of, and returns that. False where the sphere is left no
-// room, or the work does not suffice: it must be let out then.
-template <class Advance>
-bool ride(const DeformRide& given, Vec3 center, WorkBudget& work, Advance&& advance) {
-    constexpr int max_steps = 256;
-    constexpr int max_lifts = 12;
-    const DeformSweep& sweep = given.sweep;
-    const double radius = given.radius;
-    const double least = (1.0 - max_overlap_share) * radius;
-    double t = 0.0;
-    DeformSweep::Nearest at = sweep.nearest(t, center, 1.1 * radius, work);
-    for (int step = 0; t < 1.0; ++step) {
-        if (at.distance < least || step == max_steps || work.is_gone()) {
-            return false;
+    // `carried`: it rests on the mesh. `advance(motion)` moves the sphere by as much of the motion as nothing
+    // else is in the way of, and returns that. False where the sphere is left no room, or the work does not
+    // suffice: it must be let out then.
+    template <class Advance>
+    bool go(bool carried, Advance&& advance) {
+        constexpr int max_steps = 256;
+        look();
+        for (int step = 0; t_ < 1.0; ++step) {
+            if (!has_room() || step == max_steps) {
+                return false;
+            }
+            const Vec3 motion = carried && nearest_.distance < around() ? motion_of_nearest() : Vec3(0.0);
+            const double room = 0.5 * std::min(nearest_.distance, radius_);
+            const double next = sweep_.free_until(t_, center_, motion, room, work_);
+            if (motion != Vec3(0.0)) {
+                center_ += advance(motion * (next - t_));
+            }
+            t_ = next;
+            look();
+            lift(advance);
         }
-        const bool rests = given.carried && at.distance < 1.1 * radius;
-        const Vec3 motion = rests ? at.motion : Vec3(0.0);
-        const double next = sweep.free_until(t, center, motion, 0.5 * std::min(at.distance, radius), work);
-        if (rests) {
-            center += advance(motion * (next - t));
-        }
-        t = next;
-        at = sweep.nearest(t, center, 1.1 * radius, work);
-        for (int lift = 0; lift < max_lifts && at.distance < (1.0 - 1e-6) * radius; ++lift) {
-            const double way = std::min(radius - at.distance, 0.9 * at.distance);
-            const Vec3 lifted = advance(at.offset * (way / std::max(at.distance, 1e-300)));
-            center += lifted;
-            at = sweep.nearest(t, center, 1.1 * radius, work);
-            if (glm::length(lifted) < 0.5 * way) {
+        return has_room();
+    }
+
+private:
+    double around() const { return 1.1 * radius_; }
+    bool has_room() const {
+        return nearest_.distance >= (1.0 - max_overlap_share) * radius_ && !work_.is_gone();
+    }
+    Vec3 motion_of_nearest() const { return sweep_.motion_of(nearest_, t_, center_); }
+
+    // What is around the sphere now.
+    void look() {
+        contacts_.clear();
+        nearest_.distance = around();
+        const double limit = around();
+        sweep_.visit_near(t_, center_, limit, work_, [&](const DeformSweep::Seen& seen) {
+            const double length = std::max(seen.distance, 1e-300);
+            contacts_.add({seen.offset / length, seen.distance - radius_, {0, seen.slot}});
+            nearest_ = seen.distance < nearest_.distance ? seen : nearest_;
+        });
+        work_.spend(contacts_.count);
+    }
+
+    // Off all that it overlaps at once: off one wall of a groove after the other takes for ever. Where they
+    // leave nothing between them, half off the nearest.
+    template <class Advance>
+    void lift(Advance&& advance) {
+        constexpr int max_lifts = 12;
+        for (int i = 0; i < max_lifts && nearest_.distance < (1.0 - 1e-6) * radius_; ++i) {
+            Vec3 way = lift_to_rest(contacts_, same_, work_);
+            if (glm::length(way) <= same_) {
+                way = nearest_.offset * (0.5 * (radius_ / std::max(nearest_.distance, 1e-300) - 1.0));
+            }
+            way = shortened(way, 0.9 * nearest_.distance);
+            const Vec3 lifted = advance(way);
+            center_ += lifted;
+            look();
+            if (glm::length(lifted) < 0.5 * glm::length(way)) {
                 break;  // something else is in the way
             }
         }
     }
-    return at.distance >= least;
-}
+
+    const DeformSweep& sweep_;
+    Vec3 center_;
+    double radius_;
+    double same_;
+    WorkBudget& work_;
+    double t_ = 0.0;
+    DeformSweep::Seen nearest_{};
+    ContactList contacts_;
+};
 
 }  // namespace
 
@@ -119,7 +158,8 @@ bool Proxy::ride_deformation(int index) {
             advance(direction_to_parent(placed, motion), stopped_by, index);
             return direction_to_local(placed, position_ - before);
         };
-        if (!ride({sweep, settings_.radius, rests}, local, surroundings_.work(), advanced)) {
+        DeformRide ride(sweep, local, settings_.radius, tolerances().same, surroundings_.work());
+        if (!ride.go(rests, advanced)) {
             return false;
         }
     }

@@ -90,9 +90,10 @@ DeltaPose delta_pose(const DeltaGeometry& g, const Vec3& place) {
         if (!(std::abs(cosine) <= 1.0)) {
             return {};
         }
-        const double theta_1 = std::atan2(end.w, end.u) - std::acos(cosine);
-        const double cos_1 = std::cos(theta_1);
-        const double sin_1 = std::sin(theta_1);
+        const double sine = std::sqrt(1.0 - cosine * cosine);
+        const double cos_1 = (end.u * cosine + end.w * sine) / rho;
+        const double sin_1 = (end.w * cosine - end.u * sine) / rho;
+        const double theta_1 = std::atan2(sin_1, cos_1);
         const double cos_2 = (end.u - g.upper_arm * cos_1) / length;
         const double sin_2 = (end.w - g.upper_arm * sin_1) / length;
         const double bend = sin_2 * cos_1 - cos_2 * sin_1;  // sin(theta2 - theta1)

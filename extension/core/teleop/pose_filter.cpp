@@ -50,12 +50,14 @@ double Chance::variance() const {
     return std::min(std::max(0.0, -lagged) / 3.0, std::max(0.0, squares - open) / 6.0);
 }
 
-// A product e_k . e_(k-1) of three axes has a variance of 15 R^2: two deviations of the mean are added.
+// Two deviations of the mean are added. A square |e_k|^2 of three axes has a variance of 24 R^2, half as much
+// again for those that share an n_k, where its mean is 6 R; a product e_k . e_(k-1) one of 15 R^2.
 double Chance::variance_at_most() const {
+    const double states = std::max(1.0, count);
     const double by_squares = std::max(0.0, squares - open) / 6.0;
     const double by_lagged =
-        std::max(0.0, -lagged) / 3.0 + 2.0 * by_squares * std::sqrt(5.0 / (3.0 * std::max(1.0, count)));
-    return std::min(by_squares, by_lagged);
+        std::max(0.0, -lagged) / 3.0 + 2.0 * by_squares * std::sqrt(5.0 / (3.0 * states));
+    return std::min(by_squares * (1.0 + 2.0 / std::sqrt(states)), by_lagged);
 }
 
 Chance together(const Chance& own, const Chance& others) {
@@ -89,6 +91,13 @@ Vec3 RoughVector::believed(const PoseFilterSettings& settings, const Chance& cha
         leaning_ = Vec3(0.0);
     }
     return trusting_.off;
+}
+
+double RoughVector::doubt(double none, const Chance& others) const {
+    const Chance chance = together(chance_, others);
+    const double variance = chance.variance();
+    const double gain = chance.count < states_to_tell ? seeing_.gain : trusting_.gain;
+    return variance <= square(none) ? 0.0 : 3.0 * gain * variance;
 }
 
 Vec3 RoughVector::begin(const PoseFilterSettings& settings, double none, const Off& off,
@@ -164,6 +173,22 @@ Pose PoseFilter::filter(const PoseFilterSettings& settings, const Pose& seen, co
         believed.rotation = seen.rotation;
     }
     return believed;
+}
+
+Pose PoseFilter::unless_said(const PoseFilterSettings& settings, const Pose& believed, const Pose& model,
+                             const FarEyes& eyes) const {
+    const double said = square(settings.unsaid);
+    const double place = said * place_.doubt(settings.place, eyes.place);
+    const Vec3 apart = believed.position - model.position;
+    const Vec3 turn = turn_vector(believed.rotation * glm::conjugate(model.rotation));
+    Pose result = believed;
+    if (square(apart) <= place) {
+        result.position = model.position;
+    }
+    if (square(turn) <= said * turn_.doubt(settings.turn, eyes.turn)) {
+        result.rotation = model.rotation;
+    }
+    return result;
 }
 
 }  // namespace tactus

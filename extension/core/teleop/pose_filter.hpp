@@ -15,7 +15,9 @@
 //     trusting    the model was right at the start: of variance zero there
 //     seeing      nothing was known at the start
 // The first holds until what is seen contradicts it: a correction that chance explains is not made. At rest
-// no way leaves anything open: both gains fall like 1 / k, and the body is estimated at rest.
+// no way leaves anything open: both gains fall like 1 / k, and the body is estimated at rest. Where a belief
+// and the model differ by less than the belief is sure of, the model keeps its place to the bit: a body that
+// stands would else be put some micrometers above its ground, and slide without friction until it has fallen.
 #pragma once
 
 #include "core/math/pose.hpp"
@@ -27,6 +29,7 @@ struct PoseFilterSettings {
     double turn = 5e-4;         // (unit: radians), > 0
     double states = 200;        // over which R is averaged, >= 2
     double contradicted = 5.0;  // deviations that chance does not explain, > 0
+    double unsaid = 2.0;  // deviations of what is believed within which the model is left as it is, >= 0
 };
 
 // How a body came from the last state to this one.
@@ -71,6 +74,9 @@ public:
 
     Off off() const { return {trusting_.off, seeing_.off}; }
 
+    // Mean square of how far off what is believed may be; 0 where all is believed.
+    double doubt(double none, const Chance& others) const;
+
 private:
     struct Belief {
         Vec3 off{0.0};
@@ -97,6 +103,10 @@ public:
     // `model`: where the model has it at the same sample.
     Pose filter(const PoseFilterSettings& settings, const Pose& seen, const Pose& model, const PoseStep& step,
                 FarEyes& eyes);
+
+    // What was believed last, or `model` where the two differ by no more than the doubt about it.
+    Pose unless_said(const PoseFilterSettings& settings, const Pose& believed, const Pose& model,
+                     const FarEyes& eyes) const;
 
     void forget() { *this = {}; }
 

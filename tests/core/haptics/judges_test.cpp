@@ -156,6 +156,18 @@ TEST(BodyJudge, ExcusesUntilTheSphereIsClear) {
     EXPECT_TRUE(judge.is_penetrated({1.05, 0.0, 0.0}, 0.1));
 }
 
+TEST(SideJudge, SeesAPassUnlessItIsExcusedInBetween) {
+    shared::SideJudge judge;
+    EXPECT_FALSE(judge.has_passed(1));
+    EXPECT_TRUE(judge.has_passed(0));
+    EXPECT_FALSE(judge.has_passed(0));
+    EXPECT_FALSE(judge.has_passed(std::nullopt));  // beyond the surface's end
+    EXPECT_FALSE(judge.has_passed(1));
+    judge.excuse();
+    EXPECT_FALSE(judge.has_passed(0));
+    EXPECT_TRUE(judge.has_passed(1));
+}
+
 TEST(Bench, ChoosesCasesByTheBeginningOfTheirNames) {
     EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", ""));
     EXPECT_TRUE(shared::is_chosen("rough_gear_100_r0.2_walk", "rough_gear"));

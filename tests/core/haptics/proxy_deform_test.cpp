@@ -1,6 +1,7 @@
 // Meshes that deform around the proxy, by more than it is large.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "shared/deforms.hpp"
@@ -49,6 +50,28 @@ TEST_F(ProxyDeform, ASheetThatRisesTenRadiiTakesItAlong) {
     EXPECT_EQ(tick.status & (proxy_squeezed | proxy_letting_out), 0u);
     EXPECT_TRUE(tick.status & proxy_touching);
     EXPECT_NEAR(deform(lifted(sheet, 0.1), {0.013, 0.2, 0.007}).position.y, 0.2, 1e-12);
+}
+
+// Pushed off one wall after the other, it would stand between them in the limit only, after far more work
+// than this. Both at once say where there is room.
+TEST_F(ProxyDeform, AGrooveThatNarrowsLiftsItOut) {
+    const auto groove = [](double slope, double by) {
+        TriangleMesh mesh = shared::terrain(20, 2.0, 0.0);
+        for (Vec3& v : mesh.vertices) {
+            v.y = slope * std::abs(v.x) + by;
+        }
+        return mesh;
+    };
+    ProxySettings settings = rig_.proxy.settings();
+    settings.max_work = 10'000;
+    rig_.proxy.set_settings(settings);
+    start(groove(0.8, 0.0));
+    rig_.draw({0.013, 0.5, 0.007}, {0.013, -0.5, 0.007}, 20);
+    const ProxyTick tick = deform(groove(6.0, 0.5), {0.013, -0.5, 0.007});
+    EXPECT_EQ(tick.status & (proxy_squeezed | proxy_letting_out | proxy_unfinished), 0u);
+    EXPECT_NEAR(tick.position.x, 0.0, 1e-7);
+    EXPECT_NEAR(tick.position.y, 0.5 + radius * std::sqrt(1.0 + 6.0 * 6.0), 1e-6);
+    EXPECT_TRUE(tick.status & proxy_touching);
 }
 
 TEST_F(ProxyDeform, ASheetThatItSticksToCarriesItSideways) {

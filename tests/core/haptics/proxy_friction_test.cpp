@@ -104,6 +104,37 @@ TEST(ProxyFriction, AfterSlidingASmallPullSticksAgain) {
     EXPECT_EQ(held.status & proxy_sliding, 0u);
 }
 
+// A surface that is put right under a sliding proxy, a little each tick and towards the hand, as a camera's
+// noise does it.
+TEST(ProxyFriction, ASurfaceThatIsPutElsewhereDoesNotEndASlide) {
+    TouchRig rig(radius);
+    const int floor = rig.add(shared::groove(std::numbers::pi, 20.0), {}, rough(0.5, 0.3));
+    rig.draw({0.0, 0.1, 0.0}, {0.0, radius - 0.02, 0.0}, 10);
+    Vec3 hand(0.0, radius - 0.02, 0.0);
+    rig.draw(hand, {0.0, hand.y, 0.5}, 500);
+    hand.z = 0.5;
+    Pose pose;
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 put(0.0, i % 2 == 0 ? 1e-4 : -1e-4, 2e-3);
+        rig.proxy.go_along(put, floor);
+        pose.position += put;
+        rig.scene.set_pose(floor, pose, true);
+        hand.z += 1e-3;
+        const ProxyTick tick = rig.tick(hand);
+        ASSERT_TRUE(tick.status & proxy_sliding) << i;
+        ASSERT_NEAR(hand.z - tick.position.z, 0.3 * (tick.position.y - hand.y), 1e-6) << i;
+    }
+}
+
+TEST(ProxyFriction, AProxyThatSticksGoesAlongWithItsSurface) {
+    TouchRig rig(radius);
+    const int floor = rig.add(shared::groove(std::numbers::pi, 20.0), {}, rough(0.5, 0.3));
+    rig.draw({0.0, 0.1, 0.0}, {0.0, radius - 0.02, 0.0}, 10);
+    const Vec3 before = rig.proxy.position();
+    rig.proxy.go_along({0.0, 1e-4, 2e-3}, floor);
+    EXPECT_EQ(rig.proxy.position(), before + Vec3(0.0, 1e-4, 2e-3));
+}
+
 TEST(ProxyFriction, IsTheSameInEveryDirectionOfThePlane) {
     for (int k = 0; k < 12; ++k) {
         const double a = 2.0 * std::numbers::pi * k / 12.0;

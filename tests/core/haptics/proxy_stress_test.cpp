@@ -37,6 +37,16 @@ TEST(ProxyStress, NoPenetrationNoPassNoNan) {
     EXPECT_EQ(counts().nans, 0u);
 }
 
+// A box that has become flatter than the sphere in it lets it out between two looks at its side; a crumpled
+// star took all the work of a tick to push it off two walls in turn.
+TEST(ProxyStress, WhatIsLetOutOfAFormWithoutRoomHasNotPassedIt) {
+    shared::StressCounts let_out;
+    shared::run_stress_case(24'010, {.ticks = 240}, let_out);
+    shared::run_stress_case(39'814, {.ticks = 1'900}, let_out);
+    EXPECT_EQ(let_out.passes, 0u);
+    EXPECT_GT(let_out.excused_ticks, 0u);
+}
+
 TEST(ProxyStress, NoTickIsStuck) {
     EXPECT_EQ(counts().stuck_ticks, 0u);
 }

@@ -1,0 +1,78 @@
+// The small motion of a rigid tool nearest to the one that is wanted, as far as its contacts allow:
+// nearest_in_halfspaces lifted to six dimensions (Ortega, Redon and Coquillart 2007, with positions in place
+// of accelerations), and with friction.
+//
+// A motion is x = (v, L w): a way v of the tool's origin and a turn w about it, made a length by L, the root
+// of the coupling's stiffness in turns over that in ways. So |x - goal|^2 is the coupling's energy, and the
+// motion nearest to the goal is where contacts and coupling are in balance. A point at r from the origin
+// moves by u = v + w x r, and the half-space n . u >= -gap is
+//     (n, r x n / L) . x >= -gap.
+//
+// Friction mu makes a cone of it (Anitescu 2006, Tasora and Anitescu 2010): with u_t along the surface,
+//     n . u >= -gap + mu (|u_t| - s)
+// which is the half-spaces of n - mu t for all directions t along the surface. Each pushes along n - mu t,
+// which is Coulomb's force. With s = 0 nothing moves if and only if some forces within their cones balance
+// the pull: so whether a tool sticks does not depend on how its contacts share the load. A tool that slides
+// would lift by mu |u_t|; with s = |u_t| it does not (de Saxce and Feng 1998).
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/geometry/work.hpp"
+#include "core/math/small_matrix.hpp"
+#include "core/math/types.hpp"
+
+namespace tactus {
+
+struct RigidMotion {
+    Vec3 way{0.0};   // v (unit: meters)
+    Vec3 turn{0.0};  // w (unit: radians)
+
+    // Of a point of the tool, at `arm` from its origin (unit: meters).
+    Vec3 at(const Vec3& arm) const;
+};
+
+inline RigidMotion operator*(const RigidMotion& motion, double share) {
+    return {motion.way * share, motion.turn * share};
+}
+
+inline Vector6 lifted(const RigidMotion& motion, double length) {
+    return {motion.way.x,           motion.way.y,           motion.way.z,
+            motion.turn.x * length, motion.turn.y * length, motion.turn.z * length};
+}
+inline RigidMotion lowered(const Vector6& x, double length) {
+    return {{x[0], x[1], x[2]}, Vec3(x[3], x[4], x[5]) / length};
+}
+
+// What of x moves the point at `arm` from the origin along `direction`.
+Vector6 lifted_row(const Vec3& direction, const Vec3& arm, double length);
+
+// What a contact allows.
+struct MotionBound {
+    Vec3 normal{0.0, 1.0, 0.0};  // n, unit
+    Vec3 arm{0.0};               // r (unit: meters)
+    double gap = 0.0;            // (unit: meters)
+    double friction = 0.0;       // mu
+    double slide = 0.0;          // s (unit: meters)
+};
+
+struct NearestMotion {
+    struct Push {
+        int bound = -1;
+        Vec3 direction{0.0};  // n - mu t
+        double size = 0.0;    // (unit: meters)
+    };
+    Vector6 x{};                 // goal + sum of size * lifted_row(direction, arm)
+    std::array<Push, 6> pushes;  // what holds it back
+    int push_count = 0;
+    bool possible = true;  // false: the bounds leave nothing
+    double missing = 0.0;  // the largest violation that the work has left over (unit: meters)
+};
+
+// The dual method of Goldfarb and Idnani (1983): begins at the goal and takes in the half-space that is
+// violated most until none is by more than `tolerance` (unit: meters).
+NearestMotion nearest_motion(const Vector6& goal, std::span<const MotionBound> bounds, double length,
+                             double tolerance, WorkBudget& work);
+
+}  // namespace tactus

@@ -1,0 +1,112 @@
+// A rigid tool that goes where the hand goes, turns as it turns, and never enters a surface: what Proxy is
+// for a point, for spheres that move as one. docs/tool.md derives it.
+//
+// A tick goes in steps. Each takes the contacts around the tool as bounds of its motion, finds the motion
+// nearest to the hand's (nearest_motion) and goes along it, up to the first surface. The steps end where none
+// is left to go. Bodies that have moved carry a tool that rests on them and push one that is in their way.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "core/tool/tool_surroundings.hpp"
+
+namespace tactus {
+
+struct ToolSettings {
+    std::uint32_t mask = 0xffff'ffffu;  // layers it touches
+    // Of the virtual coupling between hand and tool.
+    double stiffness = 1000.0;       // (unit: newtons per meter), > 0
+    double turning_stiffness = 1.0;  // (unit: newton meters per radian), > 0
+    int max_steps = 32;              // a tick; what is missing then is made up in the next
+    std::int64_t max_work = 12'000;  // a tick (see WorkBudget): below 0.25 ms
+};
+
+enum ToolStatus : std::uint32_t {
+    tool_absent = 1u << 0,      // it began inside a body: no touch until the hand is out
+    tool_touching = 1u << 1,    // at least one contact holds it back
+    tool_sliding = 1u << 2,     // dynamic friction applies
+    tool_unfinished = 1u << 3,  // this tick's steps or work did not suffice
+    tool_squeezed = 1u << 4,    // moving bodies have left it no room: it begins anew
+};
+
+// A contact that holds the tool back.
+struct ToolTouch {
+    Vec3 point{0.0};             // on the surface, in the world (unit: meters)
+    Vec3 normal{0.0, 1.0, 0.0};  // unit, from the surface to the tool, in the world
+    Vec3 force{0.0};             // on the tool (unit: newtons); the body gets the opposite
+    double stiffness = 0.0;      // by which that grows when tool and hand come apart there, along it
+                                 // (unit: newtons per meter)
+    int body = -1;               // slot in the TouchScene
+};
+
+struct ToolTick {
+    Pose pose;                 // of the tool, in the world
+    Vec3 force{0.0};           // on the hand (unit: newtons)
+    Vec3 torque{0.0};          // on the hand, about its own place (unit: newton meters)
+    double residual = 0.0;     // length of the step that would come next (unit: meters)
+    std::uint32_t status = 0;  // ToolStatus
+    int steps = 0;
+};
+
+class ToolProxy {
+public:
+    ToolProxy(std::shared_ptr<const ToolShape> shape, std::size_t max_parts, const ToolSettings& settings);
+
+    // One tick: the scene as it is, the hand where it is. Allocates nothing.
+    ToolTick move(const TouchScene& scene, const Pose& hand);
+
+    void set_settings(const ToolSettings& settings);
+    std::span<const ToolTouch> touching() const {
+        return {touches_.data(), static_cast<std::size_t>(touch_count_)};
+    }
+    const Pose& pose() const { return pose_; }
+    const ToolShape& shape() const { return around_.shape(); }
+    double skin() const { return around_.skin(); }
+    // As if just started: present again as soon as the hand is in a free place.
+    void restart() {
+        present_ = false;
+        touch_count_ = 0;
+    }
+
+private:
+    struct Plan {
+        Vector6 motion{};  // (unit: meters)
+        NearestMotion
+            holding;  // what holds it back, forces that balance the coupling when it has come to rest
+        bool possible = true;
+        bool slides = false;
+    };
+
+    ToolTick appear(const Pose& hand);
+    bool ride();
+    int carrier() const;
+    void descend(const Pose& hand, ToolTick& tick);
+    Plan plan(const RigidMotion& pull);
+    bool slips(const NearestMotion& held) const;
+    NearestMotion hold(const Vector6& goal, bool sliding);
+    void bound_motion();
+    void bound_slides(const Vector6& x);
+    NearestMotion nearest(const Vector6& goal, double tolerance);
+    void keep_touches(const NearestMotion& holding);
+    void go(const RigidMotion& motion);
+
+    ToolSettings settings_;
+    double length_ = 0.0;  // L of nearest_motion.hpp (unit: meters)
+    ToolSurroundings around_;
+    const TouchScene* scene_ = nullptr;
+    std::uint64_t revision_ = 0;
+    Pose pose_;
+    bool present_ = false;
+    bool sliding_ = false;
+    double pace_ = 0.0;  // of the farthest sphere, in the last tick (unit: meters)
+    WorkBudget work_{0};
+    ToolContacts contacts_;
+    std::array<MotionBound, ToolContacts::capacity> bounds_;  // of contacts_
+    std::array<ToolTouch, 6> touches_;
+    int touch_count_ = 0;
+};
+
+}  // namespace tactus

@@ -1,0 +1,37 @@
+// A rigid tool as spheres: inscribed in its mesh, so that it never is larger than it looks, and so many that
+// no point of its surface lies farther outside of them than a tolerance. Made off the loop.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/geometry/triangle_mesh.hpp"
+
+namespace tactus {
+
+struct ToolSphere {
+    Vec3 center{0.0};     // in the tool's frame (unit: meters)
+    double radius = 0.0;  // (unit: meters), > 0
+};
+
+struct ToolShape {
+    std::vector<ToolSphere> spheres;
+    double tolerance = 0.0;  // no point of the mesh's surface is farther outside of them (unit: meters)
+    double reach = 0.0;      // of the spheres from the tool's origin (unit: meters)
+};
+
+struct ToolShapeSettings {
+    double tolerance = 1e-3;        // that is wanted (unit: meters), > 0
+    std::size_t max_spheres = 500;  // where more would be needed, a larger tolerance is taken
+};
+
+struct ToolShapeResult {
+    std::shared_ptr<const ToolShape> shape;  // null where there is an error
+    std::string error;                       // what is wrong and what to do
+};
+
+// Refuses what check_mesh refuses, what is not closed, and what has no inside.
+ToolShapeResult make_tool_shape(const TriangleMesh& mesh, const ToolShapeSettings& settings = {});
+
+}  // namespace tactus

@@ -1,0 +1,286 @@
+#include "core/tool/tool_surroundings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+#include "core/teleop/body_motion.hpp"
+
+namespace tactus {
+
+namespace {
+
+// All of the tool's reach.
+constexpr double skin_share = 2e-5;
+constexpr double hood_share = 0.1;      // how far around a sphere features are remembered
+constexpr double farthest_share = 0.2;  // no hood looks farther than parts are looked for beyond the way
+
+// Of a skin: sweeps end this far above a surface, and have arrived when they are this close to that.
+constexpr double stop_share = 0.5;
+constexpr double arrival_share = 0.125;
+constexpr double same_share = 1e-3;  // distances that differ by less are the same
+constexpr double window_share = 4.0;
+
+// Of its room, or of the skin: how far the way of a sphere may be from its chord.
+constexpr double sag_share = 0.25;
+
+// A point that turns by w about an axis at the distance a leaves its chord by at most w^2 a / 8.
+double sag_of(double turn, double arm) {
+    return turn * turn * arm / 8.0;
+}
+
+}  // namespace
+
+Pose moved(const Pose& pose, const RigidMotion& motion) {
+    return {pose.position + motion.way, glm::normalize(turn_by(motion.turn, 1.0) * pose.rotation)};
+}
+
+RigidMotion motion_between(const Pose& from, const Pose& to) {
+    return {to.position - from.position, turn_vector(to.rotation * glm::conjugate(from.rotation))};
+}
+
+void ToolContacts::add(const ToolContact& contact) {
+    if (count < capacity) {
+        items[static_cast<std::size_t>(count++)] = contact;
+        return;
+    }
+    ToolContact& farthest = *std::ranges::max_element(items, {}, &ToolContact::gap);
+    if (contact.gap < farthest.gap) {
+        farthest = contact;
+    }
+}
+
+ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::size_t max_parts)
+    : shape_(std::move(shape)),
+      skin_(skin_share * shape_->reach),
+      hoods_(shape_->spheres.size()),
+      room_(shape_->spheres.size(), 0.0) {
+    parts_.reserve(max_parts);
+    arms_.reserve(shape_->spheres.size());
+    for (const ToolSphere& sphere : shape_->spheres) {
+        arms_.push_back(glm::length(sphere.center));
+    }
+}
+
+double ToolSurroundings::way_of(const RigidMotion& motion, double arm) {
+    return glm::length(motion.way) + glm::length(motion.turn) * arm;
+}
+
+void ToolSurroundings::forget() {
+    std::ranges::fill(room_, 0.0);
+    for (SphereHood& hood : hoods_) {
+        hood.forget();
+    }
+}
+
+void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way) {
+    scene_ = &scene;
+    stop_count_ = 0;
+    const double near = shape_->reach * (1.0 + farthest_share) + way + skin_;
+    double approach = 0.0;
+    parts_.clear();
+    const std::span<const ScenePart> parts = scene.parts();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const ScenePart& placed = parts[i];
+        if (placed.part == nullptr || (scene.body(static_cast<int>(placed.body)).layer & mask) == 0) {
+            continue;
+        }
+        const TouchBody& body = scene.body(static_cast<int>(placed.body));
+        const Vec3 apart = to_local(placed.pose, pose.position) - placed.part->center;
+        const double gone = body.moved ? body.moved_by : 0.0;
+        if (glm::length(apart) - placed.part->radius <= near + gone) {
+            parts_.push_back(static_cast<std::uint32_t>(i));
+            approach = std::max(approach, gone);
+        }
+    }
+    if (std::exchange(revision_, scene.revision()) != scene.revision()) {
+        forget();
+    } else if (approach > 0.0) {
+        for (std::size_t i = 0; i < hoods_.size(); ++i) {
+            hoods_[i].approach(approach);
+            room_[i] -= approach;
+        }
+    }
+}
+
+bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work) {
+    for (std::uint32_t i = 0; i < hoods_.size() && !parts_.empty(); ++i) {
+        const Vec3 center = to_parent(pose, shape_->spheres[i].center);
+        hoods_[i].gather(*scene_, parts_, center, rest(i) + hood_share * shape_->reach, same_share * skin_,
+                         work);
+        room_[i] = hoods_[i].least(center) - rest(i);
+        if (room_[i] <= 0.0 || work.is_gone()) {
+            return false;
+        }
+    }
+    const Vec3 inside = to_parent(pose, shape_->spheres.front().center);
+    return std::ranges::none_of(parts_, [&](std::uint32_t index) {
+        const ScenePart& placed = scene_->parts()[index];
+        return placed.part->closed &&
+               placed.part->tree()->winding(to_local(placed.pose, inside), work).inside();
+    });
+}
+
+bool ToolSurroundings::has_stopped(std::uint32_t sphere, const HoodPlane& plane) const {
+    return std::ranges::any_of(
+        std::span(stops_).first(static_cast<std::size_t>(stop_count_)), [&](const Stop& stop) {
+            return stop.sphere == sphere && stop.part == plane.part && stop.triangle == plane.triangle;
+        });
+}
+
+void ToolSurroundings::note_stop(const Stop& stop) {
+    room_[stop.sphere] = 0.0;
+    hoods_[stop.sphere].forget();  // it may have forgotten what has stopped it
+    if (stop_count_ < max_insisted) {
+        stops_[static_cast<std::size_t>(stop_count_++)] = stop;
+    }
+}
+
+void ToolSurroundings::look_at_sphere(std::uint32_t index, const Pose& pose, double window,
+                                      ToolContacts& contacts, WorkBudget& work) {
+    const Vec3 center = to_parent(pose, shape_->spheres[index].center);
+    const double rest = this->rest(index);
+    SphereHood& hood = hoods_[index];
+    const double others = hood.others(center) - rest;
+    // A hood that is full sees no farther from here: sweeps do, and what stops one makes it look anew.
+    if (others < window && !hood.is_full()) {
+        const double around =
+            std::clamp(4.0 * window, hood_share * shape_->reach, farthest_share * shape_->reach);
+        hood.gather(*scene_, parts_, center, rest + around, same_share * skin_, work);
+    }
+    const double within = rest + window;
+    const auto is_near = [&](const HoodPlane& plane) { return plane.at(center) < within; };
+    if (!hood.is_seen_from(center, within) && std::ranges::any_of(hood.planes(), is_near)) {
+        hood.look(*scene_, center, within, same_share * skin_, work);
+    }
+    for (const HoodPlane& plane : hood.planes()) {
+        if (is_near(plane) && (!plane.covered || has_stopped(index, plane))) {
+            contacts.add({plane.point, plane.normal, plane.at(center) - rest,
+                          static_cast<int>(scene_->parts()[plane.part].body)});
+        }
+    }
+    room_[index] = hood.least(center) - rest;
+}
+
+void ToolSurroundings::collect(const Pose& pose, const RigidMotion& motion, double far,
+                               ToolContacts& contacts, WorkBudget& work) {
+    contacts.count = 0;
+    const double most = std::min(far, 0.5 * farthest_share * shape_->reach);
+    const double way = glm::length(motion.way);
+    const double turn = glm::length(motion.turn);
+    work.spend(static_cast<std::int64_t>(hoods_.size()) / 4);
+    for (std::uint32_t i = 0; i < hoods_.size() && !work.is_gone(); ++i) {
+        const double window = std::min(way + turn * arms_[i], most) + window_share * skin_;
+        if (room_[i] < window) {
+            look_at_sphere(i, pose, window, contacts, work);
+        }
+    }
+}
+
+double ToolSurroundings::straight_share(const RigidMotion& motion) const {
+    const double way = glm::length(motion.way);
+    const double turn = glm::length(motion.turn);
+    double least = std::min(turn, 0.5);
+    for (std::size_t i = 0; i < arms_.size(); ++i) {
+        if (room_[i] <= way + turn * arms_[i]) {
+            const double sag = sag_share * std::max(room_[i], skin_);
+            if (sag_of(least, arms_[i]) > sag) {
+                least = std::sqrt(8.0 * sag / arms_[i]);
+            }
+        }
+    }
+    return turn > 0.0 ? least / turn : 1.0;
+}
+
+double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag,
+                                      double limit, int except, WorkBudget& work) {
+    const double stop = shape_->spheres[index].radius + stop_share * skin_ + sag;
+    const double arrival = arrival_share * skin_;
+    if (std::min(hoods_[index].least(from), hoods_[index].least(to)) > stop + arrival) {
+        return limit;
+    }
+    const double length = glm::distance(from, to);
+    for (const std::uint32_t part : parts_) {
+        const ScenePart& placed = scene_->parts()[part];
+        const Vec3 start = to_local(placed.pose, from);
+        if (static_cast<int>(placed.body) == except ||
+            glm::distance(start, placed.part->center) - placed.part->radius > stop + length + skin_) {
+            continue;
+        }
+        const SphereWay swept{start, direction_to_local(placed.pose, to - from), stop, arrival};
+        const Hit hit = sweep_surface(*placed.part, swept, limit, work);
+        if (hit.found) {
+            stopped_by_ = {index, part, hit.triangle};
+        }
+        limit = std::min(limit, hit.is_free() ? limit : hit.t);
+    }
+    return limit;
+}
+
+// Nearest first: where the work ends, the others go no farther than the room that they are known to have.
+double ToolSurroundings::free_share(const Pose& pose, const RigidMotion& motion, WorkBudget& work,
+                                    int except) {
+    const Pose end = moved(pose, motion);
+    const double way = glm::length(motion.way);
+    const double turn = glm::length(motion.turn);
+    double limit = 1.0;
+    stopped_by_.sphere = no_sphere;
+    work.spend(static_cast<std::int64_t>(hoods_.size()) / 2);
+    for (const bool is_near : {true, false}) {
+        for (std::uint32_t i = 0; i < hoods_.size() && !parts_.empty(); ++i) {
+            const double far = way + turn * arms_[i];
+            if (room_[i] > limit * far || (room_[i] <= 0.25 * far) != is_near) {
+                continue;
+            }
+            if (work.is_gone()) {
+                limit = std::clamp(room_[i] / far, 0.0, limit);
+                continue;
+            }
+            const double sag = std::max(0.0, sag_of(turn, arms_[i]) - sag_share * skin_);
+            limit = sweep_sphere(i, to_parent(pose, shape_->spheres[i].center),
+                                 to_parent(end, shape_->spheres[i].center), sag, limit, except, work);
+        }
+    }
+    if (stopped_by_.sphere != no_sphere) {
+        note_stop(stopped_by_);
+    }
+    return limit;
+}
+
+double ToolSurroundings::share_until_met(int body, const Pose& before, const Pose& now, WorkBudget& work) {
+    double limit = 1.0;
+    for (const std::uint32_t part : parts_) {
+        const ScenePart& placed = scene_->parts()[part];
+        if (static_cast<int>(placed.body) != body) {
+            continue;
+        }
+        for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
+            if (room_[i] > 0.0) {  // that already counts with the body's way
+                continue;
+            }
+            const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
+            const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
+            const double stop = shape_->spheres[i].radius + stop_share * skin_;
+            if (glm::distance(to, placed.part->center) - placed.part->radius >
+                stop + glm::distance(from, to) + skin_) {
+                continue;
+            }
+            const Hit hit =
+                sweep_surface(*placed.part, {from, to - from, stop, arrival_share * skin_}, limit, work);
+            limit = hit.is_free() ? limit : std::min(limit, hit.t);
+        }
+    }
+    return limit;
+}
+
+void ToolSurroundings::went(const RigidMotion& motion) {
+    const double way = glm::length(motion.way);
+    const double turn = glm::length(motion.turn);
+    for (std::size_t i = 0; i < room_.size(); ++i) {
+        room_[i] -= way + turn * arms_[i];
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,106 @@
+// What a tool's spheres may meet: which surfaces bound its next motion, and how much of a motion is free.
+//
+// Turns are cut so that no sphere's way is farther from its chord than a quarter of its room, or of the skin,
+// by which the tool rests above surfaces: sweeps along the chords then miss nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/tool/nearest_motion.hpp"
+#include "core/tool/sphere_hood.hpp"
+#include "core/tool/tool_shape.hpp"
+
+namespace tactus {
+
+// Where one of a tool's spheres touches a surface, or may soon.
+struct ToolContact {
+    Vec3 point{0.0};             // on the surface, in the world (unit: meters)
+    Vec3 normal{0.0, 1.0, 0.0};  // unit, from the surface to the tool, in the world
+    double gap = 0.0;            // distance still to where the tool rests (unit: meters)
+    int body = -1;               // slot in the TouchScene
+};
+
+struct ToolContacts {
+    static constexpr int capacity = 128;
+
+    std::array<ToolContact, capacity> items;
+    int count = 0;
+
+    // Where there is no room the farthest goes. Sweeps still see it.
+    void add(const ToolContact& contact);
+    std::span<const ToolContact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
+};
+
+class ToolSurroundings {
+public:
+    ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::size_t max_parts);
+
+    const ToolShape& shape() const { return *shape_; }
+    // How far above surfaces the tool rests (unit: meters).
+    double skin() const { return skin_; }
+
+    // Once a tick: the tool stands at `pose` and goes no farther than `way` (unit: meters).
+    void begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way);
+    void forget();
+    bool is_empty() const { return parts_.empty(); }
+    // Whether the tool neither touches nor is inside anything. False where the work is gone.
+    bool is_free(const Pose& pose, WorkBudget& work);
+
+    // The contacts that a motion may meet before its farthest point has gone `far` (unit: meters).
+    void collect(const Pose& pose, const RigidMotion& motion, double far, ToolContacts& contacts,
+                 WorkBudget& work);
+    // What of the motion is a small enough turn.
+    double straight_share(const RigidMotion& motion) const;
+    // What of the motion no sphere meets anything on, but the body `except`.
+    double free_share(const Pose& pose, const RigidMotion& motion, WorkBudget& work, int except = -1);
+    // What of its way in this tick the body has gone when it meets the tool, which went from `before` to
+    // `now`; 1: it does not.
+    double share_until_met(int body, const Pose& before, const Pose& now, WorkBudget& work);
+    // The tool has made the motion.
+    void went(const RigidMotion& motion);
+
+    // No point of the tool goes farther (unit: meters).
+    double farthest_way(const RigidMotion& motion) const { return way_of(motion, shape_->reach); }
+
+private:
+    static constexpr int max_insisted = 32;
+    static constexpr std::uint32_t no_sphere = 0xffff'ffffu;
+    struct Stop {
+        std::uint32_t sphere = 0, part = 0, triangle = 0;
+    };
+
+    static double way_of(const RigidMotion& motion, double arm);
+    void look_at_sphere(std::uint32_t index, const Pose& pose, double window, ToolContacts& contacts,
+                        WorkBudget& work);
+    double sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag, double limit,
+                        int except, WorkBudget& work);
+    bool has_stopped(std::uint32_t sphere, const HoodPlane& plane) const;
+    void note_stop(const Stop& stop);
+    double rest(std::uint32_t sphere) const { return shape_->spheres[sphere].radius + skin_; }
+
+    std::shared_ptr<const ToolShape> shape_;
+    double skin_;
+    const TouchScene* scene_ = nullptr;
+    std::uint64_t revision_ = 0;
+    std::vector<std::uint32_t> parts_;  // of the scene, near the tool in this tick
+    // One each a sphere.
+    std::vector<SphereHood> hoods_;
+    std::vector<double> arms_;  // from the tool's origin to the centre (unit: meters)
+    std::vector<double> room_;  // it rests on nothing before it has gone so far (unit: meters)
+    // What stops a sphere counts as a contact for the rest of the tick, even where another one seems to stand
+    // for it.
+    std::array<Stop, max_insisted> stops_;
+    int stop_count_ = 0;
+    Stop stopped_by_;  // the last sweep
+};
+
+// The tool's place after the motion.
+Pose moved(const Pose& pose, const RigidMotion& motion);
+// That takes it from one place to the other.
+RigidMotion motion_between(const Pose& from, const Pose& to);
+
+}  // namespace tactus

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <godot_cpp/classes/mesh.hpp>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
+#include <memory>
+#include <set>
+
+#include "nodes/device_choice.hpp"
+#include "nodes/properties.hpp"
+#include "session/session_types.hpp"
+
+namespace tactus {
+
+class TriangleSource;
+
+// A rigid tool in the hand: it goes and turns as the hand does, and never enters a surface. Its place follows
+// the tool.
+class HapticTool : public godot::Node3D {
+    GDCLASS(HapticTool, godot::Node3D)
+
+public:
+    enum Status : int64_t {
+        STATUS_ABSENT = tool_absent,
+        STATUS_TOUCHING = tool_touching,
+        STATUS_SLIDING = tool_sliding,
+        STATUS_UNFINISHED = tool_unfinished,
+        STATUS_SQUEEZED = tool_squeezed
+    };
+
+    TACTUS_PROPERTIES(HapticTool)
+
+    godot::Vector3 get_force() const { return to_godot(state_.force); }
+    godot::Vector3 get_torque() const { return to_godot(state_.torque); }
+    godot::Transform3D get_hand_transform() const { return to_godot(state_.hand); }
+    godot::Transform3D get_tool_transform() const { return to_godot(state_.pose); }
+    bool is_touching() const { return has(tool_touching); }
+    bool is_present() const { return state_.handle != no_handle && !has(tool_absent); }
+    godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
+    double get_residual() const { return state_.residual; }
+    int64_t get_sphere_count() const;
+    double get_sampling_error() const;
+    godot::TypedArray<godot::Dictionary> get_contacts() const;
+    godot::String get_state_text() const;
+
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // --- for the world that runs it
+
+    HapticDevice* device_node() const { return device_.of(*this); }
+    // Why it cannot touch anything, and what to do; empty where nothing is wrong with it.
+    godot::String problem() const;
+    // Begins to make its spheres where that has not been done, and where `waits` is true ends that.
+    void make_shape(bool waits);
+    // Null until they are made, and where the mesh is none for a tool.
+    std::shared_ptr<const ToolShape> shape() const;
+    godot::String problem_of_shape() const;
+    ToolUse use(SessionHandle device) const;
+    // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
+    using BodyIds = std::array<std::uint64_t, ToolState::max_contacts>;
+    void take_state(const ToolState& state, const BodyIds& bodies);
+    void clear_state();
+    bool is_kept_out() const { return state_.handle != no_handle && !is_present(); }
+    void clear_force();
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+
+private:
+    // Its spheres, made beside the frames.
+    struct Sampling {
+        std::atomic<bool> is_done = false;
+        ToolShapeResult result;  // of use when it is done
+    };
+
+    void mesh_changed();
+    void show_mesh();
+    void emit_changes(std::set<std::uint64_t> touched);
+    bool has(ToolStatus bit) const { return (state_.status & bit) != 0; }
+
+    DeviceChoice device_;
+    godot::Ref<godot::Mesh> mesh_;
+    ToolShapeSettings sampling_settings_;
+    ToolSettings settings_;
+    Vec3 grasp_position_{0.0};  // in the hand's frame (unit: meters)
+    Vec3 grasp_rotation_{0.0};  // Euler's angles as Godot turns them (unit: radians)
+    bool enabled_ = true;
+    bool show_tool_ = true;
+
+    std::shared_ptr<Sampling> sampling_;  // null: not begun
+    ToolState state_;
+    std::set<std::uint64_t> touched_;  // ids of the bodies that are touched
+    BodyIds contact_bodies_{};
+    godot::MeshInstance3D* picture_ = nullptr;
+};
+
+}  // namespace tactus
+
+VARIANT_BITFIELD_CAST(tactus::HapticTool::Status);

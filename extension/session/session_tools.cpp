@@ -1,0 +1,125 @@
+// Tools in the loop: what the hand holds, what it feels of it, and what the bodies do that it touches.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "core/teleop/body_motion.hpp"
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+bool SessionLoop::carry_out(command::AddTool& c, Retired&) {
+    tools_[c.handle] = std::move(c.tool);
+    return false;
+}
+
+bool SessionLoop::carry_out(command::SetTool& c, Retired&) {
+    if (ToolSlot* const changed = tools_[c.handle].get()) {
+        if (changed->use.device != c.use.device) {
+            changed->proxy.restart();
+        }
+        changed->use = c.use;
+        changed->proxy.set_settings(c.use.settings);
+    }
+    return false;
+}
+
+bool SessionLoop::carry_out(command::RemoveTool& c, Retired& retired) {
+    retired.kind = Retired::Kind::tool;
+    retired.handle = c.handle;
+    retired.tool = std::move(tools_[c.handle]);
+    return true;
+}
+
+// Over a link only fingertips are told.
+void SessionLoop::touch_tools() {
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot) {
+            touch(*slot);
+        }
+    }
+}
+
+void SessionLoop::touch(ToolSlot& slot) {
+    const SessionHandle index = slot.use.device;
+    slot.source = 0.0;
+    if (side_ || !slot.use.enabled || index >= max_devices || !devices_[index].device) {
+        slot.proxy.restart();
+        slot.force = Vec3(0.0);
+        slot.jumped = true;
+        slot.state = {};
+        return;
+    }
+    const DeviceSlot& device = devices_[index];
+    const Pose before = slot.hand;
+    slot.hand = {device.hand, device.orientation};
+    slot.hand_velocity = device.hand_velocity;
+    slot.hand_spin = device.hand_turn / seconds_;
+    if (std::exchange(slot.rested, false) &&
+        glm::distance(slot.hand.position, before.position) > slot.proxy.shape().reach) {
+        slot.proxy.restart();  // the hand may be deep inside a body by now
+    }
+    const Pose goal = compose(slot.hand, slot.use.grasp);
+    const ToolTick tick = slot.proxy.move(scene_, goal);
+    const double stiffness = slot.use.settings.stiffness;
+    const Wall safe =
+        safe_wall({seconds_, device.capabilities.delay},
+                  damping_in_scene(device.workspace, device.capabilities.damping), {stiffness, 0.0});
+    slot.share = safe.stiffness / stiffness;
+    slot.force = tick.force * slot.share;
+    slot.jumped = (tick.status & (tool_absent | tool_squeezed)) != 0;
+    double given = 0.0;
+    for (const ToolTouch& touch : slot.proxy.touching()) {
+        const Vec3 way = touch.point - previous_place(scene_.body(touch.body), touch.point);
+        given += glm::dot(touch.force, way) * slot.share;
+    }
+    slot.source = std::max(0.0, given);
+    status_ |= tick.status & tool_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
+    slot.state.torque = tick.torque * slot.share + glm::cross(goal.position - slot.hand.position, slot.force);
+    describe(slot, tick);
+}
+
+void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
+    ToolState& state = slot.state;
+    state.pose = tick.pose;
+    state.hand = compose(slot.hand, slot.use.grasp);
+    state.residual = tick.residual;
+    state.status = tick.status;
+    state.contact_count = 0;
+    for (const ToolTouch& touch : slot.proxy.touching()) {
+        const auto i = static_cast<std::size_t>(state.contact_count++);
+        state.bodies[i] = handle_of_slot_[static_cast<std::size_t>(touch.body)];
+        state.points[i] = touch.point;
+        state.normals[i] = touch.normal;
+    }
+}
+
+void SessionLoop::fade_tools() {
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot && slot->use.device < max_devices) {
+            const FadingForce::Step step{slot->hand.position, slot->hand_velocity,
+                                         slot->use.settings.stiffness * slot->share, 0.0};
+            slot->state.force =
+                slot->fading.felt(slot->force, force_limit(slot->use.device), slot->jumped, step);
+        }
+    }
+}
+
+// The opposite of what holds the tool goes to what it touches, where it touches it.
+void SessionLoop::press_bodies(const ToolSlot& slot) {
+    for (const ToolTouch& touch : slot.proxy.touching()) {
+        const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(touch.body)]];
+        const Vec3 force = touch.force * slot.share;
+        if (pressed.motion != Motion::Dynamic || force == Vec3(0.0)) {
+            continue;
+        }
+        const bool sticks =
+            (slot.state.status & tool_sliding) == 0 && scene_.body(touch.body).material.static_friction > 0.0;
+        const Vec3 velocity =
+            slot.hand_velocity + glm::cross(slot.hand_spin, touch.point - slot.hand.position);
+        physics_.apply_spring_force(
+            pressed.id, {-force, touch.point, touch.stiffness * slot.share, 0.0, velocity, sticks, {}});
+    }
+}
+
+}  // namespace tactus

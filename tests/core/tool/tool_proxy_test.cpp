@@ -1,0 +1,217 @@
+// A tool of spheres against surfaces at rest.
+#include "core/tool/tool_proxy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+#include <random>
+
+#include "shared/meshes.hpp"
+#include "shared/tool_figures.hpp"
+#include "support/realtime_audit.hpp"
+
+namespace tactus {
+namespace {
+
+using shared::ToolRig;
+
+const Quat upright{1.0, 0.0, 0.0, 0.0};
+
+// A bar of 100 mm over a floor of two triangles.
+ToolRig bar_over_floor(const TouchMaterial& material = {}) {
+    ToolRig rig(shared::box({0.05, 0.01, 0.01}), {1e-3, 400});
+    rig.add(shared::box({0.5, 0.05, 0.5}), material, {{0.0, -0.05, 0.0}, upright});
+    return rig;
+}
+
+ToolTick settle(ToolRig& rig, const Pose& hand, int ticks = 30) {
+    ToolTick last;
+    for (int i = 0; i < ticks; ++i) {
+        last = rig.tick(hand);
+    }
+    return last;
+}
+
+TEST(ToolProxy, InTheAirItIsTheHand) {
+    ToolRig rig = bar_over_floor();
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> chance(-1.0, 1.0);
+    rig.tick({{0.0, 0.5, 0.0}, upright});
+    for (int i = 0; i < 50; ++i) {
+        const Pose hand{{chance(random), 0.5, chance(random)},
+                        glm::angleAxis(chance(random), glm::normalize(Vec3(1.0, chance(random), 0.2)))};
+        const ToolTick tick = rig.tick(hand);
+        EXPECT_EQ(tick.status, 0u);
+        EXPECT_LT(glm::length(tick.force), 1e-9);
+        EXPECT_LT(glm::length(tick.torque), 1e-9);
+    }
+}
+
+// Pressed flat onto the floor 5 mm deep: 1000 N/m. Turned by 0.1 about its short axis, 1 N m/rad, it stays
+// flat.
+TEST(ToolProxy, LiesFlatAndGivesTheForceAndTorqueOfTheCoupling) {
+    ToolRig rig = bar_over_floor();
+    settle(rig, {{0.0, 0.02, 0.0}, upright}, 2);
+    settle(rig, {{0.0, 0.012, 0.0}, upright}, 2);
+    const double corner = rig.proxy().shape().tolerance;  // the spheres are inscribed
+    ToolTick tick = settle(rig, {{0.0, 0.005, 0.0}, upright});
+    EXPECT_NEAR(tick.force.y, 5.0, 1e3 * corner);
+    EXPECT_LT(glm::length(tick.torque), 1e-2);
+    tick = settle(rig, {{0.0, 0.005, 0.0}, glm::angleAxis(0.1, Vec3(0.0, 0.0, 1.0))});
+    EXPECT_NEAR(tick.torque.z, -0.1, 2e-3);
+    EXPECT_GE(rig.least_gap(), 0.0);
+}
+
+TEST(ToolProxy, ForceAndTorqueAreThoseOfASlowBalance) {
+    ToolRig rig = bar_over_floor();
+    rig.add(shared::icosphere(1, 0.02), {}, {{0.02, 0.02, 0.003}, upright});
+    settle(rig, {{0.0, 0.08, 0.0}, upright}, 2);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> chance(-1.0, 1.0);
+    for (int i = 0; i < 6; ++i) {
+        const Vec3 axis = glm::normalize(Vec3(chance(random), chance(random), chance(random)));
+        const Pose hand{{0.01 * chance(random), 0.03 + 0.005 * chance(random), 0.01 * chance(random)},
+                        glm::angleAxis(0.3 * chance(random), axis)};
+        const ToolTick tick = settle(rig, hand, 60);
+        const ToolRig::Balance slow = rig.slow_balance(hand);
+        EXPECT_LE(glm::distance(tick.force, slow.force), 0.01 * glm::length(slow.force)) << i;
+        EXPECT_LE(glm::distance(tick.torque, slow.torque), 0.01 * glm::length(slow.torque) + 1e-5) << i;
+    }
+}
+
+// What contacts press with is what the coupling gives.
+TEST(ToolProxy, ContactsAndCouplingAreInBalance) {
+    ToolRig rig = bar_over_floor({500.0, 0.0, 0.5, 0.4});
+    settle(rig, {{0.0, 0.05, 0.0}, upright}, 2);
+    const Pose hand{{0.004, 0.006, 0.001}, glm::angleAxis(0.15, glm::normalize(Vec3(1.0, 0.2, 3.0)))};
+    const ToolTick tick = settle(rig, hand, 60);
+    Vec3 force(0.0), torque(0.0);
+    for (const ToolTouch& touch : rig.proxy().touching()) {
+        force += touch.force;
+        torque += glm::cross(touch.point - tick.pose.position, touch.force);
+    }
+    EXPECT_GT(glm::length(tick.force), 1.0);
+    EXPECT_LT(glm::distance(force, tick.force), 0.01 * glm::length(tick.force));
+    EXPECT_LT(glm::distance(torque, tick.torque), 0.01 * glm::length(tick.torque) + 1e-4);
+}
+
+TEST(ToolProxy, AStillHandMovesItNotAtAll) {
+    ToolRig rig = bar_over_floor({500.0, 0.0, 0.5, 0.4});
+    settle(rig, {{0.0, 0.05, 0.0}, upright}, 2);
+    const Pose hand{{0.004, 0.006, 0.001}, glm::angleAxis(0.15, glm::normalize(Vec3(1.0, 0.2, 3.0)))};
+    settle(rig, hand, 60);
+    const Pose before = rig.proxy().pose();
+    settle(rig, hand, 200);
+    EXPECT_EQ(rig.proxy().pose().position, before.position);
+    EXPECT_EQ(rig.proxy().pose().rotation, before.rotation);
+}
+
+TEST(ToolProxy, SticksWithinTheConeAndSlidesBeyond) {
+    for (const auto& [drawn, sticks] : {std::pair{0.0015, true}, std::pair{0.0060, false}}) {
+        ToolRig rig = bar_over_floor({500.0, 0.0, 0.5, 0.3});
+        settle(rig, {{0.0, 0.03, 0.0}, upright}, 2);
+        settle(rig, {{0.0, 0.005, 0.0}, upright});
+        const double pressed = rig.proxy().pose().position.y - 0.005;
+        ToolTick tick;
+        for (int i = 1; i <= 100; ++i) {
+            tick = rig.tick({{drawn * i / 100.0, 0.005, 0.0}, upright});
+        }
+        tick = settle(rig, {{drawn, 0.005, 0.0}, upright});
+        const double gone = rig.proxy().pose().position.x;
+        if (sticks) {
+            EXPECT_NEAR(gone, 0.0, 1e-5);
+        } else {
+            EXPECT_LE(drawn - gone, 0.5 * pressed + 1e-5);
+            EXPECT_GE(drawn - gone, 0.3 * pressed - 1e-5);
+        }
+    }
+}
+
+// A bar longer than the room is wide is turned in it as fast as no hand can: all spheres stay inside.
+TEST(ToolProxy, FastTurnsInANarrowRoomLeadThroughNoWall) {
+    ToolRig rig(shared::box({0.05, 0.01, 0.01}), {1e-3, 300});
+    TriangleMesh room = shared::box({0.08, 0.04, 0.03});
+    const std::size_t outside = room.triangles.size();
+    for (std::size_t i = 0; i < outside; ++i) {  // seen from inside as well: nobody is within a solid
+        const auto [a, b, c] = room.triangles[i];
+        room.triangles.push_back({a, c, b});
+    }
+    rig.add(room);
+    rig.tick({Vec3(0.0), upright});
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> chance(-1.0, 1.0);
+    testing::AuditScope audit;
+    double deepest = 0.0;
+    bool inside = true;
+    for (int i = 0; i < 400; ++i) {
+        const Vec3 axis = glm::normalize(Vec3(chance(random), chance(random), chance(random)));
+        const Pose hand{0.1 * Vec3(chance(random), chance(random), chance(random)),
+                        glm::angleAxis(std::numbers::pi * chance(random), axis)};
+        const ToolTick tick = rig.tick(hand);
+        deepest = std::min(deepest, rig.least_gap());
+        for (const ToolSphere& sphere : rig.proxy().shape().spheres) {
+            const Vec3 place = glm::abs(to_parent(tick.pose, sphere.center));
+            inside = inside && place.x < 0.08 && place.y < 0.04 && place.z < 0.03;
+        }
+    }
+    audit.finish();
+    EXPECT_TRUE(inside);
+    EXPECT_EQ(deepest, 0.0);
+    EXPECT_EQ(audit.allocations() + audit.frees(), 0u) << audit.describe();
+}
+
+TEST(ToolProxy, BeginsOnlyWhereItIsFree) {
+    ToolRig rig = bar_over_floor();
+    EXPECT_EQ(rig.tick({{0.0, -0.02, 0.0}, upright}).status, static_cast<std::uint32_t>(tool_absent));
+    EXPECT_EQ(rig.tick({{0.0, 0.005, 0.0}, upright}).status, static_cast<std::uint32_t>(tool_absent));
+    EXPECT_EQ(rig.tick({{0.0, 0.02, 0.0}, upright}).status, 0u);
+}
+
+// A block that comes from the side takes a tool at rest along, and one that carries it lifts it.
+TEST(ToolProxy, BodiesThatMoveTakeItAlong) {
+    for (const Vec3& way : {Vec3(-1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0)}) {
+        ToolRig rig(shared::box({0.05, 0.01, 0.01}), {1e-3, 400});
+        const Vec3 from = way * -0.2;
+        rig.add(shared::box(Vec3(0.05)), {500.0, 0.0, 0.5, 0.4}, {from, upright});
+        rig.tick({Vec3(0.0), upright});
+        double least = 1.0;
+        for (int i = 1; i <= 200; ++i) {
+            rig.carry(0, {from + way * (0.001 * i), upright});
+            rig.tick({Vec3(0.0), upright});
+            least = std::min(least, rig.least_gap());
+        }
+        EXPECT_GT(least, 0.0);
+        const double extent = way.x != 0.0 ? 0.05 : 0.01;
+        EXPECT_NEAR(glm::dot(rig.proxy().pose().position, way), 0.05 + extent, 1.1e-3);
+    }
+}
+
+// One that turns under it and leaves carries it by friction, without slip.
+TEST(ToolProxy, FrictionCarriesItAlong) {
+    ToolRig rig = bar_over_floor({500.0, 0.0, 0.8, 0.7});
+    settle(rig, {{0.0, 0.02, 0.0}, upright}, 2);
+    settle(rig, {{0.0, 0.0, 0.0}, upright});
+    for (int i = 1; i <= 50; ++i) {
+        rig.carry(0, {{1e-5 * i, -0.05, 0.0}, upright});
+        rig.tick({{0.0, 0.0, 0.0}, upright});
+    }
+    EXPECT_NEAR(rig.proxy().pose().position.x, 5e-4, 1e-6);
+}
+
+TEST(ToolProxy, APegGoesIntoItsHoleFromEveryAngle) {
+    for (const double tilt : {0.0, 0.2, 0.5}) {
+        for (const double around : {0.0, 2.0}) {
+            const shared::ToolFigures figures = shared::play_peg(tilt, around, 4);
+            EXPECT_EQ(figures.penetrations, 0) << tilt << " " << around;
+            EXPECT_EQ(figures.passes, 0) << tilt << " " << around;
+            EXPECT_EQ(figures.arrivals, 1) << tilt << " " << around;
+            EXPECT_EQ(figures.still_way, 0.0) << tilt << " " << around;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace tactus
