@@ -99,7 +99,7 @@ private:
     void feel_surface(const TipSample& sample, double pressing);
     void follow_tip(const TipSample& sample);
     double slack() const;
-    Vec3 slide(const Vec3& place, const Vec3& normal);
+    double slide(const Vec3& place, const Vec3& normal);
     void learn(const Felt& felt, double tick);
     void feel_mass(const TipSample& sample, double pressing);
     void follow(Push& push, const TipSample& sample, double pressing);
@@ -116,7 +116,7 @@ private:
     Vec3 late_tip_{0.0};           // as late as the force, in the world
     Vec3 tip_{0.0}, force_{0.0};   // smoothed; the tip from the body
     Vec3 held_{0.0};               // p is no farther than the slack from here, from the body
-    Vec3 way_{0.0};                // that it slid last
+    Vec3 way_{0.0};                // that it slid last, unit, smoothed
     double slid_ = 0.0;            // that way since it turned back (unit: meters)
     std::array<Felt, late> felt_;  // of the last ticks
     std::size_t felt_count_ = 0;
