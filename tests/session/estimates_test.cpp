@@ -241,3 +241,4 @@ TEST(Estimates, AModelComesToFeelAsWhatTheRobotTouches) {
         rig.began = rig.now;
         rig.roughest = 0.0;
         rig.feel(4.0);
+        EXPECT_NEAR(rig.roughest, friction, 0.1 * friction) << stiffness;
