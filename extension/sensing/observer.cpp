@@ -63,7 +63,7 @@ void Observer::set_library(const MeshLibrary& library) {
 }
 
 void Observer::begin(const SensorSettings& settings) {
-    DiscoverySettings discovery;
+    SeeingSettings discovery;
     support_height_ = settings.knows_support ? std::optional(settings.support_height) : std::nullopt;
     if (support_height_) {
         discovery.support = WorldPlane{{0.0, 1.0, 0.0}, *support_height_};

@@ -21,7 +21,7 @@ struct Place {
             learnt.push_back(learn_mesh(library.front(), {}));
         }
         discovery.emplace(std::make_shared<const std::vector<LearntMesh>>(std::move(learnt)),
-                          DiscoverySettings{});
+                          SeeingSettings{});
         scene.camera = kinect_camera(320, 240);
         scene.camera_pose = camera_above_table(0.85, 0.8);
         noise.error_share = 0.0;

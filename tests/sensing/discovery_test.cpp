@@ -35,7 +35,7 @@ enum Mesh : std::size_t { cube, cylinder, bracket };
 // A scene that is looked at again and again.
 class Watched {
 public:
-    explicit Watched(const DiscoverySettings& settings = {}) : discovery(learnt(), settings) {
+    explicit Watched(const SeeingSettings& settings = {}) : discovery(learnt(), settings) {
         scene.camera = kinect_camera(320, 240);
         scene.camera_pose = camera_above_table(0.85, 0.8);
         noise.error_share = 0.0;
@@ -235,7 +235,7 @@ TEST(Discovery, AStrangerIsToldAsAHull) {
 }
 
 TEST(Discovery, AnErrorOfDepthIsLearntFromAKnownSupport) {
-    DiscoverySettings settings;
+    SeeingSettings settings;
     settings.support = WorldPlane{};
     Watched table(settings);
     table.noise.error_share = 0.01;
@@ -258,7 +258,7 @@ TEST(Discovery, AnErrorThatNobodyKnowsIsInTheCovariance) {
 }
 
 TEST(Discovery, ASupportElsewhereIsSaid) {
-    DiscoverySettings settings;
+    SeeingSettings settings;
     settings.support = WorldPlane{{0.0, 1.0, 0.0}, 0.1};
     Watched table(settings);
     table.look();

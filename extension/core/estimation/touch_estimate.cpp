@@ -77,27 +77,28 @@ void TouchEstimate::feel_surface(const TipSample& sample, double pressing) {
     const double share = sample.seconds / (sample.seconds + settings_.smoothing);
     tip_ += share * (tip - tip_);
     force_ += share * (sample.force - force_);
-    const Vec3 way = slide(tip_ - force_ / spring(), sample.normal);
-    felt.slides = way != Vec3(0.0) && slid_ > slack();
-    felt.dragging = glm::dot(force_, way);
+    const double slid = slide(tip_ - force_ / spring(), sample.normal);
+    felt.slides = slid > settings_.slides_from * sample.seconds && slid_ > slack();
+    felt.dragging = glm::dot(force_, way_);
     felt.pressed = -glm::dot(force_, sample.normal);
 }
 
-// The way that p slides in this tick; zero: it does not. The point that is held is dragged along behind p, at
-// the length of the slack.
-Vec3 TouchEstimate::slide(const Vec3& place, const Vec3& normal) {
+// How far p slides in this tick. The point that is held is dragged along behind p, at the length of the
+// slack; the way of that is smoothed, too: chance across it would shorten what is felt along it.
+double TouchEstimate::slide(const Vec3& place, const Vec3& normal) {
     const Vec3 off = place - held_;
     const Vec3 along = off - glm::dot(off, normal) * normal;
     const double length = glm::length(along);
     if (!(length > slack())) {
-        return Vec3(0.0);
+        return 0.0;
     }
     const Vec3 way = along / length;
     const double slid = length - slack();
-    slid_ = glm::dot(way, way_) > 0.0 ? slid_ + slid : slid;
-    way_ = way;
     held_ += slid * way;
-    return way;
+    const bool goes_on = glm::dot(way, way_) > 0.0;
+    slid_ = goes_on ? slid_ + slid : slid;
+    way_ = goes_on ? glm::normalize(way_ + std::min(1.0, slid / slack()) * (way - way_)) : way;
+    return slid;
 }
 
 double TouchEstimate::slack() const {

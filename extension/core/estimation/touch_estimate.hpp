@@ -37,6 +37,7 @@ struct TouchEstimateSettings {
     double least_force = 0.2;       // a lighter touch teaches nothing (unit: newtons), > 0
     double slack = 2e-4;  // p has slid when it is farther from where it was than this, and than chance may
                           // make of its force (unit: meters)
+    double slides_from = 0.02;   // of p: slower, a surface may creep (unit: meters per second), > 0
     double moves_from = 0.01;    // of a body (unit: meters per second), > 0
     double turns_from = 0.3;     // of a body whose mass is not learnt (unit: radians per second), > 0
     double stretch = 0.2;        // T (unit: seconds), > 0
@@ -98,7 +99,7 @@ private:
     void feel_surface(const TipSample& sample, double pressing);
     void follow_tip(const TipSample& sample);
     double slack() const;
-    Vec3 slide(const Vec3& place, const Vec3& normal);
+    double slide(const Vec3& place, const Vec3& normal);
     void learn(const Felt& felt, double tick);
     void feel_mass(const TipSample& sample, double pressing);
     void follow(Push& push, const TipSample& sample, double pressing);
@@ -115,7 +116,7 @@ private:
     Vec3 late_tip_{0.0};           // as late as the force, in the world
     Vec3 tip_{0.0}, force_{0.0};   // smoothed; the tip from the body
     Vec3 held_{0.0};               // p is no farther than the slack from here, from the body
-    Vec3 way_{0.0};                // that it slid last
+    Vec3 way_{0.0};                // that it slid last, unit, smoothed
     double slid_ = 0.0;            // that way since it turned back (unit: meters)
     std::array<Felt, late> felt_;  // of the last ticks
     std::size_t felt_count_ = 0;

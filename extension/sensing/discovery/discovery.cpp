@@ -55,7 +55,7 @@ PixelBox box_around_ball(const DepthCamera& camera, const Vec3& center, double r
 
 }  // namespace
 
-Discovery::Discovery(std::shared_ptr<const std::vector<LearntMesh>> meshes, const DiscoverySettings& settings)
+Discovery::Discovery(std::shared_ptr<const std::vector<LearntMesh>> meshes, const SeeingSettings& settings)
     : meshes_(std::move(meshes)), settings_(settings), recogniser_(settings.recognition) {}
 
 std::span<const SeenObject> Discovery::update(const DepthImage& image, const Pose& camera_in_world) {

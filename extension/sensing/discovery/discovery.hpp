@@ -24,7 +24,7 @@ struct WorldPlane {
     double offset = 0.0;         // (unit: meters)
 };
 
-struct DiscoverySettings {
+struct SeeingSettings {
     DepthAccuracy accuracy;
     SegmentationSettings segmentation;
     RecognitionSettings recognition;
@@ -67,7 +67,7 @@ struct DiscoveryTimes {
 
 class Discovery {
 public:
-    Discovery(std::shared_ptr<const std::vector<LearntMesh>> meshes, const DiscoverySettings& settings);
+    Discovery(std::shared_ptr<const std::vector<LearntMesh>> meshes, const SeeingSettings& settings);
 
     // All objects that are known, lost ones included, in the order in which they were found. An image that
     // nothing can be found in changes no place: confidence falls, and problem() says what is wrong.
@@ -83,7 +83,7 @@ public:
     // Points of the camera's frame that stand out of the support, for drawing (unit: meters).
     void cloud(const DepthImage& image, std::vector<Vec3>& points) const;
     const LearntMesh& mesh(std::size_t index) const { return (*meshes_)[index]; }
-    const DiscoverySettings& settings() const { return settings_; }
+    const SeeingSettings& settings() const { return settings_; }
     // By pixel of the last image: 1 where something stands out of the support that no known object explains.
     const std::vector<std::uint8_t>& stands_out() const { return segmenter_.found().stands_out; }
     // The support as it was told, in the camera's frame: depths are not put right by depth_scale().
@@ -129,7 +129,7 @@ private:
     double seconds() const { return clock_ ? clock_() : 0.0; }
 
     std::shared_ptr<const std::vector<LearntMesh>> meshes_;
-    DiscoverySettings settings_;
+    SeeingSettings settings_;
     std::vector<SeenObject> objects_;
     std::vector<Track> tracks_;  // of objects_
     std::vector<Stranger> strangers_;

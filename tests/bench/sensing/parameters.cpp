@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "sensing/sensing_figures.hpp"
+#include "shared/random_values.hpp"
 #include "shared/robot_at_block.hpp"
 
 namespace tactus::shared {

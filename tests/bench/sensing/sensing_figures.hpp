@@ -26,7 +26,7 @@ inline double seconds_now() {
 }
 
 // Camera and depth error of a scene; where the support's place is known, as after a calibration by it.
-DiscoverySettings bench_settings(bool support_known);
+SeeingSettings bench_settings(bool support_known);
 DepthNoise bench_noise(std::uint64_t seed);
 
 // What was found in still scenes, against their truth.

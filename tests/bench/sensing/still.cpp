@@ -104,8 +104,8 @@ DepthNoise bench_noise(std::uint64_t seed) {
     return noise;
 }
 
-DiscoverySettings bench_settings(bool support_known) {
-    DiscoverySettings settings;
+SeeingSettings bench_settings(bool support_known) {
+    SeeingSettings settings;
     if (support_known) {
         settings.support = WorldPlane{};
     }
