@@ -8,6 +8,10 @@ namespace tactus {
 
 namespace {
 
+// Corners that stand before a plane by this many times `same` are in it: a sixteenth of the skin, of which
+// sweeps leave the sphere half.
+constexpr double flat = 64.0;
+
 Vec3 any_perpendicular(const Vec3& n) {
     const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
     return glm::normalize(glm::cross(n, other));
@@ -50,6 +54,37 @@ bool ContactLook::look_closely(ContactList& contacts, int index, double step) co
         return true;
     }
     return differs;
+}
+
+void ContactLook::cover_behind_nearest(ContactList& contacts) const {
+    int nearest = -1;
+    for (int i = 0; i < contacts.count; ++i) {
+        if (contacts[i].state != ContactState::covered &&
+            (nearest < 0 || contacts[i].gap < contacts[nearest].gap)) {
+            nearest = i;
+        }
+    }
+    if (nearest < 0 || !placed(contacts[nearest].feature).part->tree()) {
+        return;
+    }
+    Contact& first = contacts[nearest];
+    const ScenePart& part = placed(first.feature);
+    const SurfacePoint plane = at(first.feature);
+    first.normal = direction_to_parent(part.pose, plane.normal);
+    first.gap = plane.distance - rest_;
+    const double height = glm::dot(plane.normal, plane.point) + flat * same_;
+    work_.spend(2 * contacts.count);
+    for (int i = 0; i < contacts.count; ++i) {
+        Contact& other = contacts[i];
+        if (other.state != ContactState::seen || other.feature.part != first.feature.part ||
+            other.gap <= first.gap + same_) {
+            continue;
+        }
+        const TriangleCorners t = part.part->tree()->corners(other.feature.triangle);
+        const double highest =
+            std::max({glm::dot(plane.normal, t.a), glm::dot(plane.normal, t.b), glm::dot(plane.normal, t.c)});
+        other.state = highest <= height ? ContactState::covered : other.state;
+    }
 }
 
 bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoint& candidate) const {

@@ -27,6 +27,9 @@ public:
     //
     // False where a step of the given length (unit: meters) that was found with what was seen is right still.
     bool look_closely(ContactList& contacts, int index, double step) const;
+    // Many facets of one surface are told apart at once: what lies behind the plane of the nearest contact is
+    // clear of whatever stays before that plane, and covered.
+    void cover_behind_nearest(ContactList& contacts) const;
     Contact exact_contact(const FeatureId& feature) const;
     // The same asked of the tree, for a contact whose neighbours may not be among the triangles at hand.
     bool is_covered_by_any(const Contact& contact) const;

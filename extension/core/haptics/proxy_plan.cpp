@@ -8,6 +8,12 @@
 
 namespace tactus {
 
+namespace {
+
+constexpr int few_contacts = 4;  // are told apart as soon one by one
+
+}  // namespace
+
 // The step towards the hand over what is known of the contacts. Those that hold it back are looked at closely
 // first; what that changes may let others press.
 ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
@@ -15,6 +21,9 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     const ContactLook look = surroundings_.look_from(position_);
     const double length = glm::length(pull);
     ConstrainedStep step;
+    if (contacts_.count > few_contacts) {
+        look.cover_behind_nearest(contacts_);
+    }
     for (bool again = true; again;) {
         step = flat_step(pull, contacts_, tolerances().same, work);
         again = false;

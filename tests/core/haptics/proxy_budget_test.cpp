@@ -196,6 +196,40 @@ TEST(ProxyBudget, AHollowOfManyFacetsTakesFewSteps) {
     EXPECT_LE(steps, 16);
 }
 
+// A flat strip of slivers side by side across the x axis, as tools cut the end faces of turned parts.
+TriangleMesh strip(int count, double width, double half_length) {
+    TriangleMesh mesh;
+    for (int i = 0; i <= count; ++i) {
+        for (const double z : {-half_length, half_length}) {
+            mesh.vertices.push_back({width * (i - 0.5 * count), 0.0, z});
+        }
+    }
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(2 * count); i += 2) {
+        mesh.triangles.push_back({i, i + 1, i + 2});
+        mesh.triangles.push_back({i + 2, i + 1, i + 3});
+    }
+    return mesh;
+}
+
+// A hundred slivers are as near as the one below the sphere. Those ahead seem to stand in the way until they
+// are known to lie in its plane: all at once, not each against each other.
+TEST(ProxyBudget, OverAFlatFaceOfSliversItGlides) {
+    constexpr double radius = 0.05;
+    TouchRig rig(radius);
+    rig.add(strip(10'000, 4e-6, 0.2));
+    rig.draw({-0.01, 0.06, 0.0}, {-0.01, 0.03, 0.0}, 20);
+    ProxySettings settings = rig.proxy.settings();
+    settings.max_work = 10'000;
+    rig.proxy.set_settings(settings);
+    for (int i = 1; i <= 20; ++i) {
+        const Vec3 hand(-0.01 + 1e-3 * i, 0.03, 0.0);
+        const ProxyTick tick = rig.tick(hand);
+        ASSERT_EQ(tick.status & (proxy_unfinished | proxy_touching), proxy_touching) << "tick " << i;
+        ASSERT_NEAR(tick.position.x, hand.x, 1e-9) << "tick " << i;
+        ASSERT_NEAR(tick.position.y, radius, 1e-8) << "tick " << i;
+    }
+}
+
 // A proxy appears where up to a thousandth of its radius is missing, and is lifted off in the same tick: or,
 // where the work does not suffice for that, in a later one.
 TEST(ProxyBudget, ItAppearsOnlyWhereItIsNotTooDeep) {
