@@ -62,7 +62,7 @@ TEST(ForceLaw, APadGivesWayWithTheSurface) {
         force = pad * (pressed - given);
     }
     const Wall wall = under_pad({surface, damping}, pad);
-    EXPECT_NEAR(wall.stiffness * pressed + wall.damping * speed, force, 1e-6);
+    EXPECT_NEAR(wall.stiffness * pressed + wall.damping * speed, force, 1e-5);
     EXPECT_EQ(under_pad({surface, damping}, 0.0).stiffness, surface);
     EXPECT_EQ(under_pad({0.0, damping}, pad).damping, damping);
 }
