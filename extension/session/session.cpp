@@ -108,9 +108,11 @@ std::string check_proxy(const ProxyDescription& d) {
         return "the proxy's radius is not a positive length: set it above 0 m";
     }
     return d.finger.modulus >= 0.0 && std::isfinite(d.finger.modulus) && d.finger.radius > 0.0 &&
-                   d.finger.radius <= limits::longest_arm
+                   d.finger.radius <= limits::longest_arm && d.finger.stiffness >= 0.0 &&
+                   d.finger.stiffness <= limits::stiffest
                ? ""
-               : "the finger's modulus is below 0 or its radius is no positive length: set them anew";
+               : "the finger's modulus or stiffness is below 0 or its radius is no positive length: set them "
+                 "anew";
 }
 
 std::string check_tool(const ToolUse& use) {

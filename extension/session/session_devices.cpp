@@ -176,8 +176,10 @@ void SessionLoop::note_walls(const ProxySlot& slot, DeviceSlot& device) const {
     for (int i = 0; i < slot.parts.contact_count; ++i) {
         const ContactForce& part = slot.parts.contacts[i];
         const TouchMaterial& material = scene_.body(part.body).material;
-        if (part.wall.stiffness < material.stiffness) {
-            device.wanted = {material.stiffness, material.damping};
+        const Wall wanted =
+            under_pad({material.stiffness, material.damping}, slot.description.finger.stiffness);
+        if (part.wall.stiffness < wanted.stiffness) {
+            device.wanted = wanted;
             device.used = part.wall;
         }
     }

@@ -234,8 +234,9 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     HandForce& force = slot.parts;
     DeviceSlot& device = devices_[slot.description.device];
     const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
-    force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
-                          {{seconds_, device.capabilities.delay}, damping});
+    force =
+        contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
+                      {{seconds_, device.capabilities.delay}, damping, slot.description.finger.stiffness});
     slot.pressed = force.total;
     note_walls(slot, device);
     break_surfaces(slot, force);

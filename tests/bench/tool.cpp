@@ -6,6 +6,7 @@
 
 #include "shared/bench_kit.hpp"
 #include "shared/rough_meshes.hpp"
+#include "shared/stack_figures.hpp"
 #include "shared/tool_figures.hpp"
 #include "shared/torsion_figures.hpp"
 
@@ -87,6 +88,21 @@ void report_rough(Report& report, int ticks) {
     report_plays(report, "rough_on_rough", all);
 }
 
+void report_stack(Report& report) {
+    ToolFigures all;
+    int lost = 0;
+    for (const double speed : {0.1, 0.2, 0.4}) {
+        for (const double aside : {-0.05, -0.02, 0.0, 0.03}) {
+            const StackFigures figures = push_stack(speed, aside);
+            all.add(figures.tool);
+            lost += figures.lost;
+        }
+    }
+    report_plays(report, "stack", all);
+    report.set("stack.lost", lost);
+    std::printf("stack: lost for %d ticks, %.3f mm in a box at most\n", lost, 1e3 * all.deepest);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -103,6 +119,9 @@ int main(int count, char** arguments) {
     }
     if (is_chosen("peg", only)) {
         report_peg(report, angles);
+    }
+    if (is_chosen("stack", only)) {
+        report_stack(report);
     }
     if (is_chosen("rough_on_rough", only)) {
         report_rough(report, ticks);

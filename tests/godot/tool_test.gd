@@ -97,6 +97,15 @@ func test_the_scene_with_a_tool_plays() -> void:
 	scene.free()
 
 
+func test_a_pad_gives_way_with_what_it_touches() -> void:
+	var world := add_world()
+	add_floor(world, 500.0)
+	var finger := add_hand(world, path(Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)))
+	finger.pad_stiffness = 500.0
+	world.advance(1.5)
+	check_near(finger.get_force(), Vector3(0, 5.0, 0), 1e-3, "force")
+
+
 ## A finger of skin holds what a point lets turn.
 func test_a_soft_finger_holds_a_body_against_turning() -> void:
 	var turned := []

@@ -4,6 +4,7 @@
 
 #include "session_rig.hpp"
 #include "shared/meshes.hpp"
+#include "shared/stack_figures.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {
@@ -104,26 +105,11 @@ TEST(Tool, PressesABlockOntoTheGroundAndNothingRings) {
 
 // Blocks that bounce off one another and off the tool are no squeeze.
 TEST(Tool, TopplesAStackAndIsNeverLostInIt) {
-    ToolRig rig;
-    rig.add(ground());
-    SessionHandle top = no_handle;
-    for (int row = 0; row < 4; ++row) {
-        for (int i = 0; i < 4 - row; ++i) {
-            BodyAddition block =
-                body(BoxShape{Vec3(0.03)}, {0.2, 0.03 + 0.06 * row, 0.064 * (i - 0.5 * (3 - row))},
-                     Motion::Dynamic, 0.2);
-            block.touch_material = {1000.0, 0.0, 0.5, 0.4};
-            top = rig.add(block);
-        }
-    }
-    rig.ticks(100);
-    for (int i = 0; i < 1'200; ++i) {
-        rig.device.position = {0.0002 * i, 0.1, 0.0};
-        rig.device.velocity = {0.2, 0.0, 0.0};
-        rig.tick();
-        ASSERT_EQ(rig.tool_state().status & (tool_absent | tool_squeezed), 0u) << i;
-    }
-    EXPECT_LT(rig.state_of(top)->pose.position.y, 0.15);
+    const shared::StackFigures figures = shared::push_stack(0.2, 0.0);
+    EXPECT_EQ(figures.lost, 0);
+    EXPECT_EQ(figures.tool.penetrations, 0) << figures.tool.deepest;
+    EXPECT_GT(figures.tool.contact_ticks, 200);
+    EXPECT_LT(figures.highest, 0.15);
 }
 
 TEST(Tool, IsTheSameOnEveryRunAndAllocatesNothing) {

@@ -69,9 +69,10 @@ struct ToolFigures {
     int ticks = 0;
     int contact_ticks = 0;
     int unfinished = 0;
-    int penetrations = 0;  // ticks with a sphere nearer than its radius
-    int passes = 0;        // plays that ended where the tool cannot have come
-    int arrivals = 0;      // plays that ended where the tool should have come
+    int penetrations =
+        0;             // ticks with a sphere in a surface; of bodies that move, by more than the tolerance
+    int passes = 0;    // plays that ended where the tool cannot have come
+    int arrivals = 0;  // plays that ended where the tool should have come
     int plays = 0;
     double deepest = 0.0;              // of a penetration (unit: meters)
     double still_way = 0.0;            // that the tool moves while the hand is still (unit: meters)

@@ -6,6 +6,14 @@
 
 namespace tactus {
 
+Wall under_pad(const Wall& surface, double pad_stiffness) {
+    if (pad_stiffness <= 0.0 || surface.stiffness <= 0.0) {
+        return surface;
+    }
+    const double share = pad_stiffness / (pad_stiffness + surface.stiffness);
+    return {share * surface.stiffness, share * share * surface.damping};
+}
+
 HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds, const SafeWalls& safe) {
     HandForce force;
@@ -19,7 +27,8 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         }
         const TouchBody& body = scene.body(contact.body);
         const TouchMaterial& material = body.material;
-        const Wall wall = safe_wall(safe.lag, safe.device_damping, {material.stiffness, material.damping});
+        const Wall wall = safe_wall(safe.lag, safe.device_damping,
+                                    under_pad({material.stiffness, material.damping}, safe.pad_stiffness));
         const Vec3 surface_way = contact.point - previous_place(body, contact.point);
         const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
         const double spring = wall.stiffness * contact.pressure;

@@ -35,7 +35,13 @@ struct HandForce {
 struct SafeWalls {
     LoopLag lag;
     double device_damping = std::numeric_limits<double>::infinity();  // (unit: newton seconds per meter)
+    // Of the pad between hand and surface; 0: there is none (unit: newtons per meter).
+    double pad_stiffness = 0.0;
 };
+
+// A surface under a pad. Of the way that both give, the surface's share is s = k_pad / (k_pad + K): together
+// they are s K stiff, and the surface's damper, which sees the share s of the speed, takes s^2 B.
+Wall under_pad(const Wall& surface, double pad_stiffness);
 
 // Each contact presses with its own material's stiffness and damping. What friction holds (`slide`, the pull
 // left along the surfaces) is shared among the contacts by how much each presses. Damping acts against the

@@ -25,8 +25,10 @@
 namespace tactus {
 
 struct SoftFinger {
-    double modulus = 0.0;   // E (unit: pascals), >= 0; 0: a point, which holds nothing against turning
-    double radius = 0.008;  // R (unit: meters), > 0
+    double modulus = 0.0;    // E (unit: pascals), >= 0; 0: a point, which holds nothing against turning
+    double radius = 0.008;   // R (unit: meters), > 0
+    double stiffness = 0.0;  // of the pad along the normal, in series with the surface's; 0: it gives nothing
+                             // (unit: newtons per meter), >= 0
 
     bool is_soft() const { return modulus > 0.0; }
     bool operator==(const SoftFinger&) const = default;

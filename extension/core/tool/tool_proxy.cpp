@@ -22,9 +22,11 @@ constexpr double cones_met = 1e-2;    // by friction
 constexpr int max_stalls = 6;    // steps that lead nowhere
 constexpr int slide_rounds = 4;  // of the pressure and the friction that goes with it
 
-// Of the tool's reach: what moving bodies may press it into another surface before it is let go.
-constexpr double squeezed_share = 1e-3;
-constexpr double farthest_ride = 0.2;  // likewise: how far they may take it in a tick
+// Of a sphere's radius: what a body on its way may enter before it has to take the tool along (the next step
+// lifts the tool out of less), and where the tool is let go since it could come out on the other side.
+constexpr double entered = 0.5;
+constexpr double lost = 0.9;
+constexpr double farthest_ride = 0.2;  // of the tool's reach: how far bodies may take it in a tick
 
 constexpr std::size_t at(int i) {
     return static_cast<std::size_t>(i);
@@ -198,36 +200,33 @@ int ToolProxy::carrier() const {
 }
 
 // What has moved takes the tool along: all the way, as far as there is room, where it rests on it; and what
-// is left of the way where it would enter it. False where something else leaves no room for that.
+// is left of the way where it would enter its spheres so far that the next step could lose them. False where
+// something else leaves no room for that.
 bool ToolProxy::ride() {
     const Pose before = pose_;
     double taken = 0.0;
-    double pressed = 0.0;
-    // How far the tool lags behind then.
     const auto take_along = [&](int index, double share) {
         const TouchBody& body = scene_->body(index);
         const Pose there = compose(displacement(body.previous, body.pose), pose_);
         const RigidMotion motion = motion_between(pose_, there) * share;
-        const double way = around_.farthest_way(motion);
-        taken += way;
-        if (taken > farthest_ride * shape().reach) {
-            return way;
+        taken += around_.farthest_way(motion);
+        if (taken <= farthest_ride * shape().reach) {
+            const double straight = around_.straight_share(motion);
+            go(motion * (straight * around_.free_share(pose_, motion * straight, work_, index)));
         }
-        const double straight = around_.straight_share(motion);
-        const double free = straight * around_.free_share(pose_, motion * straight, work_, index);
-        go(motion * free);
-        return (1.0 - free) * way;
     };
     if (const int carries = carrier(); carries >= 0 && scene_->body(carries).moved) {
         take_along(carries, 1.0);
     }
+    bool has_room = true;
     for (const int index : scene_->moved_bodies()) {
-        const double share = around_.share_until_met(index, before, pose_, work_);
+        const double share = around_.share_until_entered(index, before, pose_, entered, work_);
         if (share < 1.0) {
-            pressed += take_along(index, 1.0 - share);
+            take_along(index, 1.0 - share);
+            has_room = has_room && around_.share_until_entered(index, before, pose_, lost, work_) == 1.0;
         }
     }
-    return pressed <= squeezed_share * shape().reach;
+    return has_room && taken <= farthest_ride * shape().reach;
 }
 
 void ToolProxy::descend(const Pose& hand, ToolTick& tick) {

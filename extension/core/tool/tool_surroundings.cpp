@@ -133,7 +133,7 @@ bool ToolSurroundings::has_stopped(std::uint32_t sphere, const HoodPlane& plane)
 void ToolSurroundings::note_stop(const Stop& stop) {
     room_[stop.sphere] = 0.0;
     hoods_[stop.sphere].forget();  // it may have forgotten what has stopped it
-    if (stop_count_ < max_insisted) {
+    if (stop_count_ < max_stops) {
         stops_[static_cast<std::size_t>(stop_count_++)] = stop;
     }
 }
@@ -249,7 +249,8 @@ double ToolSurroundings::free_share(const Pose& pose, const RigidMotion& motion,
     return limit;
 }
 
-double ToolSurroundings::share_until_met(int body, const Pose& before, const Pose& now, WorkBudget& work) {
+double ToolSurroundings::share_until_entered(int body, const Pose& before, const Pose& now, double depth,
+                                             WorkBudget& work) {
     double limit = 1.0;
     for (const std::uint32_t part : parts_) {
         const ScenePart& placed = scene_->parts()[part];
@@ -262,7 +263,7 @@ double ToolSurroundings::share_until_met(int body, const Pose& before, const Pos
             }
             const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
             const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
-            const double stop = shape_->spheres[i].radius + stop_share * skin_;
+            const double stop = (1.0 - depth) * shape_->spheres[i].radius;
             if (glm::distance(to, placed.part->center) - placed.part->radius >
                 stop + glm::distance(from, to) + skin_) {
                 continue;

@@ -57,9 +57,9 @@ public:
     double straight_share(const RigidMotion& motion) const;
     // What of the motion no sphere meets anything on, but the body `except`.
     double free_share(const Pose& pose, const RigidMotion& motion, WorkBudget& work, int except = -1);
-    // What of its way in this tick the body has gone when it meets the tool, which went from `before` to
-    // `now`; 1: it does not.
-    double share_until_met(int body, const Pose& before, const Pose& now, WorkBudget& work);
+    // What of its way in this tick the body has gone when it is this share of a sphere's radius in the tool,
+    // which went from `before` to `now`; 1: it is not.
+    double share_until_entered(int body, const Pose& before, const Pose& now, double depth, WorkBudget& work);
     // The tool has made the motion.
     void went(const RigidMotion& motion);
 
@@ -67,7 +67,7 @@ public:
     double farthest_way(const RigidMotion& motion) const { return way_of(motion, shape_->reach); }
 
 private:
-    static constexpr int max_insisted = 32;
+    static constexpr int max_stops = 32;
     static constexpr std::uint32_t no_sphere = 0xffff'ffffu;
     struct Stop {
         std::uint32_t sphere = 0, part = 0, triangle = 0;
@@ -93,7 +93,7 @@ private:
     std::vector<double> room_;  // it rests on nothing before it has gone so far (unit: meters)
     // What stops a sphere counts as a contact for the rest of the tick, even where another one seems to stand
     // for it.
-    std::array<Stop, max_insisted> stops_;
+    std::array<Stop, max_stops> stops_;
     int stop_count_ = 0;
     Stop stopped_by_;  // the last sweep
 };

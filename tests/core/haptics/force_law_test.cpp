@@ -49,6 +49,24 @@ TEST(ForceLaw, DampingActsOnTheApproachOnly) {
     EXPECT_NEAR(pressed.force({0.7, 0.0, 0.4}).total.y, at_rest, 1e-9);
 }
 
+// Two springs in series, one of them with a damper: held against their steady compression at a slow speed.
+TEST(ForceLaw, APadGivesWayWithTheSurface) {
+    const double surface = 800.0, damping = 3.0, pad = 400.0, seconds = 1e-6, speed = 0.01;
+    double given = 0.0;  // by the surface
+    double pressed = 0.0;
+    double force = 0.0;
+    for (int i = 0; i < 200'000; ++i) {
+        pressed += speed * seconds;
+        const double rate = (pad * (pressed - given) - surface * given) / damping;
+        given += rate * seconds;
+        force = pad * (pressed - given);
+    }
+    const Wall wall = under_pad({surface, damping}, pad);
+    EXPECT_NEAR(wall.stiffness * pressed + wall.damping * speed, force, 1e-5);
+    EXPECT_EQ(under_pad({surface, damping}, 0.0).stiffness, surface);
+    EXPECT_EQ(under_pad({0.0, damping}, pad).damping, damping);
+}
+
 TEST(ForceLaw, DampingNeverPullsTheHandIn) {
     Pressed pressed(stiff(10.0, 100.0));
     EXPECT_EQ(pressed.force({0.0, 50.0, 0.0}).total.y, 0.0);
