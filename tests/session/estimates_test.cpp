@@ -242,3 +242,8 @@ TEST(Estimates, AModelComesToFeelAsWhatTheRobotTouches) {
         rig.roughest = 0.0;
         rig.feel(4.0);
         EXPECT_NEAR(rig.roughest, friction, 0.1 * friction) << stiffness;
+    }
+}
+
+}  // namespace
+}  // namespace tactus
