@@ -42,7 +42,7 @@ using namespace tactus;
 using namespace tactus::shared;
 
 constexpr int places_a_task = 50'000;
-constexpr double seconds_of_ticks = 1.0;  // of each turn
+constexpr double seconds_of_ticks = 16.0;
 
 void report_kinematics(Report& report, int places) {
     std::vector<DeltaFigures> parts(static_cast<std::size_t>((places + places_a_task - 1) / places_a_task));

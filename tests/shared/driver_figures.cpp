@@ -16,7 +16,6 @@ namespace {
 constexpr Nanoseconds ms = 1'000'000;
 constexpr Nanoseconds look_again = 200'000;
 constexpr Nanoseconds look_closely = 20'000;
-constexpr int turns = 9;  // of path and device; the median is what no passing pause of the machine decides
 
 RealtimeRequest loop_request() {
     RealtimeRequest request;
@@ -24,31 +23,28 @@ RealtimeRequest loop_request() {
     return request;
 }
 
-// Of a session with a floor at y = 0 (unit: microseconds).
-void time_ticks(Device& device, double seconds, const std::function<void(double)>& move,
-                std::vector<double>& spans) {
-    Session session{SessionSettings{}};
-    BodyAddition floor;
-    floor.description.shapes = {{BoxShape{Vec3(0.5, 0.05, 0.5)}, Pose{}}};
-    floor.description.pose.position = {0.0, -0.05, 0.0};
-    floor.description.motion = Motion::Static;
-    session.add_body(floor);
-    ProxyDescription pointer;
-    pointer.device = session.add_device(device, Workspace{}).handle;
-    pointer.settings.radius = 0.005;
-    session.add_proxy(pointer);
-    const SpanClock clock;
-    SleepTimer timer;
-    const AsLoop as_loop;
-    const Nanoseconds start = monotonic_now();
-    for (Nanoseconds tick = start; tick < start + from_seconds(seconds); tick += ms) {
-        move(to_seconds(tick - start));
-        timer.sleep_until(tick);
+// A session with a floor at y = 0, and a hand.
+struct OverFloor {
+    explicit OverFloor(Device& device) {
+        BodyAddition floor;
+        floor.description.shapes = {{BoxShape{Vec3(0.5, 0.05, 0.5)}, Pose{}}};
+        floor.description.pose.position = {0.0, -0.05, 0.0};
+        floor.description.motion = Motion::Static;
+        session.add_body(floor);
+        ProxyDescription pointer;
+        pointer.device = session.add_device(device, Workspace{}).handle;
+        pointer.settings.radius = 0.005;
+        session.add_proxy(pointer);
+    }
+    void tick(const SpanClock& clock, Nanoseconds now) {
         const std::uint64_t from = clock.now();
-        session.tick(tick - start);
+        session.tick(now);
         spans.push_back(1e-3 * clock.nanoseconds(from, clock.now()));
     }
-}
+
+    Session session{SessionSettings{}};
+    std::vector<double> spans;  // (unit: microseconds)
+};
 
 }  // namespace
 
@@ -116,16 +112,23 @@ Vec3 way_over_floor(double seconds) {
     return sample_path(path_over_floor(), from_seconds(seconds)).position;
 }
 
+// Both in each millisecond, first the one and then the other in turn: what else the machine does meets both.
 double tick_over_path(Device& device, double seconds, const std::function<void(double)>& move) {
     PathDevice path{path_over_floor()};
-    std::vector<double> ratios;
-    for (int turn = 0; turn < turns; ++turn) {
-        std::vector<double> by_path, by_device;
-        time_ticks(path, seconds, [](double) {}, by_path);
-        time_ticks(device, seconds, move, by_device);
-        ratios.push_back(quantile(by_device, 0.99) / quantile(by_path, 0.99));
+    OverFloor by_path(path), by_device(device);
+    const SpanClock clock;
+    SleepTimer timer;
+    const AsLoop as_loop;
+    const Nanoseconds start = monotonic_now();
+    bool path_first = false;
+    for (Nanoseconds tick = start; tick < start + from_seconds(seconds); tick += ms) {
+        move(to_seconds(tick - start));
+        timer.sleep_until(tick);
+        path_first = !path_first;
+        (path_first ? by_path : by_device).tick(clock, tick - start);
+        (path_first ? by_device : by_path).tick(clock, tick - start);
     }
-    return quantile(ratios, 0.5);
+    return quantile(by_device.spans, 0.99) / quantile(by_path.spans, 0.99);
 }
 
 ExchangeFigures exchanges(const DriverDevice& device, double seconds) {

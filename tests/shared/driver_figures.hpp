@@ -56,8 +56,7 @@ private:
 };
 
 // Compute time of a session's tick at which 99 of 100 are done, with a hand behind this port, as a share of
-// that with a scripted path over the same floor: median of turns side by side, each of `seconds`. `move` is
-// told the time before each tick (unit: seconds).
+// that with a scripted path over the same floor. `move` is told the time before each tick (unit: seconds).
 double tick_over_path(Device& device, double seconds, const std::function<void(double)>& move);
 // That path, and a place on it, for hands that can be led along it.
 HandPath path_over_floor();
