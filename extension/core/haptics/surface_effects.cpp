@@ -88,6 +88,14 @@ double magnet_pull(const TouchMaterial& material, double gap) {
     return material.magnet_force * std::clamp(1.0 - gap / material.magnet_range, 0.0, 1.0);
 }
 
+Vec3 gradual_pull(const Vec3& pull, double seconds, EffectMemory& memory) {
+    const Vec3 change = pull - memory.pulled;
+    const double length = glm::length(change);
+    const double most = max_pull_rate * seconds;
+    memory.pulled = length <= most ? pull : memory.pulled + change * (most / length);
+    return memory.pulled;
+}
+
 void add_surface_effects(const TouchScene& scene, std::span<const Touch> touching, const HandMotion& hand,
                          Nanoseconds now, double seconds, EffectMemory& memory, HandForce& force) {
     bool sticks = false;

@@ -13,6 +13,7 @@ namespace tactus {
 struct EffectMemory {
     int stuck_body = -1;  // slot of the body that stick-slip holds the hand to
     Vec3 stuck_at{0.0};   // where, in that body's frame (unit: meters)
+    Vec3 pulled{0.0};     // by magnets (unit: newtons)
 };
 
 struct HandMotion {
@@ -27,6 +28,14 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
 
 // The pull of a magnetic body on a proxy whose surface is `gap` away from it, along -normal (unit: newtons).
 double magnet_pull(const TouchMaterial& material, double gap);
+
+// A pull acts from a distance, so nothing that the hand does has to announce it: a magnet that spins, appears
+// or is passed by at its middle line would turn it within a tick. It changes no faster (unit: newtons per
+// second), which a hand that comes near at half a meter per second does not notice.
+constexpr double max_pull_rate = 500.0;
+
+// What is left of `pull` in this tick, after what it was in the one before.
+Vec3 gradual_pull(const Vec3& pull, double seconds, EffectMemory& memory);
 
 struct TextureSample {
     double height = 0.0;  // (unit: meters)
