@@ -16,6 +16,10 @@ namespace {
 // that does not hold it, out of static friction, or on from where the work of the last tick had ended.
 constexpr double max_sensitivity = 4.0;
 
+// What throws the proxy farther than its radius, and than this, within a tick goes by faster than a hand can
+// feel it come: its force fades in (unit: meters).
+constexpr double max_ride = 0.01;
+
 }  // namespace
 
 Proxy::Proxy(std::size_t max_parts, const ProxySettings& settings)
@@ -256,7 +260,9 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
     if (present_) {
         ride_along(tick);
     }
-    const double given_way = glm::distance(hand_, hand_before) + glm::distance(position_, before);
+    const double ridden = glm::distance(position_, before);
+    tick.jumped = tick.jumped || ridden > std::max(max_ride, settings_.radius);
+    const double given_way = glm::distance(hand_, hand_before) + ridden;
     if (was_present && !present_) {
         put(hand_);
         tick.jumped = true;

@@ -31,8 +31,8 @@ double magnet_pull(const TouchMaterial& material, double gap);
 
 // A pull acts from a distance, so nothing that the hand does has to announce it: a magnet that spins, appears
 // or is passed by at its middle line would turn it within a tick. It changes no faster (unit: newtons per
-// second), which a hand that comes near at half a meter per second does not notice.
-constexpr double max_pull_rate = 500.0;
+// second), which a hand that comes near as fast as hands do does not notice.
+constexpr double max_pull_rate = 400.0;
 
 // What is left of `pull` in this tick, after what it was in the one before.
 Vec3 gradual_pull(const Vec3& pull, double seconds, EffectMemory& memory);

@@ -46,6 +46,20 @@ TEST(ProxyJump, StaticFrictionThatGivesWay) {
     EXPECT_EQ(jumps, 1);
 }
 
+// Another body comes by at 100 m/s, which a hand cannot feel come; at 10 m/s it is pushed.
+TEST(ProxyJump, WhatIsThrownAtItFasterThanAHandCanFeel) {
+    for (const double way : {0.01, 0.1}) {
+        TouchRig rig(radius);
+        const int box = rig.add(BoxShape{Vec3(0.2)}, at({-1.0, 0.0, 0.0}));
+        rig.tick(Vec3(0.0));
+        bool jumped = false;
+        for (double x = -1.0; x < -0.1; x += way) {
+            jumped = rig.tick(Vec3(0.0), box, at({x, 0.0, 0.0})).jumped || jumped;
+        }
+        EXPECT_EQ(jumped, way > radius) << way;
+    }
+}
+
 // A hand that is deeper than the axis of the inflated edge: there is no resting place on the edge.
 TEST(ProxyJump, AnEdgeThatTheHandIsBehind) {
     TouchRig rig(radius);
