@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
 
 namespace tactus {
 
@@ -88,11 +89,12 @@ double magnet_pull(const TouchMaterial& material, double gap) {
     return material.magnet_force * std::clamp(1.0 - gap / material.magnet_range, 0.0, 1.0);
 }
 
-Vec3 gradual_pull(const Vec3& pull, double seconds, EffectMemory& memory) {
+Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t described, EffectMemory& memory) {
+    const bool is_other = std::exchange(memory.described, described) != described;
     const Vec3 change = pull - memory.pulled;
     const double length = glm::length(change);
     const double most = max_pull_rate * seconds;
-    memory.pulled = length <= most ? pull : memory.pulled + change * (most / length);
+    memory.pulled = is_other || length <= most ? pull : memory.pulled + change * (most / length);
     return memory.pulled;
 }
 
