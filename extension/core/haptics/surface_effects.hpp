@@ -15,7 +15,7 @@ struct EffectMemory {
     int stuck_body = -1;          // slot of the body that stick-slip holds the hand to
     Vec3 stuck_at{0.0};           // where, in that body's frame (unit: meters)
     Vec3 pulled{0.0};             // by magnets (unit: newtons)
-    std::uint64_t described = 0;  // TouchScene::material_changes() then
+    std::uint64_t described = 0;  // by the scene's count of changes
 };
 
 struct HandMotion {
