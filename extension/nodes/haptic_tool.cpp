@@ -1,8 +1,6 @@
 #include "nodes/haptic_tool.hpp"
 
 #include <glm/gtc/quaternion.hpp>
-#include <godot_cpp/core/object.hpp>
-#include <utility>
 
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
@@ -10,7 +8,7 @@
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "nodes/signals.hpp"
+#include "nodes/tree_walk.hpp"
 #include "realtime/workers.hpp"
 #include "world/scene_hand.hpp"
 
@@ -73,18 +71,6 @@ double HapticTool::get_sampling_error() const {
     return made != nullptr ? made->tolerance : 0.0;
 }
 
-TypedArray<Dictionary> HapticTool::get_contacts() const {
-    TypedArray<Dictionary> contacts;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(state_.contact_count); ++i) {
-        Dictionary contact;
-        contact["body"] = ObjectDB::get_instance(contact_bodies_[i]);
-        contact["point"] = to_godot(state_.points[i]);
-        contact["normal"] = to_godot(state_.normals[i]);
-        contacts.push_back(contact);
-    }
-    return contacts;
-}
-
 String HapticTool::problem() const {
     if (const String wrong = device_.problem(*this); !wrong.is_empty()) {
         return wrong;
@@ -131,22 +117,12 @@ ToolUse HapticTool::use(SessionHandle device) const {
     return use;
 }
 
-void HapticTool::emit_changes(std::set<std::uint64_t> touched) {
-    const std::set<std::uint64_t> before = std::exchange(touched_, std::move(touched));
-    post_touch_changes(*this, before, touched_);
-}
-
-void HapticTool::take_state(const ToolState& state, const BodyIds& bodies) {
+void HapticTool::take_state(const ToolState& state, const Touched::Ids& bodies) {
     state_ = state;
-    contact_bodies_ = bodies;
-    // Below a node that is scaled to zero there are no places.
-    const Node3D* parent = get_parent_node_3d();
-    if (is_present() && (parent == nullptr || parent->get_global_transform().basis.determinant() != 0)) {
+    touched_.take(*this, bodies);
+    if (is_present() && has_places(get_parent_node_3d())) {
         set_global_transform(to_godot(state.pose));
     }
-    std::set<std::uint64_t> touched(bodies.begin(), bodies.end());
-    touched.erase(0);
-    emit_changes(std::move(touched));
 }
 
 void HapticTool::clear_state() {
@@ -154,8 +130,7 @@ void HapticTool::clear_state() {
         return;
     }
     state_ = {};
-    contact_bodies_ = {};
-    emit_changes({});
+    touched_.take(*this, {});
 }
 
 void HapticTool::clear_force() {

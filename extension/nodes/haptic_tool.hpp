@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <godot_cpp/classes/mesh.hpp>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
@@ -8,10 +7,10 @@
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
-#include <set>
 
 #include "nodes/device_choice.hpp"
 #include "nodes/properties.hpp"
+#include "nodes/touched_bodies.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {
@@ -44,7 +43,7 @@ public:
     double get_residual() const { return state_.residual; }
     int64_t get_sphere_count() const;
     double get_sampling_error() const;
-    godot::TypedArray<godot::Dictionary> get_contacts() const;
+    godot::TypedArray<godot::Dictionary> get_contacts() const { return touched_.contacts(state_); }
     godot::String get_state_text() const;
 
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -60,9 +59,8 @@ public:
     std::shared_ptr<const ToolShape> shape() const;
     godot::String problem_of_shape() const;
     ToolUse use(SessionHandle device) const;
-    // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
-    using BodyIds = std::array<std::uint64_t, ToolState::max_contacts>;
-    void take_state(const ToolState& state, const BodyIds& bodies);
+    using Touched = TouchedBodies<ToolState::max_contacts>;
+    void take_state(const ToolState& state, const Touched::Ids& bodies);
     void clear_state();
     bool is_kept_out() const { return state_.handle != no_handle && !is_present(); }
     void clear_force();
@@ -80,7 +78,6 @@ private:
 
     void mesh_changed();
     void show_mesh();
-    void emit_changes(std::set<std::uint64_t> touched);
     bool has(ToolStatus bit) const { return (state_.status & bit) != 0; }
 
     DeviceChoice device_;
@@ -94,8 +91,7 @@ private:
 
     std::shared_ptr<Sampling> sampling_;  // null: not begun
     ToolState state_;
-    std::set<std::uint64_t> touched_;  // ids of the bodies that are touched
-    BodyIds contact_bodies_{};
+    Touched touched_;
     godot::MeshInstance3D* picture_ = nullptr;
 };
 

@@ -1,7 +1,5 @@
 #include "nodes/proxy_pointer.hpp"
 
-#include <godot_cpp/core/object.hpp>
-
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_world.hpp"
@@ -9,7 +7,6 @@
 #include "nodes/messages.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
-#include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
 #include "world/hand_picture.hpp"
 #include "world/scene_hand.hpp"
@@ -45,18 +42,6 @@ void ProxyPointer::set_radius(double meters) {
     }
     radius_ = meters;
     place_pictures();
-}
-
-TypedArray<Dictionary> ProxyPointer::get_contacts() const {
-    TypedArray<Dictionary> contacts;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(state_.contact_count); ++i) {
-        Dictionary contact;
-        contact["body"] = ObjectDB::get_instance(contact_bodies_[i]);
-        contact["point"] = to_godot(state_.points[i]);
-        contact["normal"] = to_godot(state_.normals[i]);
-        contacts.push_back(contact);
-    }
-    return contacts;
 }
 
 HapticDevice* ProxyPointer::device_node() const {
@@ -128,23 +113,13 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     return description;
 }
 
-void ProxyPointer::emit_changes(std::set<std::uint64_t> touched) {
-    const std::set<std::uint64_t> before = std::exchange(touched_, std::move(touched));
-    post_touch_changes(*this, before, touched_);
-}
-
-void ProxyPointer::take_state(const ProxyState& state, const BodyIds& bodies) {
+void ProxyPointer::take_state(const ProxyState& state, const Touched::Ids& bodies) {
     state_ = state;
-    contact_bodies_ = bodies;
-    // Below a node that is scaled to zero there are no places.
-    const Node3D* parent = get_parent_node_3d();
-    if (is_present() && (parent == nullptr || parent->get_global_transform().basis.determinant() != 0)) {
+    touched_.take(*this, bodies);
+    if (is_present() && has_places(get_parent_node_3d())) {
         set_global_position(to_godot(state.position));
     }
     place_pictures();
-    std::set<std::uint64_t> touched(bodies.begin(), bodies.end());
-    touched.erase(0);
-    emit_changes(std::move(touched));
 }
 
 void ProxyPointer::clear_state() {
@@ -152,9 +127,8 @@ void ProxyPointer::clear_state() {
         return;
     }
     state_ = {};
-    contact_bodies_ = {};
+    touched_.take(*this, {});
     place_pictures();
-    emit_changes({});
 }
 
 void ProxyPointer::make_pictures() {

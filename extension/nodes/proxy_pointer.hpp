@@ -1,14 +1,13 @@
 #pragma once
 
-#include <array>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/typed_array.hpp>
-#include <set>
 
 #include "nodes/device_choice.hpp"
 #include "nodes/properties.hpp"
+#include "nodes/touched_bodies.hpp"
 #include "session/session_types.hpp"
 #include "world/scene_facts.hpp"
 
@@ -46,7 +45,7 @@ public:
     bool is_squeezed() const { return has(proxy_squeezed); }
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
-    godot::TypedArray<godot::Dictionary> get_contacts() const;
+    godot::TypedArray<godot::Dictionary> get_contacts() const { return touched_.contacts(state_); }
     godot::String get_state_text() const;
 
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -62,9 +61,8 @@ public:
         return to_godot(problem_of_fingertip(radius_, mask_, facts));
     }
     ProxyDescription description(SessionHandle device) const;
-    // `bodies` are the ids of the nodes that state.bodies names, zero for those that are gone.
-    using BodyIds = std::array<std::uint64_t, HandForce::max_contacts>;
-    void take_state(const ProxyState& state, const BodyIds& bodies);
+    using Touched = TouchedBodies<HandForce::max_contacts>;
+    void take_state(const ProxyState& state, const Touched::Ids& bodies);
     void clear_state();
     // Its hand began inside a body.
     bool is_kept_out() const { return state_.handle != no_handle && !is_present(); }
@@ -76,7 +74,6 @@ protected:
 
 private:
     godot::String problem_of_scene() const;
-    void emit_changes(std::set<std::uint64_t> touched);
     void make_pictures();
     void place_pictures();
 
@@ -93,8 +90,7 @@ private:
     bool show_hand_ = true;
 
     ProxyState state_;
-    std::set<std::uint64_t> touched_;  // ids of the bodies that are touched
-    BodyIds contact_bodies_{};
+    Touched touched_;
     godot::MeshInstance3D* proxy_picture_ = nullptr;
     godot::MeshInstance3D* hand_picture_ = nullptr;
     godot::MeshInstance3D* line_picture_ = nullptr;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/node_path.hpp>
 
@@ -27,6 +28,11 @@ NodeType* node_at(const godot::Node& from, const godot::NodePath& path) {
     return from.is_inside_tree() && !path.is_empty()
                ? godot::Object::cast_to<NodeType>(from.get_node_or_null(path))
                : nullptr;
+}
+
+// Below a node that is scaled to zero there are no places; null: below none.
+inline bool has_places(const godot::Node3D* parent) {
+    return parent == nullptr || parent->get_global_transform().basis.determinant() != 0;
 }
 
 // Through all that stands below a node, parents first.

@@ -59,11 +59,16 @@ func path(from: Vector3, to: Vector3, seconds := 1.0) -> HapticPath:
 	return result
 
 
-func add_hand(world: HapticWorld, way: HapticPath, radius := 0.01) -> ProxyPointer:
+func add_device(world: HapticWorld, way: HapticPath) -> HapticDevice:
 	var device := HapticDevice.new()
 	device.name = "Device"
 	device.path = way
 	world.add_child(device)
+	return device
+
+
+func add_hand(world: HapticWorld, way: HapticPath, radius := 0.01) -> ProxyPointer:
+	add_device(world, way)
 	var proxy := ProxyPointer.new()
 	proxy.name = "Proxy"
 	proxy.radius = radius

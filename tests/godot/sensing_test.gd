@@ -212,6 +212,24 @@ func _hand_on_cloud(world: HapticWorld, sensor: DepthSensor, top: float) -> Prox
 	return proxy
 
 
+func _height_over(proxy: ProxyPointer, cube: Node3D) -> float:
+	return proxy.get_proxy_position().y - cube.global_position.y - 0.05
+
+
+func _rests_on(proxy: ProxyPointer, cube: Node3D) -> bool:
+	return proxy.is_touching() and absf(_height_over(proxy, cube) - 0.01) < 0.004
+
+
+func _check_touched(touches: Callable, proxy: ProxyPointer, sensor: DepthSensor) -> void:
+	check(
+		await until(touches, 60.0),
+		(
+			"it touches nothing at %s; it says: %s, and has %s"
+			% [proxy.get_proxy_position(), sensor.get_state_text(), sensor.get_objects()]
+		)
+	)
+
+
 ## Nobody knows the box: its points are touched, and take the hand along when it is put elsewhere.
 func test_a_cloud_is_touched_until_what_it_is_of_is_recognised() -> void:
 	var world := add_world()
@@ -226,15 +244,8 @@ func test_a_cloud_is_touched_until_what_it_is_of_is_recognised() -> void:
 	var proxy := await _hand_on_cloud(world, sensor, top)
 	var touches := func() -> bool:
 		world.advance(0.02)
-		var above := proxy.get_proxy_position().y - cube.global_position.y - 0.05
-		return proxy.is_touching() and absf(above - 0.01) < 0.004
-	check(
-		await until(touches, 60.0),
-		(
-			"it touches nothing at %s; it says: %s, and has %s"
-			% [proxy.get_proxy_position(), sensor.get_state_text(), sensor.get_objects()]
-		)
-	)
+		return _rests_on(proxy, cube)
+	await _check_touched(touches, proxy, sensor)
 	check(proxy.get_force().y > 0.1, "force on the hand: %s" % proxy.get_force())
 	cube.position.y += 0.03
 	check(await until(touches, 60.0), "lifted by 3 cm, the hand is at %s" % proxy.get_proxy_position())
@@ -246,7 +257,7 @@ func test_a_cloud_is_touched_until_what_it_is_of_is_recognised() -> void:
 	)
 	var statistics := world.get_statistics()
 	check(
-		statistics.trees_refitted > statistics.trees_built,
+		statistics.trees_refitted > maxi(2, statistics.trees_built),
 		"refitted: %d, built: %d" % [statistics.trees_refitted, statistics.trees_built]
 	)
 	sensor.touch_cloud = false
@@ -268,21 +279,13 @@ func test_in_real_time_a_cloud_is_touched_too_and_lifts_the_hand() -> void:
 	world.add_child(sensor)
 	var top := cube.global_position.y + 0.05
 	var proxy := await _hand_on_cloud(world, sensor, top)
-	var rests := func() -> bool:
-		var above := proxy.get_proxy_position().y - cube.global_position.y - 0.05
-		return proxy.is_touching() and absf(above - 0.01) < 0.004
-	check(
-		await until(rests, 60.0),
-		(
-			"it touches nothing at %s; it says: %s, and has %s"
-			% [proxy.get_proxy_position(), sensor.get_state_text(), sensor.get_objects()]
-		)
-	)
+	var rests := _rests_on.bind(proxy, cube)
+	await _check_touched(rests, proxy, sensor)
 	# As it rises under the hand, it takes it along.
 	var lowest := 1.0
 	for _step in 40:
 		cube.position.y += 0.001
 		await frames(3)
-		lowest = minf(lowest, proxy.get_proxy_position().y - cube.global_position.y - 0.05)
+		lowest = minf(lowest, _height_over(proxy, cube))
 	check(lowest > -0.02, "the hand was passed through: %.1f mm beneath its top" % [-1e3 * lowest])
 	check(await until(rests, 60.0), "lifted by 4 cm, the hand is at %s" % proxy.get_proxy_position())

@@ -9,10 +9,7 @@ func bar(size := Vector3(0.2, 0.02, 0.02)) -> BoxMesh:
 
 
 func add_tool(world: HapticWorld, way: HapticPath, mesh: Mesh) -> HapticTool:
-	var device := HapticDevice.new()
-	device.name = "Device"
-	device.path = way
-	world.add_child(device)
+	add_device(world, way)
 	var tool := HapticTool.new()
 	tool.name = "Tool"
 	tool.mesh = mesh
