@@ -245,8 +245,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
         smooth(force, slot.force_before);
     }
-    slot.force = force.total + gradual_pull(attract(slot, false), seconds_,
-                                            scene_.material_changes() + scene_.revision(), slot.effects);
+    slot.force = force.total + gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
     slot.step = step_of(slot);
     slot.jumped = tick.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
