@@ -282,9 +282,8 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         in.stiffness = stiffness_under(loop, slot.state);
     }
     // No hand feels more than its device may give: nothing of what is beyond needs hiding.
-    const Vec3 given = limited_force(in.modelled, loop.force_limit(slot));
-    const Vec3 beyond = in.modelled - given;
-    in.modelled = given;
+    const Vec3 whole = in.modelled;
+    in.modelled = limited_force(whole, loop.force_limit(slot));
     hide_changes(pointer, in.modelled, in.stiffness, way, changed);
     const TouchedBody touched = touched_body(loop, slot.state);
     if (const double force = glm::length(in.modelled);
@@ -302,8 +301,8 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         pointer.update.forget();
     }
     slot.state.force = pointer.felt.feel(settings().stealth, in);
-    if (pointer.felt.hidden() == Vec3(0.0)) {
-        slot.state.force += beyond;
+    if (slot.state.force == modelled) {
+        slot.state.force = whole;
     }
     pointer.modelled_before =
         pointer.known && !changed && !corrected_ ? pointer.modelled : modelled;  // a change is no trend
