@@ -82,8 +82,7 @@ func test_a_field_that_changes_is_touched_anew() -> void:
 	check_near(proxy.get_proxy_position(), Vector3(0, 0.095, 0), 1e-5, "free")
 	field.iso_value = 0.03
 	world.advance(0.2)
-	# What appears around a hand lets it out first.
-	check(not proxy.is_touching(), "it is touched from inside")
+	check(not proxy.is_touching(), "it is touched before the hand is there")
 	proxy.get_node(proxy.device).path = path(Vector3(0, 0.2, 0), Vector3(0, 0.085, 0))
 	world.advance(2.0)
 	check_near(proxy.get_proxy_position(), Vector3(0, 0.09, 0), 1e-3, "proxy")
