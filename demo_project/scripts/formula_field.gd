@@ -5,7 +5,8 @@ extends HapticMesh
 enum Form { MAZE, LUMP }
 
 const MAZE_PERIOD := 0.075  # metres
-const MAZE_WALL := 0.5
+const MAZE_WALL := 0.6
+const MAZE_RIM := 0.004  # metres
 const LUMP_BALLS := [
 	Vector4(0.0, 0.0, 0.0, 0.019), Vector4(0.022, 0.012, 0.0, 0.012), Vector4(-0.016, 0.016, 0.014, 0.013)
 ]  # centre and radius in metres
@@ -37,7 +38,10 @@ func _ready() -> void:
 func _maze(p: Vector3) -> float:
 	var q := p * TAU / MAZE_PERIOD
 	var wall := absf(sin(q.x) * cos(q.y) + sin(q.y) * cos(q.z) + sin(q.z) * cos(q.x)) - MAZE_WALL
-	return maxf(wall * MAZE_PERIOD / TAU, p.length() - 0.48 * side)
+	wall *= MAZE_PERIOD / TAU
+	var ball := p.length() - 0.46 * side
+	# The larger of both, with a rounded rim.
+	return 0.5 * (wall + ball + sqrt((wall - ball) * (wall - ball) + MAZE_RIM * MAZE_RIM))
 
 
 ## Balls that flow into each other.

@@ -13,6 +13,7 @@ const CLASSES: Array[String] = [
 	"HapticMaterial",
 	"HapticPath",
 	"HapticField",
+	"HapticGuide",
 	"NetworkConditions",
 	"TeleopTuning"
 ]
