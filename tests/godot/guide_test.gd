@@ -103,8 +103,8 @@ func test_what_leads_nowhere_is_said() -> void:
 	check(long.get_problem().contains("at most 16"), long.get_problem())
 
 
-## The hand's own path leaves the guide's; what is felt leads back. Where the nearest place jumps it takes some
-## ticks to turn.
+## The hand's own path leaves the guide's; what is felt leads back. Where the nearest place jumps it takes
+## some ticks to turn.
 func test_the_scene_with_a_guide_plays() -> void:
 	var scene := (load("res://guide.tscn") as PackedScene).instantiate()
 	var world: HapticWorld = scene.get_node("HapticWorld")
