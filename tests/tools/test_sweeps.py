@@ -82,7 +82,7 @@ def cluster(folder: Path, workers: int) -> Iterator[tuple[str, list[subprocess.P
         yield json.loads(said.read_text())["address"], running[1:]
     finally:
         for one in reversed(running):
-            one.terminate()
+            one.kill()
         for one in running:
             one.wait()
 

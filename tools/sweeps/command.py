@@ -122,14 +122,13 @@ def _write(sweep: Sweep, folder: Path, runs: list[Run], found: results.Found, fa
     from plots import sweep as plots
     from sweeps import report
 
-    folder.mkdir(parents=True, exist_ok=True)
     rows = table.rows(sweep, runs, found.summaries)
-    (folder / "sweep.json").write_text(json.dumps(dataclasses.asdict(sweep), indent=2) + "\n")
-    (folder / "sweep.csv").write_text(table.text(rows))
+    results.write_whole(folder / "sweep.json", json.dumps(dataclasses.asdict(sweep), indent=2) + "\n")
+    results.write_whole(folder / "sweep.csv", table.text(rows))
     print(_shown(folder / "sweep.csv"))
     if rows:
         pictures = {measure: plots.draw(sweep, rows, measure, folder / measure) for measure in sweep.measures}
-        (folder / "report.html").write_text(report.page(sweep, rows, len(runs), sources.digest(), pictures, failed))
+        results.write_whole(folder / "report.html", report.page(sweep, rows, len(runs), sources.digest(), pictures, failed))
         print(_shown(folder / "report.html"))
 
 

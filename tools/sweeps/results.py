@@ -20,11 +20,15 @@ class Found:
 
 def write(folder: Path, run: Run, sources: str, summary: Summary) -> None:
     body = {"run": str(run), "sources": sources, "summary": summary}
-    path = folder / f"{run.identity}.json"
+    write_whole(folder / f"{run.identity}.json", json.dumps({"check": _check(body), **body}, indent=1) + "\n")
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Whoever is stopped meanwhile leaves what was there before."""
     partial = path.with_suffix(".partial")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        partial.write_text(json.dumps({"check": _check(body), **body}, indent=1) + "\n")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        partial.write_text(text)
         os.replace(partial, path)
     except OSError as error:
         partial.unlink(missing_ok=True)
