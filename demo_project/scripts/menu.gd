@@ -10,6 +10,8 @@ const SCENES := {
 	"Dynamic: a box that can be pushed": "res://dynamic_testbed.tscn",
 	"Materials: rubber, ice, sandpaper, steel, sponge": "res://materials.tscn",
 	"Meshes: shapes of the library on a table": "res://mesh_table.tscn",
+	"Volumes: a maze and a lump out of samples": "res://field.tscn",
+	"A guide: a way in the air that the hand is led along": "res://guide.tscn",
 	"A tool with six degrees of freedom: a peg, its hole, a stack": "res://tool.tscn",
 	"Over a network: the box, far away": "res://networked_testbed.tscn",
 	"Over a network: a robot at a table": "res://robot_testbed.tscn",

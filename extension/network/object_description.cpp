@@ -259,6 +259,9 @@ void touch_fields(auto& s, auto& touch) {
     not_negative(s, touch.vibration_force);
     not_negative(s, touch.vibration_frequency);
     not_negative(s, touch.pop_through_force);
+    not_negative(s, touch.impact_strength);
+    not_negative(s, touch.impact_frequency);
+    positive(s, touch.impact_decay);
 }
 
 template <typename Stream>

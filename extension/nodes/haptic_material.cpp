@@ -3,6 +3,7 @@
 #include <godot_cpp/classes/image.hpp>
 
 #include "nodes/messages.hpp"
+#include "nodes/red_channel.hpp"
 
 namespace tactus {
 
@@ -11,17 +12,11 @@ using namespace godot;
 namespace {
 
 std::shared_ptr<const HeightImage> heights_of(const Ref<Texture2D>& texture) {
-    Ref<Image> image = texture->get_image();
+    const Ref<Image> image = texture->get_image();
     if (image.is_null() || image->is_empty()) {
         return nullptr;
     }
-    image = image->duplicate();
-    if (image->is_compressed()) {
-        image->decompress();
-    }
-    image->clear_mipmaps();
-    image->convert(Image::FORMAT_RF);
-    const PackedByteArray bytes = image->get_data();
+    const PackedByteArray bytes = red_channel(image);
     return height_image(static_cast<std::uint32_t>(image->get_width()),
                         static_cast<std::uint32_t>(image->get_height()),
                         {bytes.ptr(), static_cast<std::size_t>(bytes.size())});

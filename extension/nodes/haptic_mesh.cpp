@@ -70,6 +70,11 @@ double HapticMesh::library_mass(const Mat3& body_scale) const {
 std::shared_ptr<TriangleSource> HapticMesh::source() const {
     static KnownSources<std::uint64_t> by_mesh;
     static KnownSources<std::string> by_name;
+    const bool is_of_field = mesh_.is_null() && field_.is_valid();
+    if (source_ == nullptr && is_of_field) {
+        source_ = field_->surface();
+        former_.reset();
+    }
     if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
@@ -85,7 +90,7 @@ ShapeReading HapticMesh::read(const SceneFrame& body_scale) const {
     ShapeReading reading;
     const std::shared_ptr<TriangleSource> triangles = source();
     if (triangles == nullptr) {
-        reading.error = "it has no mesh: set 'mesh', or 'library_mesh' to one of " +
+        reading.error = "it has no mesh: set 'mesh', 'field', or 'library_mesh' to one of " +
                         from_godot(String(", ").join(mesh_library_names()));
         return reading;
     }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "nodes/haptic_field.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
@@ -37,7 +38,9 @@ public:
 
     // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
     // kilograms).
-    bool is_giving_mass() const { return use_library_mass_ && mesh_.is_null() && entry().mass > 0.0; }
+    bool is_giving_mass() const {
+        return use_library_mass_ && mesh_.is_null() && field_.is_null() && entry().mass > 0.0;
+    }
     double library_mass(const Mat3& body_scale) const;
 
     // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
@@ -58,6 +61,7 @@ private:
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
+    godot::Ref<HapticField> field_;
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;  // (unit: radians)
     bool one_sided_ = false;

@@ -76,6 +76,9 @@ PackedStringArray ProxyPointer::_get_configuration_warnings() const {
             warn(warnings, "This ProxyPointer cannot touch", wrong);
         }
     }
+    if (guide_.is_valid()) {
+        warn(warnings, "This guide leads nobody", guide_->get_problem());
+    }
     if (radius_was_refused_) {
         warnings.push_back("'" + String(get_name()) +
                            "' was given a radius that is no length above 0 and kept " + String::num(radius_) +
@@ -109,6 +112,7 @@ ProxyDescription ProxyPointer::description(SessionHandle device) const {
     description.settings.mask = mask_;
     description.force_law = force_law_;
     description.finger = finger_;
+    description.guide = guide_.is_valid() ? guide_->guide() : HandGuide{};
     description.enabled = enabled_;
     return description;
 }

@@ -6,6 +6,7 @@
 #include <godot_cpp/variant/typed_array.hpp>
 
 #include "nodes/device_choice.hpp"
+#include "nodes/haptic_guide.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/touched_bodies.hpp"
 #include "session/session_types.hpp"
@@ -74,6 +75,7 @@ protected:
 
 private:
     godot::String problem_of_scene() const;
+    void guide_changed() { update_configuration_warnings(); }
     void make_pictures();
     void place_pictures();
 
@@ -85,6 +87,7 @@ private:
     std::uint32_t mask_ = 0xffff'ffffu;
     tactus::ForceLaw force_law_ = tactus::ForceLaw::spring;
     SoftFinger finger_;
+    godot::Ref<HapticGuide> guide_;
     bool enabled_ = true;
     bool show_proxy_ = true;
     bool show_hand_ = true;

@@ -7,6 +7,8 @@
 #include "nodes/depth_sensor.hpp"
 #include "nodes/haptic_device.hpp"
 #include "nodes/haptic_feedback.hpp"
+#include "nodes/haptic_field.hpp"
+#include "nodes/haptic_guide.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_path.hpp"
@@ -31,6 +33,8 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_INTERNAL_CLASS(BodyWatch);
     GDREGISTER_CLASS(HapticMaterial);
     GDREGISTER_CLASS(HapticPath);
+    GDREGISTER_CLASS(HapticField);
+    GDREGISTER_CLASS(HapticGuide);
     GDREGISTER_CLASS(HapticMesh);
     GDREGISTER_CLASS(HapticDevice);
     GDREGISTER_CLASS(ProxyPointer);

@@ -64,9 +64,10 @@ SessionSnapshot empty_snapshot(std::size_t max_bodies) {
 }
 
 std::string check_material(const TouchMaterial& m) {
-    for (const double value : {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth,
-                               m.magnet_force, m.viscosity, m.stick_slip_stiffness, m.stick_slip_force,
-                               m.vibration_force, m.vibration_frequency, m.pop_through_force}) {
+    for (const double value :
+         {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth, m.magnet_force,
+          m.viscosity, m.stick_slip_stiffness, m.stick_slip_force, m.vibration_force, m.vibration_frequency,
+          m.pop_through_force, m.impact_strength, m.impact_frequency}) {
         if (!(value >= 0.0 && value <= limits::stiffest)) {
             return "a value of the touch material is negative, above 10^9 or not a number: set all of them "
                    "to "
@@ -77,6 +78,9 @@ std::string check_material(const TouchMaterial& m) {
         !(m.magnet_range > 0.0 && m.magnet_range <= limits::farthest)) {
         return "the touch material's texture size or magnet range is not a positive length: set both above 0 "
                "m";
+    }
+    if (!(m.impact_decay > 0.0 && m.impact_decay <= limits::farthest)) {
+        return "the time in which the touch material's taps decay is not positive: set it above 0 s";
     }
     return {};
 }
@@ -110,7 +114,7 @@ std::string check_proxy(const ProxyDescription& d) {
     return d.finger.modulus >= 0.0 && std::isfinite(d.finger.modulus) && d.finger.radius > 0.0 &&
                    d.finger.radius <= limits::longest_arm && d.finger.stiffness >= 0.0 &&
                    d.finger.stiffness <= limits::stiffest
-               ? ""
+               ? check_guide(d.guide)
                : "the finger's modulus or stiffness is below 0 or its radius is no positive length: set them "
                  "anew";
 }

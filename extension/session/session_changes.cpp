@@ -395,6 +395,7 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
         if (changed.description.device != c.description.device) {
             changed.proxy->restart();
         }
+        changed.guide_changed = changed.guide_changed || !(changed.description.guide == c.description.guide);
         changed.description = c.description;
         changed.proxy->set_settings(c.description.settings);
     }

@@ -171,6 +171,25 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
     return sample;
 }
 
+// A guide is no stiffer than what half of the device's damping renders safely: walls have the rest of it.
+// Over a bend of a way the place that it leads to may jump where the hand does not.
+SessionLoop::Lead SessionLoop::lead(ProxySlot& slot, const LoopLag& lag, double damping) const {
+    const HandGuide& guide = slot.description.guide;
+    Lead lead{.jumped = std::exchange(slot.guide_changed, false)};
+    if (guide.form == HandGuide::Form::none) {
+        return lead;
+    }
+    EffectMemory& memory = slot.effects;
+    const Vec3 place = guided_place(guide, slot.hand);
+    const double way = glm::distance(slot.hand, std::exchange(memory.guided_hand, slot.hand));
+    const double led_on = glm::distance(place, std::exchange(memory.guided_to, place));
+    constexpr double rounding = 1e-6;  // (unit: meters)
+    lead.jumped = lead.jumped || led_on > 2.0 * way + rounding;
+    lead.stiffness = safe_wall(lag, 0.5 * damping, {guide.stiffness, 0.0}).stiffness;
+    lead.force = guide_force(slot.hand - place, guide.range, lead.stiffness);
+    return lead;
+}
+
 // For the owner to tell: which wall was not safe.
 void SessionLoop::note_walls(const ProxySlot& slot, DeviceSlot& device) const {
     for (int i = 0; i < slot.parts.contact_count; ++i) {

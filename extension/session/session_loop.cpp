@@ -217,7 +217,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.parts = {};
     if (!slot.description.enabled || slot.idle || slot.description.device >= max_devices ||
         !devices_[slot.description.device].device) {
-        slot.force = Vec3(0.0);
+        slot.force = slot.effects.besides = Vec3(0.0);
         slot.torsion.count = 0;
         slot.proxy->restart();
         slot.state = {};
@@ -234,21 +234,26 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     HandForce& force = slot.parts;
     DeviceSlot& device = devices_[slot.description.device];
     const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
-    force =
-        contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
-                      {{seconds_, device.capabilities.delay}, damping, slot.description.finger.stiffness});
+    const LoopLag lag{seconds_, device.capabilities.delay};
+    const Lead led = lead(slot, lag, damping);
+    const double left = damping - led.stiffness * (0.5 * lag.seconds + lag.delay);
+    force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
+                          {lag, left, slot.description.finger.stiffness});
     slot.pressed = force.total;
     note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), {slot.hand, slot.hand_velocity}, now, seconds_,
                         slot.effects, force);
     if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
-        smooth(force, slot.force_before);
+        smooth(force, slot.force_before - slot.effects.besides);
     }
-    slot.force = force.total + gradual_pull(attract(slot, false), seconds_,
-                                            scene_.material_changes() + scene_.revision(), slot.effects);
+    slot.effects.besides =
+        led.force + gradual_pull(attract(slot, false), seconds_,
+                                 scene_.material_changes() + scene_.revision(), slot.effects);
+    slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
-    slot.jumped = tick.jumped;
+    slot.step.stiffness += led.stiffness;
+    slot.jumped = tick.jumped || led.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     hold_against_turning(slot);
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;

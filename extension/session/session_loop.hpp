@@ -71,8 +71,9 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
-        TorsionList torsion;  // one each of `parts`; none where the finger is a point
-        bool rested = false;  // since the last tick
+        bool guide_changed = false;  // since the last tick
+        TorsionList torsion;         // one each of `parts`; none where the finger is a point
+        bool rested = false;         // since the last tick
         ProxyState state;
 
         bool present() const { return proxy && description.enabled; }
@@ -234,6 +235,12 @@ private:
     FadingForce::Step step_of(const ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
+    struct Lead {
+        Vec3 force{0.0};         // (unit: newtons)
+        double stiffness = 0.0;  // (unit: newtons per meter)
+        bool jumped = false;     // it may be another one than the hand's way makes it
+    };
+    Lead lead(ProxySlot& slot, const LoopLag& lag, double damping) const;
     void hold_against_turning(ProxySlot& slot) const;
     void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
     void break_surfaces(ProxySlot& slot, const HandForce& force);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/haptics/force_law.hpp"
+#include "core/haptics/hand_guide.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/math/pose.hpp"
 #include "core/safety/hand_safety.hpp"
@@ -45,6 +46,7 @@ struct ProxyDescription {
     ProxySettings settings;
     ForceLaw force_law = ForceLaw::spring;
     SoftFinger finger;  // what bodies are held by against turning
+    HandGuide guide;    // leads the hand, besides what it touches
     bool enabled = true;
 };
 

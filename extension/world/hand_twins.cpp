@@ -15,7 +15,7 @@ bool same(const Workspace& a, const Workspace& b) {
 bool same(const ProxyDescription& a, const ProxyDescription& b) {
     return a.device == b.device && a.settings.radius == b.settings.radius &&
            a.settings.mask == b.settings.mask && a.force_law == b.force_law && a.finger == b.finger &&
-           a.enabled == b.enabled;
+           a.guide == b.guide && a.enabled == b.enabled;
 }
 
 bool same(const ToolUse& a, const ToolUse& b) {

@@ -48,6 +48,9 @@ MaterialValues values_of(MaterialPreset preset) {
             break;
         case MaterialPreset::steel:
             touch = {.stiffness = 3000.0, .damping = 1.5, .static_friction = 0.25, .dynamic_friction = 0.2};
+            touch.impact_strength = 8.0;
+            touch.impact_frequency = 300.0;
+            touch.impact_decay = 0.012;
             values.friction = 0.3;
             values.bounce = 0.3;
             break;

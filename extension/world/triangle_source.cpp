@@ -34,7 +34,7 @@ TriangleMesh scaled(TriangleMesh mesh, const Mat3& scaling) {
     return mesh;
 }
 
-TriangleSource::TriangleSource(std::function<TriangleMesh()> read, std::size_t triangle_count)
+TriangleSource::TriangleSource(std::function<Read()> read, std::size_t triangle_count)
     : read_(std::move(read)), triangle_count_(triangle_count) {}
 
 TriangleSource::TriangleSource(Checked checked) : checked_(std::move(checked)) {
@@ -71,9 +71,10 @@ void TriangleSource::take_trees_of(TriangleSource& before) {
 
 const TriangleSource::Checked& TriangleSource::triangles() {
     const std::lock_guard lock(mutex_);
-    if (const auto read = std::exchange(read_, nullptr)) {
-        const auto mesh = Workers::freed_aside(read());
-        checked_.error = check_mesh(*mesh);
+    if (const auto ask = std::exchange(read_, nullptr)) {
+        Read read = ask();
+        const auto mesh = Workers::freed_aside(std::move(read.mesh));
+        checked_.error = read.error.empty() ? check_mesh(*mesh) : std::move(read.error);
         checked_.mesh = checked_.error.empty() ? mesh : nullptr;
     }
     return checked_;

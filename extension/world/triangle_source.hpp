@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/touch_shape.hpp"
@@ -33,9 +34,18 @@ public:
         std::string error;                         // what is wrong and what to do
     };
 
+    // Triangles as they were read. Where there is an error, it says why there are none.
+    struct Read {
+        Read(TriangleMesh triangles, std::string why_none = {})
+            : mesh(std::move(triangles)), error(std::move(why_none)) {}
+
+        TriangleMesh mesh;
+        std::string error;
+    };
+
     // `read` gives the triangles, about so many, when somebody asks for them: once, on whichever thread that
     // is.
-    TriangleSource(std::function<TriangleMesh()> read, std::size_t triangle_count);
+    TriangleSource(std::function<Read()> read, std::size_t triangle_count);
     explicit TriangleSource(Checked checked);  // read elsewhere
 
     // The same mesh with its corners elsewhere: trees that nobody touches any more are refitted, not rebuilt.
@@ -71,7 +81,7 @@ private:
     std::shared_ptr<TriangleTree> refitted(const Mat3& scaling, const TriangleMesh& mesh,
                                            const ParallelRunner& run);
 
-    std::function<TriangleMesh()> read_;  // empty once it has been called
+    std::function<Read()> read_;  // empty once it has been called
     std::size_t triangle_count_ = 0;
     std::recursive_mutex mutex_;  // of all below
     Checked checked_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "shared/bench_kit.hpp"
+#include "shared/field_figures.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/stack_figures.hpp"
 #include "shared/tool_figures.hpp"
@@ -103,6 +104,36 @@ void report_stack(Report& report) {
     std::printf("stack: lost for %d ticks, %.3f mm in a box at most\n", lost, 1e3 * all.deepest);
 }
 
+void report_field(Report& report, int samples, int ticks) {
+    double error = 0.0;
+    double p99 = 0.0;
+    for (const double radius : {0.05, 0.02}) {
+        FieldFigures figures = play_field_sphere(static_cast<std::uint32_t>(samples), radius, ticks);
+        const std::string name = "field.r" + std::to_string(radius).substr(0, 4);
+        const double of_these = percentile(figures.microseconds, 0.99);
+        report.set(name + ".error_voxel_max", figures.error_voxels);
+        report.set(name + ".height_error_voxel_max", figures.height_error_voxels);
+        report.set(name + ".contact_ticks", figures.contact_ticks);
+        report.set(name + ".unfinished", figures.unfinished);
+        report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
+        report.set(name + ".tick_p99_us", of_these);
+        report.set(name + ".tick_max_us", percentile(figures.microseconds, 1.0));
+        report.set(name + ".free_tick_p50_us", percentile(figures.free_microseconds, 0.5));
+        report.set(name + ".triangles", figures.triangles);
+        report.set(name + ".build_ms", figures.build_milliseconds);
+        std::printf(
+            "%s: %d^3 samples, %.0f triangles in %.0f ms; %d ticks in contact, %d unfinished; off by %.4f "
+            "voxels, %.4f in height; p50 %.2f, p99 %.2f, longest %.2f us\n",
+            name.c_str(), samples, figures.triangles, figures.build_milliseconds, figures.contact_ticks,
+            figures.unfinished, figures.error_voxels, figures.height_error_voxels,
+            percentile(figures.microseconds, 0.5), of_these, percentile(figures.microseconds, 1.0));
+        error = std::max(error, figures.error_voxels);
+        p99 = std::max(p99, of_these);
+    }
+    report.set("field.error_voxel_max", error);
+    report.set("field.tick_p99_us", p99);
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -110,6 +141,7 @@ int main(int count, char** arguments) {
     const std::string only = options.text("only");
     const int angles = static_cast<int>(options.number("angles", 8));
     const int ticks = static_cast<int>(options.number("ticks", 10'000));
+    const int samples = static_cast<int>(options.number("samples", 128));
     if (!options.understood()) {
         return 2;
     }
@@ -122,6 +154,9 @@ int main(int count, char** arguments) {
     }
     if (is_chosen("stack", only)) {
         report_stack(report);
+    }
+    if (is_chosen("field", only)) {
+        report_field(report, samples, ticks);
     }
     if (is_chosen("rough_on_rough", only)) {
         report_rough(report, ticks);

@@ -63,6 +63,29 @@ func test_a_name_that_leads_out_of_the_library() -> void:
 	_problem_beside_a_sound_floor(_with_mesh(null, "../../../project"), "no mesh '../../../project'")
 
 
+func _with_field(values: PackedFloat32Array, size: Vector3i) -> StaticBody3D:
+	var body := _with_mesh(null)
+	var field := HapticField.new()
+	field.values = values
+	field.size = size
+	(body.get_child(0) as HapticMesh).field = field
+	return body
+
+
+func test_a_field_of_nothing() -> void:
+	_problem_beside_a_sound_floor(_with_field(PackedFloat32Array(), Vector3i.ZERO), "fewer than two samples")
+
+
+func test_a_field_with_nan() -> void:
+	var values := PackedFloat32Array([-1, 1, 1, 1, 1, NAN, 1, 1])
+	_problem_beside_a_sound_floor(_with_field(values, Vector3i(2, 2, 2)), "value 5 of the field is not")
+
+
+func test_a_field_without_a_surface() -> void:
+	var values := PackedFloat32Array([2, 1, 1, 1, 1, 1, 1, 1])
+	_problem_beside_a_sound_floor(_with_field(values, Vector3i(2, 2, 2)), "one side of the iso-value 0")
+
+
 func test_a_haptic_mesh_without_a_mesh() -> void:
 	_problem_beside_a_sound_floor(_with_mesh(null), "it has no mesh")
 

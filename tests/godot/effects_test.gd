@@ -46,6 +46,30 @@ func test_vibration_shakes_with_its_force_and_frequency() -> void:
 	check_near(forces[25], forces[5], 1e-3, "force a period later")
 
 
+func test_a_surface_that_is_met_rings() -> void:
+	var look := material(500.0)
+	look.impact_strength = 10.0
+	look.impact_frequency = 50.0
+	look.impact_decay = 0.1
+	var world := add_world()
+	var ground := add_floor(world)
+	ground.physics_material_override = look
+	# 0.2 m/s into the floor, and still from 10 mm below its surface on.
+	var proxy := add_hand(world, path(Vector3(0, 0.02, 0), Vector3(0, 0.0, 0), 0.1))
+	world.advance(0.1)
+	var above := 0
+	var loudest := 0.0
+	for _i in 100:
+		world.advance(TICK)
+		var ringing := proxy.get_force().y - 5.0
+		loudest = maxf(loudest, ringing)
+		above += 1 if ringing > 0.01 else 0
+	check(loudest > 1.0 and loudest < 2.0, "the loudest is %s" % loudest)
+	check(above > 30 and above < 70, "above rest for %d ms" % above)
+	world.advance(1.0)
+	check_near(proxy.get_force(), Vector3(0, 5.0, 0), 1e-3, "at rest")
+
+
 func test_stick_slip_holds_and_lets_go_again_and_again() -> void:
 	var look := material(500.0)
 	look.stick_slip_stiffness = 100.0

@@ -12,6 +12,8 @@ const CLASSES: Array[String] = [
 	"MMTLink",
 	"HapticMaterial",
 	"HapticPath",
+	"HapticField",
+	"HapticGuide",
 	"NetworkConditions",
 	"TeleopTuning"
 ]
@@ -99,6 +101,12 @@ func _value(type: int, name: String, kind: String) -> Variant:
 			return Vector2(_any(FLOATS), _any(FLOATS))
 		TYPE_VECTOR3:
 			return Vector3(_any(FLOATS), _any(FLOATS), _any(FLOATS))
+		TYPE_VECTOR3I:
+			return _any([Vector3i.ZERO, Vector3i(2, 2, 2), Vector3i(-1, 3, 0x7fffffff)])
+		TYPE_ARRAY:
+			return _any([[], [null, 1], [Image.create_empty(2, 2, false, Image.FORMAT_L8)]])
+		TYPE_PACKED_FLOAT32_ARRAY:
+			return _any([PackedFloat32Array(), PackedFloat32Array([-1, 1, 1, 1, 1, 1, 1, NAN])])
 		TYPE_DICTIONARY:
 			return _any([{}, {"Box": 1}, {"Box": {"move": [NAN]}}, {1: {"turn": "x"}}])
 		TYPE_PACKED_VECTOR3_ARRAY:

@@ -38,6 +38,9 @@ TEST(ObjectDescription, SurvivesTheWire) {
     EXPECT_TRUE(read.body.lock_angular[2]);
     EXPECT_EQ(read.touch.stiffness, sent.touch.stiffness);
     EXPECT_EQ(read.touch.pop_through_force, sent.touch.pop_through_force);
+    EXPECT_EQ(read.touch.impact_strength, sent.touch.impact_strength);
+    EXPECT_EQ(read.touch.impact_frequency, sent.touch.impact_frequency);
+    EXPECT_EQ(read.touch.impact_decay, sent.touch.impact_decay);
     ASSERT_NE(read.touch.texture, nullptr);
     EXPECT_EQ(read.touch.texture, read.texture.get());
     EXPECT_EQ(read.texture->heights, sent.texture->heights);

@@ -427,7 +427,8 @@ def _touch(r: Reader) -> Fields:
         "magnet_force": r.not_negative(), "magnet_range": r.positive(), "viscosity": r.not_negative(),
         "stick_slip_stiffness": r.not_negative(), "stick_slip_force": r.not_negative(),
         "vibration_force": r.not_negative(), "vibration_frequency": r.not_negative(),
-        "pop_through_force": r.not_negative(),
+        "pop_through_force": r.not_negative(), "impact_strength": r.not_negative(),
+        "impact_frequency": r.not_negative(), "impact_decay": r.positive(),
     }  # fmt: skip
 
 

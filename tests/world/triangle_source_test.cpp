@@ -36,6 +36,12 @@ TEST(TriangleSource, SaysWhatIsWrongWithItsTriangles) {
     EXPECT_EQ(source.triangles().mesh, nullptr);
 }
 
+TEST(TriangleSource, SaysWhyNothingCouldBeRead) {
+    TriangleSource source([] { return TriangleSource::Read({}, "no scanner has been here"); }, 0);
+    EXPECT_EQ(source.triangles().error, "no scanner has been here");
+    EXPECT_EQ(source.triangles().mesh, nullptr);
+}
+
 TEST(TriangleSource, BodiesOfOneScaleShareATree) {
     TriangleSource source([] { return sheet(0.0); }, 2);
     const BuiltMesh first = source.built(Mat3(1.0), run_serially);

@@ -44,7 +44,8 @@ Vec3 texture_force(const TouchBody& body, const Touch& contact) {
 // where it is.
 Vec3 stick_slip_force(const TouchBody& body, const Touch& contact, const Vec3& hand, EffectMemory& memory) {
     if (memory.stuck_body != contact.body) {
-        memory = {contact.body, to_local(body.pose, hand)};
+        memory.stuck_body = contact.body;
+        memory.stuck_at = to_local(body.pose, hand);
     }
     const Vec3 stretched = along_surface(to_parent(body.pose, memory.stuck_at) - hand, contact.normal);
     const Vec3 force = stretched * body.material.stick_slip_stiffness;
@@ -53,6 +54,20 @@ Vec3 stick_slip_force(const TouchBody& body, const Touch& contact, const Vec3& h
         return Vec3(0.0);
     }
     return force;
+}
+
+// A surface that is met rings: a sine that decays, and begins at 0 (Okamura, Dennerlein and Howe 1998). One
+// that goes on being touched rings on, one that was let go of is met anew. `met_at` is the speed into it.
+double tap_force(const Touch& contact, const TouchMaterial& material, double met_at, Nanoseconds now,
+                 std::span<const Ringing> before, Ringing& ring) {
+    const auto is_its = [&](const Ringing& other) { return other.body == contact.body; };
+    const auto known = std::ranges::find_if(before, is_its);
+    ring = known != before.end()
+               ? *known
+               : Ringing{contact.body, material.impact_strength * std::max(0.0, met_at), now};
+    const double t = to_seconds(now - ring.since);
+    return ring.amplitude * std::exp(-t / material.impact_decay) *
+           std::sin(2.0 * std::numbers::pi * material.impact_frequency * t);
 }
 
 }  // namespace
@@ -101,6 +116,7 @@ Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t described, Eff
 void add_surface_effects(const TouchScene& scene, std::span<const Touch> touching, const HandMotion& hand,
                          Nanoseconds now, double seconds, EffectMemory& memory, HandForce& force) {
     bool sticks = false;
+    const std::array<Ringing, HandForce::max_contacts> rings = std::exchange(memory.rings, {});
     for (int i = 0; i < force.contact_count; ++i) {
         const Touch& contact = touching[static_cast<std::size_t>(i)];
         const TouchBody& body = scene.body(contact.body);
@@ -109,9 +125,15 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
         if (has_texture(material)) {
             added += texture_force(body, contact);
         }
-        if (material.viscosity > 0.0) {
+        if (material.viscosity > 0.0 || material.impact_strength > 0.0) {
             const Vec3 carried = (contact.point - previous_place(body, contact.point)) / seconds;
-            added -= along_surface(hand.velocity - carried, contact.normal) * material.viscosity;
+            const Vec3 speed = hand.velocity - carried;
+            added -= along_surface(speed, contact.normal) * material.viscosity;
+            const auto is_its = [&](const Ringing& ring) { return ring.body == contact.body; };
+            if (material.impact_strength > 0.0 && std::ranges::none_of(memory.rings, is_its)) {
+                added += contact.normal * tap_force(contact, material, -glm::dot(speed, contact.normal), now,
+                                                    rings, memory.rings[static_cast<std::size_t>(i)]);
+            }
         }
         if (material.vibration_force > 0.0) {
             const double phase = 2.0 * std::numbers::pi * material.vibration_frequency * to_seconds(now);

@@ -1,8 +1,9 @@
-// What a surface adds to the force of its contact: texture, viscosity, vibration, stick-slip, magnet. The
-// proxy itself stays where the geometry puts it; effects change the force only. What no contact's material
-// asks for is not computed.
+// What a surface adds to the force of its contact: texture, viscosity, vibration, stick-slip, rings, magnet.
+// The proxy itself stays where the geometry puts it; effects change the force only. What no contact's
+// material asks for is not computed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -10,10 +11,20 @@
 
 namespace tactus {
 
+// What a body rings with since the hand has met it.
+struct Ringing {
+    int body = -1;           // slot; -1: none
+    double amplitude = 0.0;  // at its start (unit: newtons)
+    Nanoseconds since = 0;
+};
+
 // What effects remember of one proxy from tick to tick.
 struct EffectMemory {
-    int stuck_body = -1;          // slot of the body that stick-slip holds the hand to
-    Vec3 stuck_at{0.0};           // where, in that body's frame (unit: meters)
+    int stuck_body = -1;  // slot of the body that stick-slip holds the hand to
+    Vec3 stuck_at{0.0};   // where, in that body's frame (unit: meters)
+    std::array<Ringing, HandForce::max_contacts> rings{};  // of the bodies that are touched
+    Vec3 guided_hand{0.0}, guided_to{0.0};                 // by a guide: from where to where (unit: meters)
+    Vec3 besides{0.0};            // what has acted on the hand and came from no contact (unit: newtons)
     Vec3 pulled{0.0};             // by magnets (unit: newtons)
     std::uint64_t described = 0;  // by the scene's count of changes
 };

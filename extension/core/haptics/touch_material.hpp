@@ -32,6 +32,10 @@ struct TouchMaterial {
     double vibration_force = 0.0;   // amplitude along the normal (unit: newtons), >= 0
     double vibration_frequency = 0.0;  // (unit: hertz), 0 to half the tick rate
     double pop_through_force = 0.0;    // that breaks the surface; 0: nothing does (unit: newtons), >= 0
+    // Of a tap, by the speed into the surface that it begins with (unit: newton-seconds per meter), >= 0.
+    double impact_strength = 0.0;
+    double impact_frequency = 200.0;  // (unit: hertz), 0 to half the tick rate
+    double impact_decay = 0.02;       // in which it falls to 1 / e (unit: seconds), > 0
 };
 
 }  // namespace tactus

@@ -83,6 +83,55 @@ TEST(SurfaceEffects, StickSlipForgetsWhenTheHandLeaves) {
     EXPECT_LT(glm::length(pressed.added({0.005, 0.03, 0.0})), 1e-12);
 }
 
+TouchMaterial ringing() {
+    TouchMaterial material{500.0, 0.0, 0.0, 0.0};
+    material.impact_strength = 5.0;
+    material.impact_frequency = 100.0;
+    material.impact_decay = 0.02;
+    return material;
+}
+
+constexpr Nanoseconds milliseconds = 1'000'000;
+
+TEST(SurfaceEffects, WhatIsMetRingsByTheSpeedAndDecays) {
+    Pressed pressed(ringing());
+    const Vec3 into(0.4, -0.2, 0.0);
+    EXPECT_EQ(pressed.added(pressed.hand, into, 0), Vec3(0.0));  // it begins without a jump
+    for (int i = 1; i <= 100; ++i) {
+        // However fast the hand is by now.
+        const Vec3 felt = pressed.added(pressed.hand, {0.0, 3.0, 0.0}, i * milliseconds);
+        const double t = 1e-3 * i;
+        const double ringing = 5.0 * 0.2 * std::exp(-t / 0.02) * std::sin(2.0 * 3.14159265358979 * 100.0 * t);
+        ASSERT_LT(glm::distance(felt, Vec3(0.0, ringing, 0.0)), 1e-9) << i;
+    }
+}
+
+TEST(SurfaceEffects, WhatIsLetGoOfIsMetAnew) {
+    Pressed pressed(ringing());
+    pressed.added(pressed.hand, {0.0, -0.2, 0.0}, 0);
+    pressed.added({0.0, 0.2, 0.0}, {0.0, 0.2, 0.0}, 50 * milliseconds);
+    pressed.added(pressed.hand, {0.0, -0.1, 0.0}, 100 * milliseconds);
+    const double quarter = pressed.added(pressed.hand, Vec3(0.0), 102'500'000).y;
+    EXPECT_NEAR(quarter, 5.0 * 0.1 * std::exp(-0.0025 / 0.02), 1e-9);
+}
+
+// One that rises while the hand draws back has not been met by it.
+TEST(SurfaceEffects, AHandThatLeavesFeelsNoTap) {
+    Pressed pressed(ringing());
+    pressed.added(pressed.hand, {0.0, 0.2, 0.0}, 0);
+    EXPECT_EQ(pressed.added(pressed.hand, Vec3(0.0), 2'500'000), Vec3(0.0));
+}
+
+TEST(SurfaceEffects, StickSlipForgetsNoPull) {
+    TouchMaterial material{500.0, 0.0, 0.0, 0.0};
+    material.stick_slip_stiffness = 100.0;
+    material.stick_slip_force = 1.0;
+    Pressed pressed(material);
+    pressed.memory.pulled = {0.0, -1.0, 0.0};
+    pressed.added(pressed.hand);
+    EXPECT_EQ(pressed.memory.pulled, Vec3(0.0, -1.0, 0.0));
+}
+
 TEST(SurfaceEffects, MagnetFadesFromTouchToItsRange) {
     TouchMaterial material;
     material.magnet_force = 3.0;

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <godot_cpp/classes/array_mesh.hpp>
+#include <godot_cpp/classes/resource.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/packed_vector3_array.hpp>
+
+#include "core/haptics/hand_guide.hpp"
+#include "nodes/properties.hpp"
+
+namespace tactus {
+
+// Leads the hand where there is no surface.
+class HapticGuide : public godot::Resource {
+    GDCLASS(HapticGuide, godot::Resource)
+
+public:
+    enum Form : int64_t {
+        FORM_POINT = static_cast<int64_t>(HandGuide::Form::point),
+        FORM_LINE = static_cast<int64_t>(HandGuide::Form::line),
+        FORM_PLANE = static_cast<int64_t>(HandGuide::Form::plane),
+        FORM_WAY = static_cast<int64_t>(HandGuide::Form::way)
+    };
+
+    TACTUS_PROPERTIES(HapticGuide)
+
+    godot::String get_problem() const { return to_godot(check_guide(described())); }
+    godot::Vector3 get_place(const godot::Vector3& hand) const;
+    godot::Ref<godot::ArrayMesh> create_line_mesh(double thickness) const;
+
+    // One that leads nowhere where it has a problem.
+    HandGuide guide() const;
+
+protected:
+    static void _bind_methods();
+
+private:
+    HandGuide described() const;
+
+    Form form_ = FORM_WAY;
+    godot::PackedVector3Array points_;
+    double stiffness_ = 200.0;
+    double range_ = 0.03;
+};
+
+}  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticGuide::Form);
