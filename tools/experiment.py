@@ -1,4 +1,5 @@
 """./run experiment NAME [--key=value …]: calls run(options, output) of tools/experiments/NAME.py.
+./run experiment SWEEPFILE [--cluster=ADDRESS] [--workers=N]: plays many of them (sweeps/command.py).
 
 `options` holds the keys and values as text, `output` is build/experiments/NAME, emptied before; NAME_real where an
 experiment in virtual time is asked for real time. run returns the flat summary, which is written to summary.json there.
@@ -7,9 +8,12 @@ experiment in virtual time is asked for real time. run returns the flat summary,
 import importlib
 import json
 import sys
+from pathlib import Path
 from types import ModuleType
 
 from setup import cache
+from sweeps import command as sweep
+from sweeps import description
 
 
 def names() -> list[str]:
@@ -17,8 +21,10 @@ def names() -> list[str]:
 
 
 def main(arguments: list[str]) -> int:
-    if not arguments or arguments[0] not in names():
+    is_sweep = bool(arguments) and arguments[0].endswith(description.ENDINGS)
+    if not arguments or not (is_sweep or arguments[0] in names()):
         print(f"./run experiment NAME [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
+        print("./run experiment SWEEPFILE [--cluster=ADDRESS] [--workers=N], where SWEEPFILE ends in .toml or .json", file=sys.stderr)
         return 2
     name, *rest = arguments
     malformed = [argument for argument in rest if not argument.startswith("--") or "=" not in argument]
@@ -26,6 +32,8 @@ def main(arguments: list[str]) -> int:
         print(f"not --key=value: {' '.join(malformed)}", file=sys.stderr)
         return 2
     options = dict(argument[2:].split("=", 1) for argument in rest)
+    if is_sweep:
+        return sweep.run(Path(name), options, names())
     experiment = importlib.import_module(f"experiments.{name}")
     folder = f"{name}_real" if _leaves_virtual_time(experiment, options) else name
     output = cache.emptied(cache.clone() / "build/experiments" / folder)
@@ -46,3 +54,5 @@ if __name__ == "__main__":
     except (RuntimeError, ValueError) as error:
         print(error, file=sys.stderr)
         sys.exit(1)
+    except KeyboardInterrupt:
+        sys.exit(130)

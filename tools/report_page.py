@@ -55,6 +55,11 @@ def picture(path: Path, caption: str) -> str:
     )
 
 
+def files(paths: Sequence[Path]) -> str:
+    """Links to files that lie beside the page."""
+    return "<p>" + ", ".join(f'<a href="{escape(path.name)}">{escape(path.name)}</a>' for path in paths) + "</p>"
+
+
 def table(head: Sequence[str], rows: Sequence[Sequence[str | bool]], numbers_from: int = 1) -> str:
     """Columns from `numbers_from` on are set to the right; True and False become words."""
 

@@ -1,7 +1,6 @@
 """Every command that the documents name can be given, and every table of docs/teleoperation.md says how it is made."""
 
 import dataclasses
-import importlib
 import re
 import typing
 
@@ -9,12 +8,13 @@ import experiment
 import pytest
 
 from setup import cache
+from sweeps import command, description
 
 FOLDER = cache.clone()
 DOCUMENTS = sorted([FOLDER / "README.md", *(FOLDER / "docs").glob("*.md")])
 _COMMAND = re.compile(r"\./run (\w+)((?: [\w./=,{}-]+)*)")
 # In place of a name.
-_ANY = ("NAME", "NAME…", "FILTER", "SCENE")
+_ANY = ("NAME", "NAME…", "FILTER", "SCENE", "SWEEPFILE")
 
 
 def _commands() -> list[tuple[str, str, list[str]]]:
@@ -39,16 +39,20 @@ def test_a_command_of_the_documents_can_be_given(document: str, verb: str, words
     assert verb in _front_door(), document
     if verb not in ("experiment", "bench") or not words or words[0] in _ANY or words[0].startswith("--"):
         return
-    names = experiment.names() if verb == "experiment" else _benches()
-    assert words[0] in names, f"{document}: ./run {verb} {words[0]}"
-    if verb == "experiment":
-        settings = importlib.import_module(f"experiments.{words[0]}").Settings if _has_settings(words[0]) else None
-        for option in (word for word in words[1:] if word.startswith("--")):
-            assert settings and option[2:].split("=")[0] in _fields(settings), f"{document}: {words[0]} {option}"
+    if verb == "bench":
+        assert words[0] in _benches(), f"{document}: ./run bench {words[0]}"
+        return
+    known = _fields(_settings(words[0]))
+    for option in (word for word in words[1:] if word.startswith("--")):
+        assert option[2:].split("=")[0] in known, f"{document}: {words[0]} {option}"
 
 
-def _has_settings(name: str) -> bool:
-    return hasattr(importlib.import_module(f"experiments.{name}"), "Settings")
+def _settings(experiment_or_sweep: str) -> type:
+    if experiment_or_sweep.endswith(description.ENDINGS):
+        description.read(FOLDER / experiment_or_sweep, experiment.names())
+        return command.Settings
+    assert experiment_or_sweep in experiment.names()
+    return description.settings(experiment_or_sweep)
 
 
 def _fields(settings: type) -> set[str]:

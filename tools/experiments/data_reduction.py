@@ -36,7 +36,7 @@ WEBER, LEAST_NOTICEABLE = 0.07, 0.02
 @dataclass(frozen=True)
 class Settings:
     seconds: float = 10.0
-    delay: float = 100.0
+    delay: float = options.option(100.0, "ms")
     clock: Literal["virtual"] = "virtual"
     pictures: int = 1
 

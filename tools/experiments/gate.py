@@ -11,7 +11,8 @@ spring_pose_only, spring_velocities, spring_passive_updates, and traditional tou
 from pathlib import Path
 
 from measuring import options, perturbed
+from measuring.perturbed import Settings
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
-    return perturbed.run("gate", options.parse(perturbed.Settings, given), output)
+    return perturbed.run("gate", options.parse(Settings, given), output)

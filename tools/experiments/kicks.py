@@ -24,7 +24,7 @@ FIGURES = (*EXCESS, "force_error_left_N", "energy_created_J")
 
 @dataclass(frozen=True)
 class Settings:
-    delay: float = 100.0
+    delay: float = options.option(100.0, "ms")
     kinds: str = "all"
     set: str = ""
     clock: Literal["virtual"] = "virtual"

@@ -47,8 +47,8 @@ FELT = 0.5  # the hand presses with some newtons
 
 @dataclass(frozen=True)
 class Settings:
-    down: float = 30.0
-    settle: float = 8.0
+    down: float = options.option(30.0, "s")
+    settle: float = options.option(8.0, "s")
 
 
 def ip(*words: str) -> None:

@@ -26,10 +26,10 @@ CASES = [Case("static", "res://static_testbed.tscn"), Case("dynamic", "res://dyn
 @dataclass(frozen=True)
 class Settings:
     seconds: float = 10.0
-    warmup: float = 1.0
+    warmup: float = options.option(1.0, "s")
     clock: Literal["real", "stepped"] = "real"
     rounds: int = 3
-    calm: float = 0.005
+    calm: float = options.option(0.005, "share")
     pictures: int = 1
 
 

@@ -32,7 +32,7 @@ FIGURES = (
 @dataclass(frozen=True)
 class Settings:
     seconds: float = 6.0
-    delay: float = 0.1
+    delay: float = options.option(0.1, "s")
     pictures: int = 1
 
 

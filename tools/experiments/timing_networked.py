@@ -29,10 +29,10 @@ SIDES = {"operator": OPERATOR, "teleoperator": FAR}
 @dataclass(frozen=True)
 class Settings:
     seconds: float = 10.0
-    warmup: float = 1.0
-    delay: float = 0.1
+    warmup: float = options.option(1.0, "s")
+    delay: float = options.option(0.1, "s")
     rounds: int = 3
-    calm: float = 0.005
+    calm: float = options.option(0.005, "share")
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,19 @@
 """What stands behind --key=value on the command line, checked against what an experiment understands."""
 
 from collections.abc import Mapping
-from dataclasses import fields
-from typing import TypeVar, get_args
+from dataclasses import Field, field, fields
+from typing import Any, TypeVar, get_args
 
 Options = TypeVar("Options")
+
+
+def option(default: float, unit: str) -> Any:
+    """A field of such a dataclass that counts in `unit`: "ms", "m"; "factor" and "share" (0 … 1) have no dimension."""
+    return field(default=default, metadata={"unit": unit})
+
+
+def unit_of(one: Field) -> str:
+    return one.metadata.get("unit", "")
 
 
 def parse(kind: type[Options], given: Mapping[str, str]) -> Options:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from measuring import rivals, teleop_grid, teleop_runs
+from measuring import options, rivals, teleop_grid, teleop_runs
 
 SCHEMES = ("spring", "position", "position_force", "position_force_relative", "position_force_free", "relative_free")
 # With a free force, nothing but the force leads the far hand: it may be as far from the operator's place as it likes.
@@ -32,7 +32,7 @@ CASES |= {f"spring_{scheme}" if scheme in rivals.MODELS else scheme: rivals.SCHE
 class Settings:
     runs: int = 200
     seed: int = 1
-    delay: float = 100.0
+    delay: float = options.option(100.0, "ms")
     pictures: int = 1
     clock: Literal["virtual"] = "virtual"
 

@@ -7,9 +7,11 @@ import os
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cache as once
 from pathlib import Path
 
 import build
+from measuring.options import option
 from measuring.teleop_scene import Scene
 from project import FOLDER
 from setup import cache
@@ -37,17 +39,20 @@ PLACES = (
 class Imperfections:
     """What else is wrong than the description of the experiment says: options of every experiment with a model."""
 
-    mass: float = 1.0  # of the followed body as the model has it, factor
-    friction: float = 1.0  # of all bodies on each other, factor
-    tilt: float = 0.0  # of static bodies about x (degrees)
-    moved: float = 0.0  # of all bodies along x (metres)
-    pose_noise: float = 0.0  # of what the far side says of places, standard deviation (metres)
-    phase: float = 0.0  # of the far side's ticks after the operator's (microseconds), 0 … 999
-    late: float = 0.0  # start of the far side after the operator's (milliseconds)
-    jitter: float = 0.0  # of the link, each way (milliseconds)
+    mass: float = option(1.0, "factor")  # of the followed body as the model has it
+    friction: float = option(1.0, "factor")  # of all bodies on each other
+    tilt: float = option(0.0, "deg")  # of static bodies about x
+    moved: float = option(0.0, "m")  # of all bodies along x
+    pose_noise: float = option(0.0, "m")  # of what the far side says of places, standard deviation
+    phase: float = option(0.0, "us")  # of the far side's ticks after the operator's, 0 … 999
+    late: float = option(0.0, "ms")  # start of the far side after the operator's
+    jitter: float = option(0.0, "ms")  # of the link, each way
 
     def keys(self, scene: str, followed: str | None = None) -> Case:
         """As keys of a case, for those that are not perfect."""
+        return self.model(scene, followed) | self.link()
+
+    def model(self, scene: str, followed: str | None = None) -> Case:
         keys: Case = {}
         bodies = Scene(scene).bodies()
         for body in bodies:
@@ -59,8 +64,11 @@ class Imperfections:
                 keys[f"wrong.{body}.turn"] = f"1,0,0,{self.tilt}"
         if self.mass != 1.0 and followed:
             keys[f"wrong.{followed}.mass"] = self.mass
-        link = {"pose_noise": self.pose_noise, "phase_us": self.phase, "late_ms": self.late, "jitter_ms": self.jitter}
-        return keys | {key: value for key, value in link.items() if value != 0.0}
+        return keys
+
+    def link(self) -> Case:
+        keys = {"pose_noise": self.pose_noise, "phase_us": self.phase, "late_ms": self.late, "jitter_ms": self.jitter}
+        return {key: value for key, value in keys.items() if value != 0.0}
 
 
 def description(name: str) -> dict:
@@ -81,8 +89,7 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
     """The figures of each case by its name; with `bins`, how the ticks spread is among them. `folder` gets the rows of
     those that ask for them by "rows". `lines`: what is run in place of the scene as it is.
     """
-    build.build("template_release", "build/template_release/bench/teleop")
-    program = cache.clone() / "build/template_release/bench/teleop"
+    program = _program()
     folder.mkdir(parents=True, exist_ok=True)
     scene_file = folder / "scene.txt"
     scene_file.write_text(lines or Scene(scene).lines())
@@ -94,9 +101,9 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
         cases_file = folder / f"cases_{number}.txt"
         cases_file.write_text("".join(_line(case) for case in share))
         command = [program, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
-        done = subprocess.run(command, text=True, stdout=subprocess.PIPE)
+        done = subprocess.run(command, text=True, capture_output=True)
         if done.returncode != 0:
-            raise RuntimeError(f"{cases_file} could not be run")
+            raise RuntimeError(f"{cases_file} could not be run:\n{done.stderr[-2000:]}")
         return [json.loads(line) for line in done.stdout.splitlines()]
 
     with ThreadPoolExecutor(workers) as pool:
@@ -105,6 +112,14 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
     for leftover in (scene_file, *folder.glob("cases_*.txt")):
         leftover.unlink()
     return {str(case["name"]): by_name[str(case["name"])] for case in cases}
+
+
+@once
+def _program() -> Path:
+    """Built when a process first asks for it; one process at a time, for SCons knows of no other."""
+    with cache.lock(cache.clone() / "build", "bench teleop"):
+        build.build("template_release", "build/template_release/bench/teleop")
+    return cache.clone() / "build/template_release/bench/teleop"
 
 
 def _line(case: Case) -> str:

@@ -1,0 +1,136 @@
+"""./run experiment SWEEPFILE [--cluster=ADDRESS] [--workers=N]: plays what is missing of a sweep, then its table and report.
+
+Everything is in build/sweeps/NAME of the file's name: runs/ (one file a run), sweep.csv, sweep.json (what was asked),
+report.html and the figures beside it.
+"""
+
+import dataclasses
+import json
+import os
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from measuring import options
+from setup import cache
+from setup.progress import Progress
+from sweeps import description, playing, results, sources, table
+from sweeps.description import Run, Sweep
+
+BAR = 30  # letters
+
+
+@dataclass(frozen=True)
+class Settings:
+    cluster: str = ""  # address of a Dask scheduler; none: processes of this machine
+    workers: int = 0  # how many of them; 0: one for each processor
+
+
+def run(path: Path, given: dict[str, str], experiments: list[str]) -> int:
+    settings = options.parse(Settings, given)
+    sweep = description.read(path, experiments)
+    folder = cache.clone() / "build/sweeps" / sweep.name
+    with cache.lock(cache.clone() / "build", f"sweep {sweep.name}"):
+        return play(sweep, folder, settings)
+
+
+def play(sweep: Sweep, folder: Path, settings: Settings, arrived=lambda _: None) -> int:
+    """`arrived` is called with the count of runs after each."""
+    runs = sweep.runs()
+    found = results.read(folder / "runs", runs, sources.digest())
+    _clear(folder)
+    print(f"{len(runs)} runs of {sweep.experiment}, {len(found.summaries)} of them done before", flush=True)
+    for name in found.damaged:
+        print(f"{folder / 'runs' / name} is damaged: that run is played again", flush=True)
+    if found.outdated:
+        print(f"{found.outdated} are of other sources of Tactus: they are played again", flush=True)
+    _check_measures(sweep, found.summaries)
+    missing = [one for one in runs if one.identity not in found.summaries]
+    failed = _Arrivals(sweep, folder, found, len(runs), arrived).collect(missing, settings) if missing else []
+    for problem in failed:
+        print(problem, file=sys.stderr)
+    _write(sweep, folder, runs, found, failed)
+    return 1 if failed else 0
+
+
+class _Arrivals:
+    def __init__(self, sweep: Sweep, folder: Path, found: results.Found, count: int, arrived):
+        self._sweep, self._folder, self._found, self._count, self._arrived = sweep, folder, found, count, arrived
+        self._failed: list[str] = []
+        self._progress = Progress()
+        self._started, self._before = time.monotonic(), len(found.summaries)
+
+    def collect(self, missing: list[Run], settings: Settings) -> list[str]:
+        """Why runs have failed."""
+        try:
+            playing.play(missing, self._take, settings.cluster, settings.workers)
+        except RuntimeError as error:
+            raise RuntimeError(f"{error}\n{self._kept()}") from None
+        except KeyboardInterrupt:
+            self._progress.end()
+            print(f"\n{self._kept()}", file=sys.stderr)
+            raise
+        finally:
+            self._progress.end()
+        return self._failed
+
+    def _take(self, run: Run, summary: results.Summary | None, problem: str) -> None:
+        if summary is None:
+            self._failed.append(f"{run}: {problem}")
+        else:
+            results.write(self._folder / "runs", run, sources.digest(), summary)
+            self._found.summaries[run.identity] = summary
+            _check_measures(self._sweep, {run.identity: summary})
+        self._progress.show(self._bar())
+        self._arrived(len(self._found.summaries))
+
+    def _bar(self) -> str:
+        done = len(self._found.summaries)
+        played, left = done - self._before, self._count - done - len(self._failed)
+        seconds = (time.monotonic() - self._started) / max(played, 1) * left
+        filled = BAR * done // self._count
+        failed = f", {len(self._failed)} failed" if self._failed else ""
+        return f"{'█' * filled}{'░' * (BAR - filled)} {done} of {self._count}{failed}, {_in_words(seconds)} left"
+
+    def _kept(self) -> str:
+        return f"{len(self._found.summaries)} of {self._count} runs are kept: the same command goes on from there"
+
+
+def _in_words(seconds: float) -> str:
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
+
+
+def _check_measures(sweep: Sweep, summaries: dict[str, results.Summary]) -> None:
+    for summary in list(summaries.values())[:1]:
+        numbers = [key for key, value in summary.items() if isinstance(value, (int, float))]
+        for measure in sweep.measures:
+            if measure not in numbers:
+                raise RuntimeError(f"{sweep.experiment} has no figure {measure!r}; near it: {description.like(measure, numbers)}")
+
+
+def _clear(folder: Path) -> None:
+    """What is left of before would not be of this sweep."""
+    for path in folder.glob("*"):
+        if path.is_file():
+            path.unlink()
+
+
+def _write(sweep: Sweep, folder: Path, runs: list[Run], found: results.Found, failed: list[str]) -> None:
+    from plots import sweep as plots
+    from sweeps import report
+
+    rows = table.rows(sweep, runs, found.summaries)
+    results.write_whole(folder / "sweep.json", json.dumps(dataclasses.asdict(sweep), indent=2) + "\n")
+    results.write_whole(folder / "sweep.csv", table.text(rows))
+    print(_shown(folder / "sweep.csv"))
+    if rows:
+        pictures = {measure: plots.draw(sweep, rows, measure, folder / measure) for measure in sweep.measures}
+        results.write_whole(folder / "report.html", report.page(sweep, rows, len(runs), sources.digest(), pictures, failed))
+        print(_shown(folder / "report.html"))
+
+
+def _shown(path: Path) -> str:
+    return os.path.relpath(path)
