@@ -188,7 +188,8 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
         expected = touched;
     }
     const double limit = loop.force_limit(slot);
-    expected.force = slot.fading.felt(expected.force, limit, expected.jumped && !changed, expected.step);
+    expected.force = limited_force(
+        slot.fading.felt(expected.force, limit, expected.jumped && !changed, expected.step), limit);
     const Vec3 force = slot.fading.goes_on_with(touched.force, limit);
     if (!apart) {
         return force;
@@ -202,7 +203,7 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
     carried.fade(way);
     if (!carried.apart()) {
         const Vec3 together = slot.fading.goes_on_with(slot.force, limit);
-        pointer.felt.hide(force, together);
+        pointer.felt.hide(limited_force(force, limit), limited_force(together, limit));
         return together;
     }
     return force;
@@ -280,6 +281,9 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         in.modelled = modelled_force(loop, pointer, slot, changed, now);
         in.stiffness = stiffness_under(loop, slot.state);
     }
+    // No hand feels more than its device may give: nothing of what is beyond needs hiding.
+    const Vec3 whole = in.modelled;
+    in.modelled = limited_force(whole, loop.force_limit(slot));
     hide_changes(pointer, in.modelled, in.stiffness, way, changed);
     const TouchedBody touched = touched_body(loop, slot.state);
     if (const double force = glm::length(in.modelled);
@@ -297,6 +301,9 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         pointer.update.forget();
     }
     slot.state.force = pointer.felt.feel(settings().stealth, in);
+    if (slot.state.force == modelled) {
+        slot.state.force = whole;
+    }
     pointer.modelled_before =
         pointer.known && !changed && !corrected_ ? pointer.modelled : modelled;  // a change is no trend
     pointer.modelled = modelled;

@@ -118,10 +118,15 @@ void SessionLoop::show_state(SessionHandle handle) {
 }
 
 void SessionLoop::note_magnet(SessionHandle handle) {
-    std::erase(magnets_, handle);
+    forget_magnet(handle);
     if (scene_.body(bodies_[handle].slot).material.magnet_force > 0.0) {
         magnets_.push_back(handle);
+        ++magnet_changes_;
     }
+}
+
+void SessionLoop::forget_magnet(SessionHandle handle) {
+    magnet_changes_ += std::erase(magnets_, handle);
 }
 
 bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
@@ -130,7 +135,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
         return false;
     }
     end_travel(c.handle);
-    std::erase(magnets_, c.handle);
+    forget_magnet(c.handle);
     std::erase(pushed_, c.handle);
     std::erase(guessed_, c.handle);
     std::erase(forming_, c.handle);

@@ -248,8 +248,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
     slot.effects.besides =
-        led.force + gradual_pull(attract(slot, false), seconds_,
-                                 scene_.material_changes() + scene_.revision(), slot.effects);
+        led.force + gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
     slot.step.stiffness += led.stiffness;

@@ -245,6 +245,7 @@ private:
     void note_walls(const ProxySlot& slot, DeviceSlot& device) const;
     void break_surfaces(ProxySlot& slot, const HandForce& force);
     void note_magnet(SessionHandle handle);
+    void forget_magnet(SessionHandle handle);
     void push_bodies();
     void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
@@ -269,6 +270,7 @@ private:
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<JointId> joints_;          // by handle
     std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched
+    std::uint64_t magnet_changes_ = 0;     // how often one came, went or was described anew
     std::vector<Vec3> hands_;              // where the proxies are (unit: meters)
     std::vector<BodyState> states_;        // of all bodies that are not static, dense
     ChangeOrder state_changes_;            // of states_

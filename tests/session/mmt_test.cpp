@@ -286,6 +286,19 @@ TEST(Mmt, FrictionThatComesUnderAHandIsLetInAndSaidSo) {
     EXPECT_LT(figures.at("felt_excess_1ms_N_max"), 0.1);
 }
 
+// What is hidden is of the size of what the device may give, not of what a model says: a share of 10⁸ N, as
+// the hand moves on, would be all of the device's force.
+TEST(Mmt, AModelFarBeyondTheDeviceIsLetGoWithoutAKick) {
+    TeleopScene pressed = press();
+    pressed.force_limit = 5.0;
+    TeleopCase pulled = with_delay(50.0, 3.0);
+    pulled.discovers = true;
+    pulled.wrong["Ground"].magnet_force = 1e8;
+    pulled.events.push_back({1.5, TeleopEvent::Kind::told, "Ground", 0.0});
+    const TeleopFigures figures = run_teleop(pressed, pulled);
+    EXPECT_LT(figures.at("felt_excess_1ms_N_max"), 0.5);
+}
+
 TEST(Mmt, AnArmPressesTheModelAsItWouldPressWhatIsThere) {
     const TeleopFigures figures = run_teleop(press(), with_arm(200.0));
     EXPECT_EQ(figures.at("hand_deviation_rms_mm"), 0.0);

@@ -24,9 +24,9 @@ struct EffectMemory {
     Vec3 stuck_at{0.0};   // where, in that body's frame (unit: meters)
     std::array<Ringing, HandForce::max_contacts> rings{};  // of the bodies that are touched
     Vec3 guided_hand{0.0}, guided_to{0.0};                 // by a guide: from where to where (unit: meters)
-    Vec3 besides{0.0};            // what has acted on the hand and came from no contact (unit: newtons)
-    Vec3 pulled{0.0};             // by magnets (unit: newtons)
-    std::uint64_t described = 0;  // by the scene's count of changes
+    Vec3 besides{0.0};          // what has acted on the hand and came from no contact (unit: newtons)
+    Vec3 pulled{0.0};           // by magnets (unit: newtons)
+    std::uint64_t magnets = 0;  // those magnets, by the count of their changes
 };
 
 struct HandMotion {
@@ -47,9 +47,10 @@ double magnet_pull(const TouchMaterial& material, double gap);
 // second), which a hand that comes near as fast as hands do does not notice.
 constexpr double max_pull_rate = 400.0;
 
-// What is left of `pull` in this tick, after what it was in the one before. Where the scene is `described`
-// otherwise than then, all of it: such a change is for others to hide.
-Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t described, EffectMemory& memory);
+// What is left of `pull` in this tick, after what it was in the one before. `magnets` counts how often one
+// came, went or was described anew: where one has, all of the pull is left, since such a change is for others
+// to hide.
+Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t magnets, EffectMemory& memory);
 
 struct TextureSample {
     double height = 0.0;  // (unit: meters)

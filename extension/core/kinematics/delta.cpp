@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 namespace tactus {
 
@@ -24,10 +25,16 @@ struct LegFrame {
     Vec3 outwards, sideways;
 };
 
+using LegFrames = std::array<LegFrame, 3>;
+
 LegFrame leg_frame(double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     return {{c, s, 0.0}, {-s, c, 0.0}};
+}
+
+LegFrames leg_frames(const DeltaGeometry& g) {
+    return {leg_frame(g.leg_angles[0]), leg_frame(g.leg_angles[1]), leg_frame(g.leg_angles[2])};
 }
 
 // The end of the parallelogram in the plane of the upper arm, and how far it leans out of it.
@@ -71,11 +78,12 @@ void note(DeltaPose& pose, DeltaState singularity, double measure, double limit)
 //     a^2 + rho^2 - 2 a rho cos(theta1 - alpha) = L^2,
 // whose root theta1 < alpha has the elbow outwards.
 DeltaPose delta_pose(const DeltaGeometry& g, const Vec3& place) {
+    const LegFrames frames = leg_frames(g);
     DeltaPose pose;
     pose.state = DeltaState::sound;
     pose.clearance = 1.0;
     for (int i = 0; i < 3; ++i) {
-        const LegFrame frame = leg_frame(g.leg_angles[static_cast<std::size_t>(i)]);
+        const LegFrame& frame = frames[static_cast<std::size_t>(i)];
         const LegEnd end = leg_end(g, frame, place);
         const double cos_3 = end.lean / g.rod_length;
         if (!(std::abs(cos_3) < 1.0)) {
@@ -115,18 +123,21 @@ DeltaPose delta_pose(const DeltaGeometry& g, const Vec3& place) {
 //     sqrt((u - a cos theta1)^2 + (w - a sin theta1)^2) - L(lean) = 0,
 // whose gradient is rod / sin(theta3).
 DeltaPlace delta_place(const DeltaGeometry& g, const Vec3& angles, const Vec3& start) {
+    const LegFrames frames = leg_frames(g);
+    const Vec3 elbow_u = g.upper_arm * glm::cos(angles);
+    const Vec3 elbow_w = g.upper_arm * glm::sin(angles);
     DeltaPlace found;
     found.place = start;
     while (found.steps < max_newton_steps) {
         std::array<Vec3, 3> rods;
         Vec3 excess;
         for (int i = 0; i < 3; ++i) {
-            const LegFrame frame = leg_frame(g.leg_angles[static_cast<std::size_t>(i)]);
+            const LegFrame& frame = frames[static_cast<std::size_t>(i)];
             const LegEnd end = leg_end(g, frame, found.place);
             const double cos_3 = std::clamp(end.lean / g.rod_length, -max_lean, max_lean);
             const double sin_3 = std::sqrt(1.0 - cos_3 * cos_3);
-            const double u = end.u - g.upper_arm * std::cos(angles[i]);
-            const double w = end.w - g.upper_arm * std::sin(angles[i]);
+            const double u = end.u - elbow_u[i];
+            const double w = end.w - elbow_w[i];
             const double length = std::sqrt(u * u + w * w);
             rods[static_cast<std::size_t>(i)] = rod_along(frame, u / length, w / length, cos_3, sin_3);
             excess[i] = sin_3 * (length - g.bars - g.rod_length * sin_3);
