@@ -198,7 +198,7 @@ def test_a_figure_that_there_is_not_is_told_at_once(tmp_path):
 
 def test_nobody_at_the_address_is_told(six, tmp_path, monkeypatch):
     monkeypatch.setattr(playing, "PATIENCE", 0.5)
-    with pytest.raises(RuntimeError, match="no Dask scheduler answers at tcp://127.0.0.1:1 .*`dask scheduler` starts one"):
+    with pytest.raises(RuntimeError, match="no Dask scheduler answers at tcp://127.0.0.1:1 .*docs/experiments.md says how one is started"):
         command.play(six[0], tmp_path / "out", Settings(cluster="tcp://127.0.0.1:1"))
 
 
