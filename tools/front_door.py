@@ -18,6 +18,8 @@ def needed(command: str, arguments: list[str]) -> list[Step]:
         return steps.for_platforms([platform for platform in emulated if platform])
     if "--device-access" in arguments:
         return []
+    if command == "docs":
+        return [steps.python()]
     plan = steps.dependencies()
     if "--with-sensing" in arguments or (command == "bench" and "sensing" in arguments and pcl.can_fetch()):
         plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
@@ -54,6 +56,10 @@ def experiment(arguments: list[str]) -> int:
     return cache.run_tool("experiment.py", *arguments)
 
 
+def docs(arguments: list[str]) -> int:
+    return cache.run_tool("docs.py", *arguments)
+
+
 def edit(arguments: list[str]) -> int:
     return project.run("--editor", *arguments)
 
@@ -70,7 +76,7 @@ def addon(arguments: list[str]) -> int:
     return cache.run_tool("addon.py", *arguments)
 
 
-COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, edit, app, export, addon)}
+COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, docs, edit, app, export, addon)}
 
 if __name__ == "__main__":
     try:

@@ -26,6 +26,7 @@ th.number, td.number { text-align: right; }
 figure { margin: 1.4rem 0; }
 figure img { display: block; width: 100%; height: auto; border: 1px solid var(--line); border-radius: 6px; }
 figcaption { color: var(--quiet); font-size: .85rem; margin-top: .5rem; }
+@media (max-width: 45rem) { table { display: block; overflow-x: auto; } main { padding: 2rem 1rem 3rem; } }
 @media print { main { padding: 0; } figure, table { break-inside: avoid; } }
 """
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import re
+import subprocess
 import typing
 
 import experiment
@@ -11,7 +12,7 @@ from setup import cache
 from sweeps import command, description
 
 FOLDER = cache.clone()
-DOCUMENTS = sorted([FOLDER / "README.md", *(FOLDER / "docs").glob("*.md")])
+DOCUMENTS = sorted([FOLDER / "README.md", *(FOLDER / "docs").rglob("*.md")])
 _COMMAND = re.compile(r"\./run (\w+)((?: [\w./=,{}-]+)*)")
 # In place of a name.
 _ANY = ("NAME", "NAME…", "FILTER", "SCENE", "SWEEPFILE")
@@ -57,6 +58,43 @@ def _settings(experiment_or_sweep: str) -> type:
 
 def _fields(settings: type) -> set[str]:
     return {field.name for field in dataclasses.fields(typing.cast(typing.Any, settings))}
+
+
+# Commands that are none of ./run's: by which test each is carried out, as the documents have it.
+CARRIED_OUT = {"dask": "test_sweeps.py", "openssl": "test_docs_commands.py", "mkdir": "test_docs_commands.py"}
+
+
+def _shell_lines() -> list[str]:
+    found = []
+    for document in DOCUMENTS:
+        for block in re.findall(r"```sh\n(.*?)```", document.read_text(), re.DOTALL):
+            found += [line.split("    #")[0].strip() for line in block.splitlines() if line.strip()]
+    return found
+
+
+def test_every_command_is_one_of_the_front_door_or_carried_out_by_a_test():
+    lines = _shell_lines()
+    assert len(lines) > 10
+    for line in lines:
+        program = next(word for word in line.split() if "=" not in word).rpartition("/")[2]
+        assert program == "run" or CARRIED_OUT[program]
+
+
+@pytest.mark.parametrize(("program", "made"), [("openssl", "tactus.key"), ("mkdir", ".godot/extension_list.cfg")])
+def test_a_command_of_the_shell_does_what_it_says(program: str, made: str, tmp_path):
+    (line,) = (line for line in _shell_lines() if line.startswith(program))
+    subprocess.run(["bash", "-c", line], cwd=tmp_path, check=True)
+    text = (tmp_path / made).read_text().strip()
+    if program == "openssl":
+        assert re.fullmatch(r"[0-9a-f]{64}", text) and (tmp_path / made).stat().st_mode & 0o777 == 0o600
+    else:
+        assert text == "res://addons/tactus/tactus.gdextension"
+
+
+def test_every_scene_that_is_named_is_there():
+    named = [scene for document in DOCUMENTS for scene in re.findall(r"\./run (?:app|edit) res://(\S+\.tscn)", document.read_text())]
+    assert named
+    assert all((FOLDER / "demo_project" / scene).is_file() for scene in named)
 
 
 def test_every_table_says_how_it_is_made():

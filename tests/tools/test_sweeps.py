@@ -63,23 +63,26 @@ def six(tmp_path_factory) -> tuple[Sweep, str]:
 
 @contextmanager
 def cluster(folder: Path, workers: int) -> Iterator[tuple[str, list[subprocess.Popen]]]:
-    """A scheduler and workers as docs/experiments.md starts them; nobody restarts a worker that dies."""
+    """A scheduler and workers by the commands of docs/experiments.md, but that nobody restarts a worker that dies."""
     said = folder / "scheduler.json"
-    environment = os.environ | {"PYTHONPATH": str(cache.clone() / "tools")}
+    scheduler, worker = re.findall(r"^.*bin/dask .*$", (cache.clone() / "docs/experiments.md").read_text(), re.MULTILINE)
 
-    def dask(*words: str) -> subprocess.Popen:
+    def started(command: str, *words: object) -> subprocess.Popen:
+        command = command.replace("~/.cache/tactus/venv/bin/dask", str(cache.venv_bin("dask")))
         return subprocess.Popen(
-            [cache.venv_bin("dask"), *words, "--scheduler-file", said, "--no-dashboard"],
-            env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            ["bash", "-c", f"exec env {command} {' '.join(map(str, words))}"],
+            cwd=cache.clone(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
         )  # fmt: skip
 
-    running = [dask("scheduler", "--host", "127.0.0.1", "--port", "0")]
+    running = [started(scheduler, "--host 127.0.0.1 --port 0 --scheduler-file", said)]
     try:
-        running += [dask("worker", "--nthreads", "1", "--no-nanny") for _ in range(workers)]
         while not said.is_file() or not said.read_text():
             assert running[0].poll() is None
             time.sleep(0.05)
-        yield json.loads(said.read_text())["address"], running[1:]
+        address = json.loads(said.read_text())["address"]
+        here = worker.replace("tcp://SCHEDULER:8786", address).replace("--nworkers auto", "--no-nanny")
+        running += [started(here) for _ in range(workers)]
+        yield address, running[1:]
     finally:
         for one in reversed(running):
             one.kill()
@@ -195,7 +198,7 @@ def test_a_figure_that_there_is_not_is_told_at_once(tmp_path):
 
 def test_nobody_at_the_address_is_told(six, tmp_path, monkeypatch):
     monkeypatch.setattr(playing, "PATIENCE", 0.5)
-    with pytest.raises(RuntimeError, match="no Dask scheduler answers at tcp://127.0.0.1:1 .*`dask scheduler` starts one"):
+    with pytest.raises(RuntimeError, match="no Dask scheduler answers at tcp://127.0.0.1:1 .*docs/experiments.md says how one is started"):
         command.play(six[0], tmp_path / "out", Settings(cluster="tcp://127.0.0.1:1"))
 
 

@@ -1,4 +1,4 @@
-"""SCons, the formatters, matplotlib, Dask and pytest in a virtual environment of the cache, each file checked by its hash."""
+"""SCons, the formatters, matplotlib, Dask, Sphinx and pytest in a virtual environment of the cache, each file checked by its hash."""
 
 import shutil
 import subprocess

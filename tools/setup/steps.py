@@ -21,8 +21,12 @@ class Step:
     alone: bool = False  # needs no other step: begins with the first one, so that compiling and downloading overlap
 
 
+def python() -> Step:
+    return Step("Python tools", python_tools.is_done, python_tools.install)
+
+
 def dependencies() -> list[Step]:
-    steps = [Step("Python tools", python_tools.is_done, python_tools.install)]
+    steps = [python()]
     if godot.installed() is None:
         steps.append(Step("Godot", godot.is_private_ready, godot.fetch))
     steps.append(Step("Godot's API", _is_api_ready, lambda: godot.dump_api(_godot())))

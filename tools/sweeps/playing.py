@@ -89,7 +89,7 @@ def _client(cluster: str, workers: int) -> Iterator:
     try:
         client = Client(cluster, timeout=PATIENCE)
     except (OSError, ValueError, asyncio.TimeoutError) as error:
-        raise RuntimeError(f"no Dask scheduler answers at {cluster} ({_in_words(error)}); `dask scheduler` starts one") from None
+        raise RuntimeError(f"no Dask scheduler answers at {cluster} ({_in_words(error)}); docs/experiments.md says how one is started") from None
     with client:
         try:
             client.wait_for_workers(1, timeout=PATIENCE)
