@@ -55,6 +55,9 @@ std::vector<std::byte> FalseDescriptions::some_body() {
     touch.viscosity = dice_.one_in(2) ? 0.0 : dice_.size(hardest);
     touch.magnet_force = dice_.one_in(2) ? 0.0 : dice_.size(hardest);
     touch.vibration_force = dice_.one_in(2) ? 0.0 : dice_.size(hardest);
+    touch.impact_strength = dice_.one_in(2) ? 0.0 : dice_.size(hardest);
+    touch.impact_frequency = dice_.size(1e3);
+    touch.impact_decay = dice_.size(1.0);
     if (dice_.one_in(4)) {
         described.texture = std::make_shared<const HeightImage>(HeightImage{2, 2, {0.0f, 1.0f, 0.5f, 0.0f}});
         touch.texture = described.texture.get();
