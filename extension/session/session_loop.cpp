@@ -236,7 +236,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
     const LoopLag lag{seconds_, device.capabilities.delay};
     const Lead led = lead(slot, lag, damping);
-    const double left = damping - led.stiffness * (0.5 * lag.seconds + lag.delay);
+    const double left = damping - damping_needed(led.stiffness, lag);
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
                           {lag, left, slot.description.finger.stiffness});
     slot.pressed = force.total;

@@ -114,10 +114,8 @@ func test_slices_of_different_sizes_are_said() -> void:
 
 ## On its path the hand feels its way over one volume and pushes the other.
 func test_the_scene_of_fields_plays() -> void:
-	var scene := (load("res://field.tscn") as PackedScene).instantiate()
+	var scene := add_scene("res://field.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")
-	world.clock = HapticWorld.CLOCK_STEPPED
-	add_child(scene)
 	var proxy: ProxyPointer = world.get_node("ProxyPointer")
 	var lump: RigidBody3D = world.get_node("Lump")
 	var before := lump.global_position

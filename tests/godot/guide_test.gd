@@ -106,10 +106,8 @@ func test_what_leads_nowhere_is_said() -> void:
 ## The hand's own path leaves the guide's; what is felt leads back. Where the nearest place jumps it takes
 ## some ticks to turn.
 func test_the_scene_with_a_guide_plays() -> void:
-	var scene := (load("res://guide.tscn") as PackedScene).instantiate()
+	var scene := add_scene("res://guide.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")
-	world.clock = HapticWorld.CLOCK_STEPPED
-	add_child(scene)
 	var proxy: ProxyPointer = world.get_node("ProxyPointer")
 	var led := 0
 	var astray := 0

@@ -13,6 +13,15 @@ func add_world() -> HapticWorld:
 	return world
 
 
+## A scene of the demo, in stepped time as well.
+func add_scene(scene_path: String) -> Node:
+	var scene := (load(scene_path) as PackedScene).instantiate()
+	var world: HapticWorld = scene.get_node("HapticWorld")
+	world.clock = HapticWorld.CLOCK_STEPPED
+	add_child(scene)
+	return scene
+
+
 func material(stiffness: float) -> HapticMaterial:
 	var result := HapticMaterial.new()
 	result.stiffness = stiffness

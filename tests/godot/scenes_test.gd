@@ -27,10 +27,8 @@ func _record(scene_path: String, seconds: float, file: String) -> Dictionary:
 
 
 func _run_without_recorder(scene_path: String) -> void:
-	var scene := (load(scene_path) as PackedScene).instantiate()
+	var scene := add_scene(scene_path)
 	var world: HapticWorld = scene.get_node("HapticWorld")
-	world.clock = HapticWorld.CLOCK_STEPPED
-	add_child(scene)
 	for _i in 60:
 		world.advance(1.0 / 60.0)
 	check_equal(world.get_problems().size(), 0, "%s: %s" % [scene_path, world.get_problems()])

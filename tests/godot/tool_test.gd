@@ -78,10 +78,8 @@ func test_a_tool_larger_than_its_room_is_absent() -> void:
 
 ## On its path the peg goes into the hole and topples the stack.
 func test_the_scene_with_a_tool_plays() -> void:
-	var scene := (load("res://tool.tscn") as PackedScene).instantiate()
+	var scene := add_scene("res://tool.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")
-	world.clock = HapticWorld.CLOCK_STEPPED
-	add_child(scene)
 	var tool: HapticTool = world.get_node("HapticTool")
 	var lowest := 1.0
 	for _i in roundi(11.0 * 60.0):

@@ -56,15 +56,17 @@ Vec3 stick_slip_force(const TouchBody& body, const Touch& contact, const Vec3& h
     return force;
 }
 
+const Ringing* ring_of(std::span<const Ringing> rings, int body) {
+    const auto found = std::ranges::find(rings, body, &Ringing::body);
+    return found != rings.end() ? &*found : nullptr;
+}
+
 // A surface that is met rings: a sine that decays, and begins at 0 (Okamura, Dennerlein and Howe 1998). One
 // that goes on being touched rings on, one that was let go of is met anew. `met_at` is the speed into it.
 double tap_force(const Touch& contact, const TouchMaterial& material, double met_at, Nanoseconds now,
                  std::span<const Ringing> before, Ringing& ring) {
-    const auto is_its = [&](const Ringing& other) { return other.body == contact.body; };
-    const auto known = std::ranges::find_if(before, is_its);
-    ring = known != before.end()
-               ? *known
-               : Ringing{contact.body, material.impact_strength * std::max(0.0, met_at), now};
+    const Ringing* const known = ring_of(before, contact.body);
+    ring = known ? *known : Ringing{contact.body, material.impact_strength * std::max(0.0, met_at), now};
     const double t = to_seconds(now - ring.since);
     return ring.amplitude * std::exp(-t / material.impact_decay) *
            std::sin(2.0 * std::numbers::pi * material.impact_frequency * t);
@@ -129,8 +131,7 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
             const Vec3 carried = (contact.point - previous_place(body, contact.point)) / seconds;
             const Vec3 speed = hand.velocity - carried;
             added -= along_surface(speed, contact.normal) * material.viscosity;
-            const auto is_its = [&](const Ringing& ring) { return ring.body == contact.body; };
-            if (material.impact_strength > 0.0 && std::ranges::none_of(memory.rings, is_its)) {
+            if (material.impact_strength > 0.0 && !ring_of(memory.rings, contact.body)) {
                 added += contact.normal * tap_force(contact, material, -glm::dot(speed, contact.normal), now,
                                                     rings, memory.rings[static_cast<std::size_t>(i)]);
             }

@@ -12,8 +12,8 @@ Wall safe_wall(const LoopLag& lag, double device_damping, const Wall& wanted) {
     return {std::min(wanted.stiffness, stiffest), damping};
 }
 
-double damping_shown_by(double stiffness, double seconds) {
-    return 0.5 * stiffness * seconds;
+double damping_needed(double stiffness, const LoopLag& lag) {
+    return stiffness * (lag.delay + 0.5 * lag.seconds);
 }
 
 std::string explain_stiffness(double wanted, double used, const LoopLag& lag) {

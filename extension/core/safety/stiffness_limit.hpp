@@ -25,8 +25,8 @@ struct Wall {
 // What of a wall is safe. Damping takes a quarter of what the device has at most: stiffness is what is felt.
 Wall safe_wall(const LoopLag& lag, double device_damping, const Wall& wanted);
 
-// The damping that a device must have if it renders this stiffness without a delay.
-double damping_shown_by(double stiffness, double seconds);
+// What of its damping a device needs to render this stiffness: K (D + T/2).
+double damping_needed(double stiffness, const LoopLag& lag);
 
 // "800 N/m is unsafe at 40 ms: 210 N/m used"; empty where nothing was taken away.
 std::string explain_stiffness(double wanted, double used, const LoopLag& lag);
