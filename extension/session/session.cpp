@@ -226,8 +226,11 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     BodyDescription description = addition.description;
     if (addition.soft) {
-        ready.soft = std::make_shared<SoftSlot>(addition.soft, addition.soft_view, description.collision.mask, run);
+        ready.soft =
+            std::make_shared<SoftSlot>(addition.soft, addition.soft_view, description.collision.mask, run);
         ready.touch = {ready.soft, &ready.soft->form()};
+        // The rigid world has it as a place alone.
+        description.shapes = {{SphereShape{std::max(1e-3, 0.5 * addition.soft->size)}, {}}};
         description.collision = {0, 0};
         description.motion = Motion::Static;
         description.may_move = false;

@@ -52,7 +52,7 @@ struct ReadyBody {
     Pose pose;
     Motion motion = Motion::Static;
     std::shared_ptr<SoftSlot> soft;  // null: it does not give
-    std::string error;  // what is wrong and what to do; empty where it can be added
+    std::string error;               // what is wrong and what to do; empty where it can be added
 };
 
 struct AddResult {

@@ -459,9 +459,12 @@ struct Duplicate {
     Command& same;
 
     bool operator()(command::AddBody& c) {
-        same = command::AddBody{
-            c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion,
-            c.former, nullptr};
+        same = command::AddBody{c.handle,   std::move(c.same_body),
+                                {},         c.shape,
+                                c.material, c.texture,
+                                c.layer,    c.pose,
+                                c.motion,   c.former,
+                                nullptr};
         return true;
     }
     bool operator()(command::DeformBody& c) {

@@ -32,7 +32,8 @@ void SessionLoop::find_obstacles(const Body& giving) {
     const Vec3 center = to_parent(own.pose, own.part->center);
     for (std::size_t i = 0; i < scene_.slots_in_use(); ++i) {
         const TouchBody& other = scene_.body(static_cast<int>(i));
-        const bool is_solid = other.shape && static_cast<int>(i) != giving.slot && (other.layer & soft.mask) != 0;
+        const bool is_solid =
+            other.shape && static_cast<int>(i) != giving.slot && (other.layer & soft.mask) != 0;
         for (std::size_t part = 0; is_solid && part < other.shape->parts.size(); ++part) {
             const TouchPart& surface = other.shape->parts[part];
             const double distance =

@@ -59,14 +59,13 @@ void SoftSlot::press(const Pose& at, const Touch& touch, const SpringForce& spri
         return;
     }
     const TriangleTree& tree = *trees_[shown_];
-    pushes_[push_count_++] = {
-        tree.triangle_at(touch.feature.triangle),
-        weights_of(to_local(at, touch.point), tree.corners(touch.feature.triangle)),
-        direction_to_local(at, spring.force),
-        spring.stiffness,
-        spring.damping,
-        direction_to_local(at, spring.hand_velocity),
-        spring.sticks};
+    pushes_[push_count_++] = {tree.triangle_at(touch.feature.triangle),
+                              weights_of(to_local(at, touch.point), tree.corners(touch.feature.triangle)),
+                              direction_to_local(at, spring.force),
+                              spring.stiffness,
+                              spring.damping,
+                              direction_to_local(at, spring.hand_velocity),
+                              spring.sticks};
 }
 
 std::uint32_t SoftSlot::step(const Pose& at, const Vec3& gravity) {

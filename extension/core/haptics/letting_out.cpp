@@ -34,8 +34,8 @@ bool was_inside(const TouchBody& body, const Change* change, std::uint32_t mask,
 // `change`: what has happened to the body; null where the sphere is what has changed.
 bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, const TouchingSphere& sphere,
                         WorkBudget& work) {
-    const bool rides = change && is_form(change->kind) && body.former &&
-                       is_deformation(*body.former, *body.shape);
+    const bool rides =
+        change && is_form(change->kind) && body.former && is_deformation(*body.former, *body.shape);
     if (!body.shape || (body.layer & sphere.mask) == 0 || rides) {
         return false;
     }

@@ -17,8 +17,8 @@ namespace tactus {
 
 namespace {
 
-constexpr int max_cells = 64;       // along a side
-constexpr int samples_a_side = 3;   // of a cell, to tell how much of it is filled
+constexpr int max_cells = 64;          // along a side
+constexpr int samples_a_side = 3;      // of a cell, to tell how much of it is filled
 constexpr double least_filled = 0.05;  // of a cell that the surface cuts: no node is as light as nothing
 
 // The corners from (0, 0, 0) to (1, 1, 1) along the axes in each order, wound right.
@@ -29,7 +29,8 @@ using Cell = std::array<int, 3>;
 
 class CellLattice {
 public:
-    CellLattice(const TriangleMesh& surface, int cells) : surface_(surface), tree_(TriangleTree::build(surface)) {
+    CellLattice(const TriangleMesh& surface, int cells)
+        : surface_(surface), tree_(TriangleTree::build(surface)) {
         low_ = Vec3(std::numeric_limits<double>::infinity());
         Vec3 high = -low_;
         for (const auto& triangle : surface.triangles) {
@@ -93,8 +94,7 @@ private:
         for (const Vec3& vertex : surface_.vertices) {
             Cell corner = cell_of(vertex);
             cut_.insert(corner);
-            const Vec3 inside =
-                glm::clamp((vertex - corner_place(corner)) / spacing_, Vec3(0.0), Vec3(1.0));
+            const Vec3 inside = glm::clamp((vertex - corner_place(corner)) / spacing_, Vec3(0.0), Vec3(1.0));
             std::array<int, 3> axes{0, 1, 2};
             std::ranges::sort(axes, [&](int a, int b) { return inside[a] > inside[b]; });
             SoftAnchor anchor;
@@ -172,8 +172,9 @@ CellDraft fill_with_cells(const TriangleMesh& surface, int cells, double density
         return {{}, "its number of cells is not between 1 and 64: set it so"};
     }
     if (!is_closed(surface)) {
-        return {{}, "its mesh is open and has no inside: close its holes and turn all its triangles alike, or "
-                    "make it a sheet"};
+        return {{},
+                "its mesh is open and has no inside: close its holes and turn all its triangles alike, or "
+                "make it a sheet"};
     }
     CellLattice lattice(surface, cells);
     if (lattice.is_flat()) {

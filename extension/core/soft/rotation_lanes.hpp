@@ -52,9 +52,10 @@ inline LanesQuat turned_towards(const LanesQuat& q, const LanesMat3& f) {
                      multiply_add(w, q.y, a.y * q.w) + multiply_subtract(a.z, q.x, a.x * q.z),
                      multiply_add(w, q.z, a.z * q.w) + multiply_subtract(a.x, q.y, a.y * q.x)};
     const Lanes scale =
-        splat(1.0) / lanes_sqrt(multiply_add(turned.w, turned.w,
-                                             multiply_add(turned.x, turned.x,
-                                                          multiply_add(turned.y, turned.y, turned.z * turned.z))));
+        splat(1.0) /
+        lanes_sqrt(multiply_add(
+            turned.w, turned.w,
+            multiply_add(turned.x, turned.x, multiply_add(turned.y, turned.y, turned.z * turned.z))));
     return {turned.w * scale, turned.x * scale, turned.y * scale, turned.z * scale};
 }
 

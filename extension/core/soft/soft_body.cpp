@@ -11,7 +11,7 @@ namespace {
 // No node goes faster (unit: meters per second).
 constexpr double fastest = 100.0;
 // Slower than this it is still (unit: meters per second).
-constexpr double still_speed = 2e-5;
+constexpr double still_speed = 2e-6;
 // Of the rotations, in each step: they go on from where they were.
 constexpr int turns_a_step = 2;
 // Rounds in which contacts that feel each other come to agree.
@@ -83,8 +83,7 @@ SpringState state_of(const std::vector<Lanes>& places, const SpringGroup& group)
 
 SoftBody::SoftBody(std::shared_ptr<const SoftModel> model) : model_(std::move(model)) {
     const std::size_t count = model_->rest.size();
-    for (std::vector<Lanes>* rows :
-         {&place_, &velocity_, &next_, &inertial_, &seen_, &right_, &answers_}) {
+    for (std::vector<Lanes>* rows : {&place_, &velocity_, &next_, &inertial_, &seen_, &right_, &answers_}) {
         rows->assign(count, splat(0.0));
     }
     turn_.resize(model_->tetrahedra.size());
@@ -150,9 +149,9 @@ void SoftBody::begin_contacts(std::span<const SoftPush> pushes) {
             contact.weight[i] = model_->held[node] != 0 ? 0.0 : weight;
             point_velocity += contact.weight[i] * vector_of(velocity_[node]);
         }
-        contact.slack = (push.force + push.stiffness * seconds * push.hand_velocity +
-                         push.damping * point_velocity) /
-                        contact.stiffness;
+        contact.slack =
+            (push.force + push.stiffness * seconds * push.hand_velocity + push.damping * point_velocity) /
+            contact.stiffness;
     }
 }
 

@@ -17,9 +17,9 @@
 // so is free fall (W moves nothing that does not deform). More steps of the same kind in one tick
 // (`iterations`) take the added masses off.
 //
-// Tetrahedra are corotated: E = V (mu |F - R|^2 + lambda / 2 (tr(R^T F) - 3)^2) with the rotation R nearest to
-// F, which is followed from tick to tick. It is finite for whatever F, and what was turned inside out comes
-// back. Damping takes the elastic forces at x + (dt + tau) v.
+// Tetrahedra are corotated: E = V (mu |F - R|^2 + lambda / 2 (tr(R^T F) - 3)^2) with the rotation R nearest
+// to F, which is followed from tick to tick. It is finite for whatever F, and what was turned inside out
+// comes back. Damping takes the elastic forces at x + (dt + tau) v.
 //
 // A hand presses by a spring between it and a point of the surface, as on rigid bodies (see SpringForce); it
 // is solved along with the rest: the point's compliance in the step, w . A^-1 w, is known from one more solve
@@ -53,10 +53,10 @@ struct SoftPush {
 // A solid that the body cannot enter, where it is at the end of the step.
 struct SoftObstacle {
     const Solid* solid = nullptr;
-    Pose pose;                 // of the solid, at the step's end
-    Pose previous;             // at its begin
-    double friction = 0.0;     // (dimensionless)
-    double inverse_mass = 0.0; // of what it belongs to; 0: it does not give way (unit: 1/kilograms)
+    Pose pose;                  // of the solid, at the step's end
+    Pose previous;              // at its begin
+    double friction = 0.0;      // (dimensionless)
+    double inverse_mass = 0.0;  // of what it belongs to; 0: it does not give way (unit: 1/kilograms)
     // What the step has pushed it by, and about its origin (units: newton seconds, newton meter seconds).
     Vec3 impulse{0.0};
     Vec3 turn{0.0};
@@ -80,7 +80,8 @@ public:
     const SoftModel& model() const { return *model_; }
 
     // One step. Pushes beyond max_pushes do not press. Allocates nothing; SoftStatus.
-    std::uint32_t step(const Vec3& gravity, std::span<const SoftPush> pushes, std::span<SoftObstacle> obstacles);
+    std::uint32_t step(const Vec3& gravity, std::span<const SoftPush> pushes,
+                       std::span<SoftObstacle> obstacles);
 
     // Asleep, it takes no time, and its surface stays where it is. It sleeps once nothing moves, and wakes
     // where it is pressed.
@@ -110,11 +111,11 @@ private:
     struct Contact {
         std::array<std::uint32_t, corners_of_push> node{};
         std::array<double, corners_of_push> weight{};  // 0 where the node is held
-        double stiffness = 0.0;  // k + c / dt (unit: newtons per meter)
-        Vec3 slack{0.0};         // way of the point at which the spring would not press (unit: meters)
-        Vec3 direction{0.0};     // of the force at first
+        double stiffness = 0.0;                        // k + c / dt (unit: newtons per meter)
+        Vec3 slack{0.0};      // way of the point at which the spring would not press (unit: meters)
+        Vec3 direction{0.0};  // of the force at first
         bool sticks = false;
-        Vec3 force{0.0};         // (unit: newtons)
+        Vec3 force{0.0};  // (unit: newtons)
     };
 
     void begin_contacts(std::span<const SoftPush> pushes);
@@ -131,11 +132,11 @@ private:
     std::vector<Lanes> place_, velocity_;  // by node: x, y, z
     std::vector<LanesQuat> turn_;          // of each group of tetrahedra
     // Of the step that is made.
-    std::vector<Lanes> next_;     // x'
-    std::vector<Lanes> inertial_; // y
-    std::vector<Lanes> seen_;     // where the elastic forces are taken
-    std::vector<Lanes> right_;    // forces, then ways
-    std::vector<Lanes> answers_;  // of the nodes to a unit force at each of up to four contacts
+    std::vector<Lanes> next_;      // x'
+    std::vector<Lanes> inertial_;  // y
+    std::vector<Lanes> seen_;      // where the elastic forces are taken
+    std::vector<Lanes> right_;     // forces, then ways
+    std::vector<Lanes> answers_;   // of the nodes to a unit force at each of up to four contacts
     std::vector<std::array<double, max_pushes>> answer_;  // the same by node, of all contacts
     std::array<Contact, max_pushes> contacts_{};
     std::size_t contact_count_ = 0;

@@ -13,9 +13,9 @@ struct SoftDraft {
     };
 
     std::vector<Vec3> nodes;
-    std::vector<double> mass;               // of the nodes
-    std::vector<Tetrahedron> tetrahedra;    // wound right
-    std::vector<double> filled;             // share of each that is made of something, above 0
+    std::vector<double> mass;             // of the nodes
+    std::vector<Tetrahedron> tetrahedra;  // wound right
+    std::vector<double> filled;           // share of each that is made of something, above 0
     std::vector<Spring> springs;
     std::vector<SoftAnchor> anchors;
     TriangleMesh surface;

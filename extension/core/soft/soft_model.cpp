@@ -50,8 +50,9 @@ public:
         add_springs();
         SoftModel& model = *model_;
         if (!model.factor.make(model.rest.size(), entries_)) {
-            return {nullptr, "its stiffness, size and density are too far apart to be computed with: choose "
-                             "a stiffness or a density that is nearer to a real one"};
+            return {nullptr,
+                    "its stiffness, size and density are too far apart to be computed with: choose "
+                    "a stiffness or a density that is nearer to a real one"};
         }
         if (model.factor.entries() > max_factor_entries) {
             return {nullptr, "a step of it takes longer than a tick: give it fewer cells or vertices"};
@@ -63,7 +64,8 @@ public:
     }
 
 private:
-    void connect(std::vector<std::vector<std::uint32_t>>& neighbours, const std::array<std::uint32_t, 4>& nodes) {
+    void connect(std::vector<std::vector<std::uint32_t>>& neighbours,
+                 const std::array<std::uint32_t, 4>& nodes) {
         for (const std::uint32_t a : nodes) {
             for (const std::uint32_t b : nodes) {
                 if (a != b) {
@@ -272,8 +274,9 @@ SoftModelResult assemble(SoftDraft&& draft, const SoftMaterial& material, const 
                          double seconds) {
     if (draft.nodes.size() > max_soft_nodes ||
         draft.tetrahedra.size() + draft.springs.size() > max_soft_elements) {
-        return {nullptr, "it has more than 4,096 nodes or 12,000 elements, for which a tick has no time: give "
-                         "it fewer cells or vertices"};
+        return {nullptr,
+                "it has more than 4,096 nodes or 12,000 elements, for which a tick has no time: give "
+                "it fewer cells or vertices"};
     }
     return Assembly(std::move(draft), material, held, seconds).result();
 }

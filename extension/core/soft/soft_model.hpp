@@ -34,7 +34,7 @@ struct SoftMaterial {
 
 // What is held in place: nodes inside of the box, and what the vertices of the surface hang on.
 struct HeldParts {
-    Vec3 low{1.0}, high{-1.0};             // (unit: meters); low > high: no box
+    Vec3 low{1.0}, high{-1.0};  // (unit: meters); low > high: no box
     std::vector<std::uint32_t> vertices;
 
     bool holds(const Vec3& place) const {
@@ -68,19 +68,19 @@ struct SpringGroup {
 };
 
 struct SoftModel {
-    std::vector<Vec3> rest;            // nodes, in the order of elimination
-    std::vector<double> mass;          // of the nodes (unit: kilograms)
-    std::vector<std::uint8_t> held;    // by node: not 0 where it stays
+    std::vector<Vec3> rest;          // nodes, in the order of elimination
+    std::vector<double> mass;        // of the nodes (unit: kilograms)
+    std::vector<std::uint8_t> held;  // by node: not 0 where it stays
     std::vector<TetGroup> tetrahedra;
     std::vector<SpringGroup> springs;
-    std::vector<SoftAnchor> anchors;   // by vertex of the surface
-    TriangleMesh surface;              // at rest
-    std::size_t element_count = 0;     // tetrahedra and springs
-    bool closed = false;               // the surface bounds a volume
+    std::vector<SoftAnchor> anchors;  // by vertex of the surface
+    TriangleMesh surface;             // at rest
+    std::size_t element_count = 0;    // tetrahedra and springs
+    bool closed = false;              // the surface bounds a volume
     SoftMaterial material;
-    double seconds = 1e-3;             // of a step
+    double seconds = 1e-3;  // of a step
     SparseFactor factor;
-    double size = 0.0;                 // diagonal of the box around it (unit: meters)
+    double size = 0.0;  // diagonal of the box around it (unit: meters)
 
     double total_mass() const;
     bool is_free() const;  // held nowhere

@@ -102,8 +102,7 @@ SoftModelResult make_soft_sheet(const TriangleMesh& surface, const SoftMaterial&
         }
     }
     const double modulus = material.stiffness * material.thickness;
-    const double rigidity =
-        modulus * material.thickness * material.thickness / (12.0 * (1.0 - 1.0 / 9.0));
+    const double rigidity = modulus * material.thickness * material.thickness / (12.0 * (1.0 - 1.0 / 9.0));
     for (const auto& [edge, sides] : edges) {
         if (sides.area > 0.0) {
             draft.springs.push_back(stretch(draft, edge, sides, modulus));
@@ -115,15 +114,13 @@ SoftModelResult make_soft_sheet(const TriangleMesh& surface, const SoftMaterial&
         }
     }
     // A corner of triangles without area would have no mass.
-    const double least = 1e-3 * material.density * material.thickness *
-                         [&] {
-                             double all = 0.0;
-                             for (const auto& [a, b, c] : surface.triangles) {
-                                 all += area_of(surface.vertices, a, b, c);
-                             }
-                             return all;
-                         }() /
-                         static_cast<double>(draft.nodes.size());
+    const double least = 1e-3 * material.density * material.thickness * [&] {
+        double all = 0.0;
+        for (const auto& [a, b, c] : surface.triangles) {
+            all += area_of(surface.vertices, a, b, c);
+        }
+        return all;
+    }() / static_cast<double>(draft.nodes.size());
     for (double& mass : draft.mass) {
         mass = std::max(mass, least);
     }

@@ -55,8 +55,8 @@ private:
         }
         std::vector<std::uint32_t> upper, between;
         for (std::size_t k = lower.size(); k < part.size(); ++k) {
-            const bool divides = std::ranges::any_of(neighbours_[part[k]],
-                                                     [&](std::uint32_t n) { return half_[n] == mark_; });
+            const bool divides =
+                std::ranges::any_of(neighbours_[part[k]], [&](std::uint32_t n) { return half_[n] == mark_; });
             (divides ? between : upper).push_back(part[k]);
         }
         divide(lower);

@@ -38,9 +38,9 @@ public:
 private:
     void find_pattern(std::size_t size, const std::vector<std::vector<Entry>>& columns);
 
-    std::vector<std::size_t> begin_;       // of each column's entries, and the end of the last
-    std::vector<std::uint32_t> rows_;      // of the entries, rising within a column
-    std::vector<double> values_;           // likewise
+    std::vector<std::size_t> begin_;   // of each column's entries, and the end of the last
+    std::vector<std::uint32_t> rows_;  // of the entries, rising within a column
+    std::vector<double> values_;       // likewise
     std::vector<double> inverse_diagonal_;
 };
 

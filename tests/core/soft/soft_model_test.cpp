@@ -92,7 +92,8 @@ TEST(SoftModel, BadInputIsToldWithWhatToDo) {
 TEST(SoftModel, TetrahedraThatAreNoneAreToldByTheirNumber) {
     EXPECT_EQ(error_of_tetrahedra(corners, {{0, 1, 2, 3}}), "");
     EXPECT_NE(error_of_tetrahedra(corners, {{0, 2, 1, 3}}).find("0 is turned inside out"), std::string::npos);
-    EXPECT_NE(error_of_tetrahedra(corners, {{0, 1, 2, 3}, {0, 1, 2, 2}}).find("1 is flat"), std::string::npos);
+    EXPECT_NE(error_of_tetrahedra(corners, {{0, 1, 2, 3}, {0, 1, 2, 2}}).find("1 is flat"),
+              std::string::npos);
     EXPECT_NE(error_of_tetrahedra(corners, {{0, 1, 2, 4}}).find("below 4"), std::string::npos);
     EXPECT_NE(error_of_tetrahedra({}, {}).find("no tetrahedra"), std::string::npos);
     std::vector<Vec3> nonsense = corners;
