@@ -11,14 +11,28 @@ const SIZE := Vector2i(480, 270)
 const FRAME := 1.0 / 60.0
 ## When the scripted hand touches what there is to touch: of most scenes, and of the others.
 const USUAL_SECONDS := 2.5
-const SECONDS := {}
+const SECONDS := {
+	"magnet": 5.0,
+	"gate": 1.5,
+	"table_edge": 1.3,
+	"pinch": 4.5,
+	"hinge_door": 3.0,
+	"deforming_mesh": 4.0,
+	"peg_in_hole": 2.6,
+	"two_operators": 2.4,
+	"delay_lab": 4.0,
+	"wrong_model": 4.0,
+	"teleoperated_robot": 3.0,
+	"depth_camera": 6.0,
+	"point_cloud": 8.5,
+}
 ## What a depth camera needs to find what stands before it, at most.
 const FINDS_WITHIN := 30.0
 
 
 func _initialize() -> void:
-	root.size = SIZE * 2
-	root.content_scale_size = SIZE * 2
+	root.size = Vector2i(1280, 720)
+	OS.low_processor_usage_mode_sleep_usec = 1
 	_run.call_deferred()
 
 
