@@ -1,14 +1,17 @@
 extends SceneTree
-## godot --path demo_project --script tools/pictures.gd -- [NAME…]
+## godot --path demo_project --script tools/pictures.gd -- [--frames=FOLDER] [NAME…]
 ##
 ## Plays scenes of the gallery, all or those named, in stepped time, and saves a picture of each as its menu
-## shows it.
+## shows it; or the frames of a moving picture of them, one scene after the other, into a folder.
 
 const Gallery := preload("res://gallery/gallery.gd")
 const Stepping := preload("res://gallery/stage/stepping.gd")
 
 const SIZE := Vector2i(480, 270)
 const FRAME := 1.0 / 60.0
+## Of a moving picture: of each scene, one frame of it a few of the scene's, from this time on.
+const MOVING_SECONDS := 2.4
+const FRAMES_SKIPPED := 5
 ## When the scripted hand touches what there is to touch: of most scenes, and of the others.
 const USUAL_SECONDS := 2.5
 const SECONDS := {
@@ -37,13 +40,17 @@ func _initialize() -> void:
 
 
 func _run() -> void:
-	var asked := OS.get_cmdline_user_args()
-	for scene_name: String in Gallery.SCENES if asked.is_empty() else Array(asked):
-		await _take(scene_name)
+	var asked := Array(OS.get_cmdline_user_args())
+	var folder := ""
+	for word: String in asked.filter(func(word: String) -> bool: return word.begins_with("--frames=")):
+		folder = word.trim_prefix("--frames=")
+		asked.erase(word)
+	for scene_name: String in Gallery.SCENES if asked.is_empty() else asked:
+		await _take(scene_name, folder)
 	quit()
 
 
-func _take(scene_name: String) -> void:
+func _take(scene_name: String, frames_folder: String) -> void:
 	var scene := (load(Gallery.path_of(scene_name)) as PackedScene).instantiate()
 	var worlds := Stepping.hold(scene)
 	root.add_child(scene)
@@ -52,16 +59,32 @@ func _take(scene_name: String) -> void:
 	var deadline := Time.get_ticks_msec() + int(FINDS_WITHIN * 1000.0)
 	while not _sees(scene) and Time.get_ticks_msec() < deadline:
 		await process_frame
-	for _i in roundi(SECONDS.get(scene_name, USUAL_SECONDS) / FRAME):
+	var seconds: float = SECONDS.get(scene_name, USUAL_SECONDS)
+	if frames_folder.is_empty():
+		await _play(worlds, seconds)
+		(await _picture()).save_webp(Gallery.picture_of(scene_name), true, 0.9)
+	else:
+		await _play(worlds, maxf(0.0, seconds - 0.5 * MOVING_SECONDS))
+		for frame in roundi(MOVING_SECONDS / FRAME / FRAMES_SKIPPED):
+			await _play(worlds, FRAME * FRAMES_SKIPPED)
+			(await _picture()).save_png(frames_folder.path_join("%s_%03d.png" % [scene_name, frame]))
+	scene.free()
+
+
+func _play(worlds: Array[HapticWorld], seconds: float) -> void:
+	for _i in roundi(seconds / FRAME):
 		Stepping.advance(worlds, FRAME)
 		await process_frame
+
+
+func _picture() -> Image:
 	RenderingServer.render_loop_enabled = true
 	await process_frame
 	await RenderingServer.frame_post_draw
 	var picture := root.get_texture().get_image()
+	RenderingServer.render_loop_enabled = false
 	picture.resize(SIZE.x, SIZE.y, Image.INTERPOLATE_LANCZOS)
-	picture.save_webp(Gallery.picture_of(scene_name), true, 0.9)
-	scene.free()
+	return picture
 
 
 func _sees(scene: Node) -> bool:

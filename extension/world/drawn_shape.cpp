@@ -8,6 +8,7 @@
 
 #include "core/geometry/smooth_normals.hpp"
 #include "core/geometry/touch_shape.hpp"
+#include "core/math/perpendicular.hpp"
 
 namespace tactus {
 
@@ -77,11 +78,6 @@ TriangleMesh box(const Vec3& half) {
     mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                       {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     return mesh;
-}
-
-Vec3 any_perpendicular(const Vec3& direction) {
-    const Vec3 other = std::abs(direction.y) < 0.9 ? Vec3(0.0, 1.0, 0.0) : Vec3(1.0, 0.0, 0.0);
-    return glm::normalize(glm::cross(direction, other));
 }
 
 TriangleMesh square(const PlaneShape& plane) {

@@ -4,16 +4,13 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/math/perpendicular.hpp"
+
 namespace tactus {
 
 namespace {
 
 constexpr double tiny = 1e-150;  // lengths below it have no direction
-
-Vec3 any_perpendicular(const Vec3& n) {
-    const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-    return glm::normalize(glm::cross(n, other));
-}
 
 // Around a single point (a corner, the end of a capsule) the distance bends equally in every direction.
 SolidDistance from_point(const Vec3& offset, double inflation) {

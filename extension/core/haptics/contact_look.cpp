@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/math/perpendicular.hpp"
+
 namespace tactus {
 
 namespace {
@@ -11,11 +13,6 @@ namespace {
 // Corners that stand before a plane by this many times `same` are in it: a sixteenth of the skin, of which
 // sweeps leave the sphere half.
 constexpr double flat = 64.0;
-
-Vec3 any_perpendicular(const Vec3& n) {
-    const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0, 1.0, 0.0);
-    return glm::normalize(glm::cross(n, other));
-}
 
 ContactState state_of(TriangleFeature feature) {
     constexpr ContactState states[] = {ContactState::face, ContactState::edge, ContactState::corner};
