@@ -78,7 +78,7 @@ void report_kinematics(Report& report, int places) {
 // place.
 void write_conditioning() {
     std::FILE* const csv =
-        std::fopen((result_path("device").parent_path() / "device_conditioning.csv").c_str(), "w");
+        std::fopen((result_path("device").parent_path() / "device_conditioning.csv").string().c_str(), "w");
     if (!csv) {
         return;
     }
@@ -150,7 +150,7 @@ void report_walls(Report& report) {
     int unstable = 0;
     int unstable_free = 0;
     const std::filesystem::path json = result_path("device");
-    std::FILE* csv = std::fopen((json.parent_path() / "device_walls.csv").c_str(), "w");
+    std::FILE* csv = std::fopen((json.parent_path() / "device_walls.csv").string().c_str(), "w");
     if (csv) {
         std::fprintf(csv,
                      "stiffness,wall_damping,device_damping,rate,delay,used,created_J,stable,"
