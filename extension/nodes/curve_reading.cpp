@@ -16,7 +16,7 @@ constexpr double apart = 1e-6;     // what is nearer is one place (unit: meters)
 
 std::vector<Vec3> places_along(const Ref<Curve3D>& curve) {
     std::vector<Vec3> places;
-    if (curve.is_null()) {
+    if (curve.is_null() || curve->get_point_count() < 2) {
         return places;
     }
     const PackedVector3Array pieces = curve->tessellate_even_length(halvings, static_cast<real_t>(spacing));

@@ -10,7 +10,7 @@
 namespace tactus {
 
 // So near each other that what lies between is as good as straight; no two are one place. Empty where there
-// is no curve.
+// is no curve of two points.
 std::vector<Vec3> places_along(const godot::Ref<godot::Curve3D>& curve);
 
 // So many of them, evenly along the way; the first and the last are its ends.
