@@ -30,7 +30,7 @@ const SECONDS := {
 	"point_cloud": 8.5,
 }
 ## What a depth camera needs to find what stands before it, at most.
-const FINDS_WITHIN := 30.0
+const FINDS_WITHIN := 120.0
 
 
 func _initialize() -> void:

@@ -14,6 +14,10 @@ const PRESSED := 0.5
 ## So far off the wall's own direction a force may be, in degrees.
 const STRAIGHT := 10.0
 
+## How its edges are drawn: as thick, in metres.
+const EDGE := 0.0005
+const EDGES := Color(0.55, 0.68, 0.85)
+
 const WAYS := {
 	"to the right": Vector3.RIGHT,
 	"to the left": Vector3.LEFT,
@@ -51,6 +55,7 @@ func _ready() -> void:
 	for way: String in WAYS:
 		_add_wall(WAYS[way])
 		_sides[way] = _drawn_side(WAYS[way])
+	_draw_edges()
 
 
 func _choose(index: int) -> void:
@@ -88,6 +93,23 @@ func _drawn_side(way: Vector3) -> StandardMaterial3D:
 	return material
 
 
+func _draw_edges() -> void:
+	var edge := StandardMaterial3D.new()
+	edge.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
+	edge.albedo_color = EDGES
+	for axis in 3:
+		for corner in 4:
+			var bar := BoxMesh.new()
+			bar.size = Vector3.ONE * EDGE
+			bar.size[axis] = 2.0 * ROOM + EDGE
+			bar.material = edge
+			var drawn := MeshInstance3D.new()
+			drawn.mesh = bar
+			drawn.position[(axis + 1) % 3] = ROOM if corner & 1 else -ROOM
+			drawn.position[(axis + 2) % 3] = ROOM if corner & 2 else -ROOM
+			_world.add_child(drawn)
+
+
 func _process(_delta: float) -> void:
 	observe()
 	%Said.text = said()
@@ -98,7 +120,7 @@ func _process(_delta: float) -> void:
 func _colour_of(way: String) -> Color:
 	if _pressed.has(way):
 		return Color(0.2, 0.8, 0.4, 0.25)
-	return Color(1.0, 0.55, 0.1, 0.5) if way == next_way() else Color(0.6, 0.7, 0.8, 0.08)
+	return Color(1.0, 0.55, 0.1, 0.75) if way == next_way() else Color(0.6, 0.7, 0.8, 0.14)
 
 
 ## What is to be done next, or what came of it.

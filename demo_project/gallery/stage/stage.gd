@@ -13,6 +13,12 @@ extends Node3D
 		looks_at = value
 		_turn_camera()
 
+## Layers of what is shown.
+@export_flags_3d_render var shows := 0xFFFFF:
+	set(value):
+		shows = value
+		_turn_camera()
+
 
 func _ready() -> void:
 	_turn_camera()
@@ -20,4 +26,6 @@ func _ready() -> void:
 
 func _turn_camera() -> void:
 	if is_node_ready():
-		($Camera3D as Camera3D).transform = Transform3D(Basis.looking_at(looks_at - eye), eye)
+		var camera: Camera3D = $Camera3D
+		camera.transform = Transform3D(Basis.looking_at(looks_at - eye), eye)
+		camera.cull_mask = shows
