@@ -20,6 +20,8 @@ extends Node
 ##                      the far side stays until the operator has gone
 ## --device.NAME=VALUE  a property of the scene's HapticDevice
 ## --corrects=touch     the model is left as it is until it is touched
+## --inputs=1           all that enters the loop goes to CASE_inputs.tactus and how it was played to
+##                      CASE_settings.json: with these the output is a bundle, which replay.gd plays again
 
 const FRAMES_PER_SECOND := 60
 
@@ -40,6 +42,7 @@ var _options := {
 	"screenshots": "",
 	"processor": "",
 	"corrects": "always",
+	"inputs": "0",
 }
 
 
@@ -94,6 +97,8 @@ func _run_scene(scene: Node) -> int:
 	Engine.max_fps = 0 if stepped else FRAMES_PER_SECOND
 	world.clock = HapticWorld.CLOCK_STEPPED if stepped else HapticWorld.CLOCK_REAL_TIME
 	world.measure_baseline = _options.baseline == "1"
+	if _options.inputs == "1":
+		world.inputs_path = _file("_inputs.tactus")
 	if _options.processor != "":
 		world.processor = int(_options.processor)
 	var link := _first(scene, "MMTLink") as MMTLink
@@ -128,7 +133,22 @@ func _run_scene(scene: Node) -> int:
 	for problem in world.get_problems():
 		printerr(problem)
 	remove_child(scene)
-	return 0 if _write("_statistics.json", statistics) and _write("_periods.json", periods) else 1
+	var written := _write("_statistics.json", statistics) and _write("_periods.json", periods)
+	if _options.inputs == "1":
+		written = _write("_settings.json", _settings()) and written
+	return 0 if written else 1
+
+
+## How it was played, for whoever finds the bundle.
+func _settings() -> Dictionary:
+	return {
+		"options": _options,
+		"link": _link_options,
+		"device": _device_options,
+		"godot": Engine.get_version_info().string,
+		"machine": "%s, %s" % [OS.get_processor_name(), OS.get_distribution_name()],
+		"utc": Time.get_datetime_string_from_system(true),
+	}
 
 
 ## Options change nothing that another scene shares.
