@@ -21,7 +21,13 @@ extends Node
 ## --device.NAME=VALUE  a property of the scene's HapticDevice
 ## --corrects=touch     the model is left as it is until it is touched
 ## --inputs=1           all that enters the loop goes to CASE_inputs.tactus and how it was played to
-##                      CASE_settings.json: with these the output is a bundle, which replay.gd plays again
+##                      CASE_settings.json: with these the output is a bundle
+## --watch=1            it is drawn as it is played
+## --camera.NAME=VALUE  a property of the scene's DepthSensor
+## --replay=BUNDLE      instead of all this: plays it again, see replay.gd
+## --launch=1           instead of all this: what the launcher does, see ../launcher/launch.gd
+
+const Replay := preload("res://experiments/replay.gd")
 
 const FRAMES_PER_SECOND := 60
 
@@ -43,11 +49,20 @@ var _options := {
 	"processor": "",
 	"corrects": "always",
 	"inputs": "0",
+	"watch": "0",
 }
+var _camera_options := {}
+var _stops := false
 
 
 ## Returns the exit code of the program: 0 when all was written.
 func run(arguments: PackedStringArray) -> int:
+	if arguments[0].begins_with("--replay="):
+		return Replay.run(arguments)
+	if arguments[0].begins_with("--launch="):
+		var launcher: Node = load("res://launcher/run.gd").new()
+		add_child(launcher)
+		return await launcher.run(arguments)
 	for argument in arguments:
 		var words := argument.trim_prefix("--").split("=", true, 1)
 		if words.size() != 2 or not _take(words[0], words[1]):
@@ -72,11 +87,18 @@ func _take(option: String, value: String) -> bool:
 			_link_options[name] = JSON.parse_string(value)
 		"device":
 			_device_options[name] = JSON.parse_string(value)
+		"camera":
+			_camera_options[name] = JSON.parse_string(value)
 		_:
 			if not _options.has(option):
 				return false
 			_options[option] = value
 	return true
+
+
+## Before its time is over.
+func stop() -> void:
+	_stops = true
 
 
 func _fail(message: String) -> int:
@@ -98,7 +120,7 @@ func _run_scene(scene: Node) -> int:
 	world.clock = HapticWorld.CLOCK_STEPPED if stepped else HapticWorld.CLOCK_REAL_TIME
 	world.measure_baseline = _options.baseline == "1"
 	if _options.inputs == "1":
-		world.inputs_path = _file("_inputs.tactus")
+		_record_inputs(scene, world)
 	if _options.processor != "":
 		world.processor = int(_options.processor)
 	var link := _first(scene, "MMTLink") as MMTLink
@@ -108,6 +130,7 @@ func _run_scene(scene: Node) -> int:
 	_set_all(link, _link_options)
 	var device := _first(scene, "HapticDevice") as HapticDevice
 	_set_all(device, _device_options)
+	_set_all(_first(scene, "DepthSensor"), _camera_options)
 	if _is_operator(link):
 		_way = device.path
 		device.path = _rest_at(_way.sample(0.0))
@@ -137,6 +160,13 @@ func _run_scene(scene: Node) -> int:
 	if _options.inputs == "1":
 		written = _write("_settings.json", _settings()) and written
 	return 0 if written else 1
+
+
+## Of the world that is played, and of those beside it, which it meets inside of the scene.
+func _record_inputs(scene: Node, played: HapticWorld) -> void:
+	for world: HapticWorld in scene.find_children("*", "HapticWorld", true, false):
+		var of_whom := "" if world == played else "_" + String(world.name).to_snake_case()
+		world.inputs_path = _file(of_whom + "_inputs.tactus")
 
 
 ## How it was played, for whoever finds the bundle.
@@ -193,6 +223,8 @@ func _meet(link: MMTLink, device: HapticDevice) -> bool:
 
 
 func _is_over(world: HapticWorld, link: MMTLink, begin: float) -> bool:
+	if _stops:
+		return true
 	if _is_networked(link) and link.side == MMTLink.SIDE_TELEOPERATOR:
 		return link.get_state() in [MMTLink.STATE_LOST, MMTLink.STATE_LEFT]
 	return world.get_time() - begin >= float(_options.duration)
@@ -208,7 +240,7 @@ func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 		link.correction_scheme = MMTLink.CORRECTION_NONE
 	var proxy := _first(world, "ProxyPointer") as ProxyPointer
 	# Nobody looks until a picture is taken, and a processor that draws is slow.
-	RenderingServer.render_loop_enabled = false
+	RenderingServer.render_loop_enabled = _options.watch == "1"
 	while not _is_over(world, link, begin):
 		await get_tree().process_frame
 		if stepped:
@@ -221,6 +253,7 @@ func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 			link.correction_scheme = correction
 		if not screenshots.is_empty() and world.get_time() >= screenshots[0]:
 			await _take_screenshot(screenshots.pop_front())
+	RenderingServer.render_loop_enabled = true
 
 
 func _take_screenshot(time: float) -> void:
@@ -228,7 +261,7 @@ func _take_screenshot(time: float) -> void:
 		return
 	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
-	RenderingServer.render_loop_enabled = false
+	RenderingServer.render_loop_enabled = _options.watch == "1"
 	get_viewport().get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
 
 

@@ -1,5 +1,5 @@
-extends Node
-## Plays a bundle again and says whether the same comes of it. The main scene starts it when called so:
+extends RefCounted
+## Plays a bundle again and says whether the same comes of it. The main scene does when called so:
 ##
 ##     godot --headless --path demo_project -- --replay=BUNDLE [--output=FOLDER]
 ##     tactus.x86_64 --headless -- --replay=BUNDLE [--output=FOLDER]
@@ -17,7 +17,7 @@ const A_WHILE := 60.0
 
 ## Returns the exit code of the program: 0 when everything was the same, 1 when something was not, 2 when
 ## there was nothing or not all of it could be played.
-func run(arguments: PackedStringArray) -> int:
+static func run(arguments: PackedStringArray) -> int:
 	var bundle := _value(arguments, "replay")
 	var output := _value(arguments, "output")
 	if output.is_empty():

@@ -2,8 +2,8 @@ extends Control
 ## Picks a scene to touch. In a scene: move the mouse to move the hand, turn its wheel to push it away or
 ## pull it closer; Tab changes between the mouse and the scripted path, Escape goes back.
 ##
-## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead, with
-## --replay=… that replay; called with a scene's path, it opens that scene.
+## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead; called
+## with a scene's path, it opens that scene.
 
 const SCENES := {
 	"Static: a sphere on the thesis's path": "res://static_testbed.tscn",
@@ -42,12 +42,9 @@ func _ready() -> void:
 
 func _run_experiment() -> void:
 	%Menu.visible = false
-	var arguments := OS.get_cmdline_user_args()
-	var is_replay := arguments[0].begins_with("--replay=")
-	var script := "res://experiments/%s.gd" % ("replay" if is_replay else "experiment")
-	var experiment: Node = load(script).new()
+	var experiment: Node = load("res://experiments/experiment.gd").new()
 	add_child(experiment)
-	get_tree().quit(await experiment.run(arguments))
+	get_tree().quit(await experiment.run(OS.get_cmdline_user_args()))
 
 
 func open(path: String) -> void:

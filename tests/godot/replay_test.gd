@@ -4,6 +4,10 @@ extends "nodes_case.gd"
 var _folder := ProjectSettings.globalize_path("user://replay_%d" % OS.get_process_id())
 
 
+func _init() -> void:
+	DirAccess.make_dir_recursive_absolute(_folder)
+
+
 func _exit_tree() -> void:
 	for file in DirAccess.get_files_at(_folder):
 		DirAccess.remove_absolute(_folder.path_join(file))
