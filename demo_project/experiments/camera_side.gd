@@ -1,5 +1,5 @@
 extends SceneTree
-## One side of camera_testbed.tscn by itself, which says in every frame how it is, until it is ended:
+## One side of depth_camera.tscn by itself, which says in every frame how it is, until it is ended:
 ##
 ##     godot --headless --path demo_project --script res://experiments/camera_side.gd -- --part=PART …
 ##
@@ -35,7 +35,7 @@ var _has_shown := false
 func _initialize() -> void:
 	Engine.max_fps = 60
 	RenderingServer.render_loop_enabled = false
-	var scene := (load("res://camera_testbed.tscn") as PackedScene).instantiate()
+	var scene := (load("res://gallery/depth_camera/depth_camera.tscn") as PackedScene).instantiate()
 	var settings := {}
 	for argument in OS.get_cmdline_user_args():
 		var words := argument.trim_prefix("--").split("=", true, 1)
@@ -43,7 +43,7 @@ func _initialize() -> void:
 	_part = settings["part"]
 	_moves = settings.get("moves", "0") == "1"
 	_way = (scene.get_node("HapticWorld/HapticDevice") as HapticDevice).path
-	for part: String in ["HapticWorld", "Far", "Reality", "Tip", "Readings"]:
+	for part: String in ["HapticWorld", "Far", "Reality", "Tip", "Placard"]:
 		if part not in KEPT[_part]:
 			scene.get_node(part).free()
 	_world = scene.get_node(KEPT[_part][0])

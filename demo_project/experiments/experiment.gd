@@ -38,7 +38,7 @@ var _link_options := {}
 var _device_options := {}
 var _way: HapticPath
 var _options := {
-	"scene": "res://static_testbed.tscn",
+	"scene": "res://gallery/static_testbed/static_testbed.tscn",
 	"output": "user://",
 	"case": "",
 	"duration": "10",

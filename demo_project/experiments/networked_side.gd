@@ -9,7 +9,7 @@ extends SceneTree
 ## pressing. Each line is JSON: time (s since the epoch), state and text of the link, force on the hand (N),
 ## whether it touches, objects that are known, and where the box is (m).
 
-const SCENE := "res://dynamic_testbed.tscn"
+const SCENE := "res://gallery/dynamic_testbed/dynamic_testbed.tscn"
 const OBJECTS := 2
 const SAY_EVERY := 0.05
 

@@ -87,7 +87,7 @@ String DepthSensor::problem() const {
         get_node_or_null(synthetic_scene_) == nullptr) {
         return wrong_path("synthetic_scene", synthetic_scene_, "a node");
     }
-    if (is_inside_tree() && (bodies_ != BODIES_NONE || touch_cloud_)) {
+    if (is_inside_tree() && makes_bodies()) {
         return problem_of_touch();
     }
     return to_godot(library_error_);
@@ -403,7 +403,7 @@ PackedStringArray DepthSensor::_get_configuration_warnings() const {
 void DepthSensor::_notification(int what) {
     if (what == NOTIFICATION_ENTER_TREE) {
         // Only what is to be touched needs a world.
-        if (is_edited() || bodies_ != BODIES_NONE || touch_cloud_) {
+        if (is_edited() || makes_bodies()) {
             watch_warnings(*this);
         }
         begin();

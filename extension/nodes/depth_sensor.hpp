@@ -55,6 +55,9 @@ public:
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
+    // Whether what it finds is to be touched.
+    bool makes_bodies() const { return bodies_ != BODIES_NONE || touch_cloud_; }
+
 protected:
     static void _bind_methods();
     void _notification(int what);

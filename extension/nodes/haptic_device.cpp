@@ -205,8 +205,9 @@ Vec3 HapticDevice::start() const {
     if (const Node3D* led_by = kind() == HandKind::node ? target_node() : nullptr) {
         return from_godot(led_by->get_global_position());
     }
-    const bool is_followed = follows_path(kind()) && path_.is_valid() && path_problem_.is_empty();
-    return into_scene(workspace(), is_followed ? sample_path(path_->hand_path(), 0).position : Vec3(0.0));
+    // Where the way begins is meant to be free, also for a hand that is led otherwise.
+    const bool has_way = path_.is_valid() && path_problem_.is_empty();
+    return into_scene(workspace(), has_way ? sample_path(path_->hand_path(), 0).position : Vec3(0.0));
 }
 
 void HapticDevice::aim_mouse(const Vector2& screen_position, double depth_change) {

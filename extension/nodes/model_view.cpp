@@ -15,7 +15,7 @@ using namespace godot;
 
 namespace {
 
-const Color picture_color(0.55F, 0.62F, 0.7F);
+const Color picture_color(0.28F, 0.32F, 0.38F);
 
 void place(const ModelRoll::Shown& shown, const Pose& pose) {
     if (auto* node = node_of_id<Node3D>(shown.node)) {

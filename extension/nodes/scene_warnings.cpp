@@ -12,6 +12,7 @@
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/depth_sensor.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_world.hpp"
@@ -133,6 +134,15 @@ bool has_world(const Node& scene) {
     return is_world(scene) || find_below(scene, is_world) != nullptr;
 }
 
+// A camera and a far side bring bodies while the scene runs; a robot has a real place in their stead.
+bool needs_no_bodies(const Node& node) {
+    if (const auto* link = Object::cast_to<MMTLink>(&node)) {
+        return link->is_networked() && (link->is_operator() || link->has_robots());
+    }
+    const auto* sensor = Object::cast_to<DepthSensor>(&node);
+    return sensor != nullptr && sensor->makes_bodies();
+}
+
 }  // namespace
 
 bool is_edited() {
@@ -179,6 +189,9 @@ SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radiu
 }
 
 String problem_of_emptiness(const HapticWorld& world) {
+    if (find_below(world, needs_no_bodies) != nullptr) {
+        return String();
+    }
     const Node* outside = body_outside(top_of(world), Outside::any);
     return String("nothing in it can be touched: put bodies with collision shapes below this node") +
            (outside != nullptr

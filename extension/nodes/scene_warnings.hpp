@@ -16,7 +16,7 @@ bool is_edited();
 // Why no HapticWorld runs this node, and what to do; empty where one does, or will when the scene plays.
 godot::String problem_without_world(const godot::Node& node);
 
-// Of a world without bodies below it: what to do.
+// Of a world without bodies below it: what to do; empty where it needs none.
 godot::String problem_of_emptiness(const HapticWorld& world);
 
 // Why a body that is made to be felt is not, as it stands outside of every world; empty where none does.

@@ -56,7 +56,7 @@ func test_a_falcon_says_what_it_needs() -> void:
 
 ## A scripted hand presses the six walls in turn.
 func test_the_device_check_sees_all_six_directions() -> void:
-	var scene: Control = (load("res://device_check.tscn") as PackedScene).instantiate()
+	var scene: Control = (load("res://gallery/device_check/device_check.tscn") as PackedScene).instantiate()
 	scene.report_path = "user://device_check_test.json"
 	var world: HapticWorld = scene.get_node("%HapticWorld")
 	world.clock = HapticWorld.CLOCK_STEPPED

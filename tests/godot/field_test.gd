@@ -114,7 +114,7 @@ func test_slices_of_different_sizes_are_said() -> void:
 
 ## On its path the hand feels its way over one volume and pushes the other.
 func test_the_scene_of_fields_plays() -> void:
-	var scene := add_scene("res://field.tscn")
+	var scene := add_scene("res://gallery/field/field.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")
 	var proxy: ProxyPointer = world.get_node("ProxyPointer")
 	var lump: RigidBody3D = world.get_node("Lump")

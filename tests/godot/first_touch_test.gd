@@ -40,7 +40,7 @@ func test_the_mouse_moves_a_new_hand_and_a_path_where_there_is_one() -> void:
 	world.add_child(camera)
 	world.add_child(device)
 	world.advance(0.01)
-	device.aim_mouse(Vector2(get_viewport().size) * 0.75)
+	device.aim_mouse(get_viewport().get_visible_rect().size * 0.75)
 	world.advance(0.5)
 	var by_mouse := device.get_hand_position()
 	check(by_mouse.x > 0.01 and by_mouse.y < -0.01, "the mouse does not move it: %s" % by_mouse)
@@ -276,7 +276,7 @@ func test_a_control_that_takes_the_mouse() -> void:
 	world.add_child(device)
 	var sheet := ColorRect.new()
 	sheet.name = "Sheet"
-	sheet.size = Vector2(get_viewport().size)
+	sheet.size = get_viewport().get_visible_rect().size
 	scene.add_child(sheet)
 	expect_error("'Sheet' lies over the view and takes the mouse")
 	add_child(scene)

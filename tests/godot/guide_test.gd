@@ -106,7 +106,7 @@ func test_what_leads_nowhere_is_said() -> void:
 ## The hand's own path leaves the guide's; what is felt leads back. Where the nearest place jumps it takes
 ## some ticks to turn.
 func test_the_scene_with_a_guide_plays() -> void:
-	var scene := add_scene("res://guide.tscn")
+	var scene := add_scene("res://gallery/guide/guide.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")
 	var proxy: ProxyPointer = world.get_node("ProxyPointer")
 	var led := 0

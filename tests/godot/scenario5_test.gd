@@ -6,7 +6,7 @@ var _scene: Node
 
 
 func _start() -> void:
-	_scene = (load("res://camera_testbed.tscn") as PackedScene).instantiate()
+	_scene = (load("res://gallery/depth_camera/depth_camera.tscn") as PackedScene).instantiate()
 	for world: HapticWorld in _worlds():
 		world.clock = HapticWorld.CLOCK_STEPPED
 	add_child(_scene)

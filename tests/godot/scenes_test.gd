@@ -2,7 +2,6 @@ extends "nodes_case.gd"
 ## The scenes of the demo project.
 
 const FOLDER := "user://scenes_test"
-const WITHOUT_A_POINTER := ["tool.tscn"]
 
 
 func _record(scene_path: String, seconds: float, file: String) -> Dictionary:
@@ -26,16 +25,6 @@ func _record(scene_path: String, seconds: float, file: String) -> Dictionary:
 	return result
 
 
-func _run_without_recorder(scene_path: String) -> void:
-	var scene := add_scene(scene_path)
-	var world: HapticWorld = scene.get_node("HapticWorld")
-	for _i in 60:
-		world.advance(1.0 / 60.0)
-	check_equal(world.get_problems().size(), 0, "%s: %s" % [scene_path, world.get_problems()])
-	check_equal(world.get_ticks(), 1000, scene_path + " ticks")
-	scene.free()
-
-
 func _columns(text: String) -> Dictionary:
 	var lines := text.strip_edges().split("\n")
 	var names := lines[0].split(",")
@@ -57,7 +46,7 @@ func _largest_force(columns: Dictionary) -> float:
 
 
 func test_the_static_testbed_is_touched_with_a_few_newtons() -> void:
-	var run := _record("res://static_testbed.tscn", 10.0, "static.csv")
+	var run := _record("res://gallery/static_testbed/static_testbed.tscn", 10.0, "static.csv")
 	check_equal(run.rows, 10000, "rows")
 	check_equal(run.lost, 0, "lost rows")
 	check_equal(run.problems.size(), 0, "problems")
@@ -70,40 +59,24 @@ func test_the_static_testbed_is_touched_with_a_few_newtons() -> void:
 
 
 func test_two_runs_of_the_dynamic_testbed_are_the_same_bytes() -> void:
-	var first := _record("res://dynamic_testbed.tscn", 6.0, "first.csv")
-	var second := _record("res://dynamic_testbed.tscn", 6.0, "second.csv")
+	var first := _record("res://gallery/dynamic_testbed/dynamic_testbed.tscn", 6.0, "first.csv")
+	var second := _record("res://gallery/dynamic_testbed/dynamic_testbed.tscn", 6.0, "second.csv")
 	check_equal(first.rows, 6000, "rows")
 	check(first.text == second.text, "they differ")
 	var columns := _columns(first.text)
 	check(absf(columns.object_x[5999] - columns.object_x[0]) > 0.1, "the box was not pushed")
 
 
-func test_every_scene_opens_and_runs() -> void:
-	for file in DirAccess.get_files_at("res://"):
-		if file.get_extension() != "tscn" or file in ["main.tscn", "networked_testbed.tscn"]:
-			continue
-		if file in WITHOUT_A_POINTER:
-			_run_without_recorder("res://" + file)
-			continue
-		var run := _record("res://" + file, 1.0, "any.csv")
-		check_equal(run.problems.size(), 0, "%s: %s" % [file, run.problems])
-		check_equal(run.rows, 1000, file + " rows")
-
-
-func test_the_menu_opens_each_scene_with_the_mouse_and_goes_back() -> void:
-	var menu := (load("res://main.tscn") as PackedScene).instantiate()
-	add_child(menu)
-	for path: String in menu.SCENES.values():
-		menu.open(path)
-		var world: HapticWorld = menu.find_children("*", "HapticWorld", true, false)[0]
-		check(await until(func() -> bool: return world.get_ticks() > 20, 5.0), path + " does not tick")
-		check_equal(menu._device().driver, HapticDevice.DRIVER_MOUSE, "driver")
-		menu.close()
-		await frames(2)
+func test_every_scene_of_the_experiments_plays() -> void:
+	for file in DirAccess.get_files_at("res://experiments"):
+		if file.get_extension() == "tscn":
+			var run := _record("res://experiments".path_join(file), 1.0, "any.csv")
+			check_equal(run.problems.size(), 0, "%s: %s" % [file, run.problems])
+			check_equal(run.rows, 1000, file + " rows")
 
 
 func test_the_recorder_writes_trace_events_of_the_stages() -> void:
-	var scene := (load("res://dynamic_testbed.tscn") as PackedScene).instantiate()
+	var scene := (load("res://gallery/dynamic_testbed/dynamic_testbed.tscn") as PackedScene).instantiate()
 	var world: HapticWorld = scene.get_node("HapticWorld")
 	var recorder: HapticRecorder = world.get_node("HapticRecorder")
 	recorder.csv_path = FOLDER.path_join("traced.csv")

@@ -78,7 +78,7 @@ func test_a_tool_larger_than_its_room_is_absent() -> void:
 
 ## On its path the peg goes into the hole and topples the stack.
 func test_the_scene_with_a_tool_plays() -> void:
-	var scene := add_scene("res://tool.tscn")
+	var scene := add_scene("res://gallery/peg_in_hole/peg_in_hole.tscn")
 	var world: HapticWorld = scene.get_node("HapticWorld")
 	var tool: HapticTool = world.get_node("HapticTool")
 	var lowest := 1.0

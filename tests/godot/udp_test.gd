@@ -49,7 +49,7 @@ func _counts(link: MMTLink, what: String) -> void:
 
 func _start_far_process() -> int:
 	var options := {
-		"scene": "res://static_mmt.tscn",
+		"scene": "res://experiments/static_mmt.tscn",
 		"output": ProjectSettings.globalize_path("user://"),
 		"link.scenario": 4,
 		"link.side": 1,
@@ -150,7 +150,7 @@ func test_addresses_and_keys_may_change_while_it_runs() -> void:
 
 
 func test_a_second_process_is_touched_vanishes_and_comes_back() -> void:
-	var scene := (load("res://static_mmt.tscn") as PackedScene).instantiate()
+	var scene := (load("res://experiments/static_mmt.tscn") as PackedScene).instantiate()
 	var link: MMTLink = scene.get_node("HapticWorld/MMTLink")
 	link.local_port = _port
 	link.remote_port = _far_port

@@ -19,7 +19,7 @@ def test_the_hand_that_holds_a_falcon_feels_the_ground(tmp_path):
     command = [
         PLAYER, f"--firmware={firmware}", f"--figures={figures}", "--",
         godot.command(), "--headless", "--path", FOLDER, "--",
-        "--scene=res://static_testbed.tscn", "--case=falcon", f"--output={tmp_path}", "--duration=6", "--warmup=2",
+        "--scene=res://gallery/static_testbed/static_testbed.tscn", "--case=falcon", f"--output={tmp_path}", "--duration=6", "--warmup=2",
         *(f"--device.{name}={json.dumps(value)}" for name, value in device.items()),
     ]  # fmt: skip
     done = subprocess.run(command, text=True, capture_output=True, timeout=60)

@@ -10,9 +10,9 @@ import project
 from measuring.scene_run import Case, play
 
 SECONDS = 3.0  # the first touch of the sphere, and the box pushed
-STATIC = Case("static", "res://static_testbed.tscn")
-DYNAMIC = Case("dynamic", "res://dynamic_testbed.tscn")
-MESHES = Case("meshes", "res://mesh_table.tscn")  # which it finds by their names in the library
+STATIC = Case("static", "res://gallery/static_testbed/static_testbed.tscn")
+DYNAMIC = Case("dynamic", "res://gallery/dynamic_testbed/dynamic_testbed.tscn")
+MESHES = Case("meshes", "res://gallery/mesh_library/mesh_library.tscn")  # which it finds by their names in the library
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ from typing import Literal
 from measuring import host, options, records, rounds
 from measuring.scene_run import Case, Run, play, screenshot
 
-CASES = [Case("static", "res://static_testbed.tscn"), Case("dynamic", "res://dynamic_testbed.tscn")]
+CASES = [Case("static", "res://gallery/static_testbed/static_testbed.tscn"), Case("dynamic", "res://gallery/dynamic_testbed/dynamic_testbed.tscn")]
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,7 @@ from setup import godot
 
 PATIENCE = 60.0  # until the model has all that is there (unit: seconds)
 FELT = 0.05  # (unit: newtons)
-STIFFNESS = 220.0  # of all surfaces there (unit: newtons per meter): camera_testbed.tscn
+STIFFNESS = 220.0  # of all surfaces there (unit: newtons per meter): depth_camera.tscn
 BODIES = ("cube", "bracket")
 _PORT = 32000 + os.getpid() % 6000 * 2
 

@@ -21,7 +21,7 @@ from pathlib import Path
 from measuring import host, options, records, rounds, teleop_processes
 from measuring.teleop_processes import FAR, MODEL_MEDIATED, OPERATOR, TRADITIONAL
 
-SCENE = "res://dynamic_testbed.tscn"
+SCENE = "res://gallery/dynamic_testbed/dynamic_testbed.tscn"
 SCENARIOS = {"scenario2": TRADITIONAL, "scenario4": MODEL_MEDIATED}
 SIDES = {"operator": OPERATOR, "teleoperator": FAR}
 

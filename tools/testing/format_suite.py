@@ -9,7 +9,7 @@ from testing.results import Result, matching
 
 def run(wanted: str) -> list[Result]:
     cpp = _files("extension", "tests", "tools", endings=(".cpp", ".hpp"))
-    gd = _files("demo_project", "tests", endings=(".gd",))
+    gd = _files("demo_project", "tests", "tools", endings=(".gd",))
     checks = {
         "format.clang_format": (["clang-format", "--dry-run", "--Werror"], cpp),
         "format.gdformat": (["gdformat", "--check", "--line-length=110"], gd),

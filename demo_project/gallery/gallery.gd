@@ -1,0 +1,90 @@
+extends RefCounted
+## The scenes of the gallery in the order of its menu, by the names of their folders: what each is called, and
+## what there is to feel.
+##
+## A new one is a folder with a scene and a picture (tools/make_pictures.py) of its name, and a line here.
+
+const SCENES := {
+	"static_testbed":
+	[
+		"A sphere",
+		"Follow the yellow path: the fingertip slides over the ground and the sphere, and never enters them."
+	],
+	"textures":
+	[
+		"Materials",
+		"Stroke the slabs: rubber clings and slips, ice glides, sandpaper is rough, steel rings, sponge gives."
+	],
+	"magnet":
+	[
+		"Magnets",
+		"Touch the blocks and lift off: the orange ones hold the fingertip back, the right one harder."
+	],
+	"guide": ["A guide", "Nothing is there but the yellow line: come near it, and it leads the hand along."],
+	"mesh_library":
+	["Meshes", "Run along rims, through holes and over edges: every triangle is felt as it is drawn."],
+	"field":
+	[
+		"Volumes",
+		"A maze and a lump out of samples, as a scanner has them: go in and feel its walls from within."
+	],
+	"deforming_mesh":
+	["A skin that moves", "Lay a finger on the skin: its wave lifts it and lets it down again."],
+	"dynamic_testbed":
+	[
+		"A box",
+		"Push it: it resists by its weight and its friction, and tips over when pushed above its middle."
+	],
+	"stack":
+	["A stack", "Take the upper boxes off the lower ones: the deeper, the more weight there is to feel."],
+	"hinge_door":
+	["A door", "Push it open: lightly far from its hinge, hard close to it, and not beyond a right angle."],
+	"gate":
+	[
+		"A gate",
+		"Push the box through. It has three millimetres to spare on each side: feel it catch at a post."
+	],
+	"table_edge":
+	["The edge of a table", "Push the box over the edge: it grows lighter as it tips, and then it is gone."],
+	"pinch":
+	["Two fingers", "Close them on the box and lift it by nothing but friction: too lightly, and it slips."],
+	"peg_in_hole":
+	["A tool", "Lead the peg into its hole and feel it jam when it is tilted; then knock down the stack."],
+	"delay_lab":
+	[
+		"Far away",
+		"Touch the box through a network: set its delay, and change between the ways to do without it."
+	],
+	"wrong_model":
+	[
+		"A wrong model",
+		"The hand's own box is too heavy and too smooth. Push: how it is put right is not felt."
+	],
+	"two_operators":
+	["Two operators", "Somebody else pushes the same box from elsewhere; the pale ball is that finger."],
+	"teleoperated_robot":
+	["A robot", "A robot's tip goes where the hand goes. The table it runs into is felt, a moment later."],
+	"depth_camera":
+	[
+		"A camera",
+		"What a depth camera finds on a table becomes bodies that are felt, and a robot touches the real ones."
+	],
+	"point_cloud":
+	["Points", "Nobody knows what stands there. Its points, as the camera sees them, are the surface."],
+	"device_check":
+	["Check a device", "Is it found, does it know where it is, does it push back the right way?"],
+}
+
+
+static func path_of(name: String) -> String:
+	return "res://gallery/%s/%s.tscn" % [name, name]
+
+
+static func picture_of(name: String) -> String:
+	return "res://gallery/%s/%s.webp" % [name, name]
+
+
+## The name of a scene of the gallery; empty for any other.
+static func name_of(path: String) -> String:
+	var name := path.get_file().get_basename()
+	return name if SCENES.has(name) and path == path_of(name) else ""

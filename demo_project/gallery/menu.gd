@@ -1,0 +1,73 @@
+extends Control
+## The gallery: picks a scene to touch. Escape comes back from it.
+##
+## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead; called
+## with the path of a scene of the gallery, it opens that scene.
+
+const Gallery := preload("res://gallery/gallery.gd")
+const Card := preload("res://gallery/card.tscn")
+
+var _scene: Node
+
+@onready var _cards: Container = %Cards
+
+
+func _ready() -> void:
+	var asked := OS.get_cmdline_user_args()
+	if not asked.is_empty() and asked[0].begins_with("--"):
+		_run_experiment.call_deferred()
+		return
+	for scene_name: String in Gallery.SCENES:
+		_add_card(scene_name)
+	_choose(0)
+	if not asked.is_empty() and not Gallery.name_of(asked[0]).is_empty():
+		open(asked[0])
+
+
+func _add_card(scene_name: String) -> void:
+	var card: Button = Card.instantiate()
+	var words: Array = Gallery.SCENES[scene_name]
+	(card.get_node("%Title") as Label).text = words[0]
+	(card.get_node("%Sentence") as Label).text = words[1]
+	(card.get_node("%Picture") as TextureRect).texture = load(Gallery.picture_of(scene_name))
+	card.pressed.connect(open.bind(Gallery.path_of(scene_name)))
+	_cards.add_child(card)
+
+
+func _choose(card: int) -> void:
+	%Menu.visible = true
+	(_cards.get_child(card) as Control).grab_focus()
+
+
+func _run_experiment() -> void:
+	%Menu.visible = false
+	var experiment: Node = load("res://experiments/experiment.gd").new()
+	add_child(experiment)
+	get_tree().quit(await experiment.run(OS.get_cmdline_user_args()))
+
+
+## The hand is the person's at once.
+func open(path: String) -> void:
+	close()
+	_scene = (load(path) as PackedScene).instantiate()
+	_scene.get_node("Placard").by_hand = true
+	%Menu.visible = false
+	add_child(_scene)
+
+
+func close() -> void:
+	if _scene != null:
+		_choose(Gallery.SCENES.keys().find(Gallery.name_of(_scene.scene_file_path)))
+		_scene.queue_free()
+		_scene = null
+
+
+func _unhandled_key_input(event: InputEvent) -> void:
+	var key := event as InputEventKey
+	if _scene == null or key == null or not key.pressed or key.echo:
+		return
+	match key.keycode:
+		KEY_ESCAPE:
+			close()
+		KEY_R:
+			open(_scene.scene_file_path)

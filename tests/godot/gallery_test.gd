@@ -1,0 +1,170 @@
+extends "nodes_case.gd"
+## The gallery of the demo project: every scene of it plays, can be picked, and obeys the keys.
+
+const Gallery := preload("res://gallery/gallery.gd")
+const Stepping := preload("res://gallery/stage/stepping.gd")
+const FOLDER := "res://gallery"
+const SECONDS := 10.0
+const FRAME := 0.04
+## What a person waits for at most, in seconds.
+const SOON := 10.0
+
+
+## Errors and warnings of Godot, from whatever thread.
+class Complaints:
+	extends Logger
+	var _said := PackedStringArray()
+	var _mutex := Mutex.new()
+
+	func _log_error(
+		_function: String,
+		file: String,
+		line: int,
+		code: String,
+		rationale: String,
+		_editor_notify: bool,
+		_type: int,
+		_backtraces: Array[ScriptBacktrace]
+	) -> void:
+		_mutex.lock()
+		_said.append("%s (%s:%d)" % [rationale if not rationale.is_empty() else code, file, line])
+		_mutex.unlock()
+
+	func all() -> PackedStringArray:
+		_mutex.lock()
+		var said := _said.duplicate()
+		_mutex.unlock()
+		return said
+
+
+## What the nodes of a scene have to complain about themselves.
+func _warnings(scene: Node) -> PackedStringArray:
+	var warnings := PackedStringArray()
+	for node: Node in scene.find_children("*", "", true, false):
+		if node.has_method("get_warnings"):
+			warnings.append_array(node.get_warnings())
+		if node is HapticWorld:
+			warnings.append_array((node as HapticWorld).get_problems())
+	return warnings
+
+
+func _has_eyes() -> bool:
+	return Array(DirAccess.get_files_at("res://addons/tactus/bin")).any(
+		func(file: String) -> bool: return file.begins_with("libtactus_sensing.")
+	)
+
+
+func test_every_scene_plays_for_ten_seconds_without_a_complaint() -> void:
+	# Without a window Godot rests after each frame.
+	var rest := OS.low_processor_usage_mode_sleep_usec
+	OS.low_processor_usage_mode_sleep_usec = 1
+	for scene_name: String in Gallery.SCENES:
+		var scene := (load(Gallery.path_of(scene_name)) as PackedScene).instantiate()
+		if not _has_eyes() and not scene.find_children("*", "DepthSensor").is_empty():
+			scene.free()
+			continue
+		var complaints := Complaints.new()
+		OS.add_logger(complaints)
+		var worlds := Stepping.hold(scene)
+		add_child(scene)
+		for _i in roundi(SECONDS / FRAME):
+			Stepping.advance(worlds, FRAME)
+			await get_tree().process_frame
+		var said := complaints.all() + _warnings(scene)
+		check(said.is_empty(), "%s: %s" % [scene_name, said])
+		for world in worlds:
+			check_equal(world.get_ticks(), roundi(SECONDS / FRAME * 40), "%s: ticks" % scene_name)
+		scene.free()
+		await frames(1)
+		OS.remove_logger(complaints)
+	OS.low_processor_usage_mode_sleep_usec = rest
+
+
+func test_every_folder_is_a_scene_of_the_menu_and_has_a_picture() -> void:
+	for folder in DirAccess.get_directories_at(FOLDER):
+		check(folder == "stage" or Gallery.SCENES.has(folder), "%s is not in the menu" % folder)
+	for scene_name: String in Gallery.SCENES:
+		check_equal(Gallery.name_of(Gallery.path_of(scene_name)), scene_name, "name")
+		var picture := load(Gallery.picture_of(scene_name)) as Texture2D
+		check(picture != null and picture.get_size() == Vector2(480, 270), "the picture of " + scene_name)
+	check_equal(Gallery.name_of("res://main.tscn"), "", "name of a scene that is none of the gallery")
+
+
+func test_the_menu_opens_each_scene_with_the_mouse_and_goes_back() -> void:
+	var menu := _menu()
+	var complaints := Complaints.new()
+	OS.add_logger(complaints)
+	for scene_name: String in Gallery.SCENES:
+		menu.open(Gallery.path_of(scene_name))
+		var world: HapticWorld = menu._scene.get_node("Placard").world
+		check(await until(func() -> bool: return world.get_ticks() > 20, SOON), scene_name + " does not tick")
+		var hand: HapticDevice = world.find_children("*", "HapticDevice", true, false)[-1]
+		check_equal(hand.driver, HapticDevice.DRIVER_MOUSE, scene_name + "'s driver")
+		menu.close()
+		await frames(2)
+	OS.remove_logger(complaints)
+	for said in complaints.all():
+		check(not said.contains("began inside"), said)
+
+
+func _menu() -> Control:
+	var menu: Control = (load("res://main.tscn") as PackedScene).instantiate()
+	add_child(menu)
+	return menu
+
+
+func _press(code: Key) -> void:
+	var event := InputEventKey.new()
+	event.keycode = code
+	event.physical_keycode = code
+	event.pressed = true
+	Input.parse_input_event(event)
+	Input.flush_buffered_events()
+	await frames(2)
+
+
+func test_keys_change_hands_hide_words_begin_again_and_go_back() -> void:
+	var menu := _menu()
+	menu.open(Gallery.path_of("static_testbed"))
+	var scene: Node = menu._scene
+	var device: HapticDevice = scene.get_node("HapticWorld/HapticDevice")
+	await _press(KEY_TAB)
+	check_equal(device.driver, HapticDevice.DRIVER_PATH, "driver after Tab")
+	await _press(KEY_TAB)
+	check_equal(device.driver, HapticDevice.DRIVER_MOUSE, "driver after Tab again")
+	var placard: CanvasLayer = scene.get_node("Placard")
+	await _press(KEY_H)
+	check(not placard.visible, "the words are still there")
+	await _press(KEY_R)
+	check(not is_instance_valid(scene) and menu._scene != null, "it did not begin again")
+	await _press(KEY_ESCAPE)
+	check(menu._scene == null and menu.get_node("%Menu").visible, "it did not go back")
+
+
+## By hand the fingers follow the mouse's place, and close while the space bar is held.
+func test_two_fingers_close_on_the_box() -> void:
+	var scene := (load(Gallery.path_of("pinch")) as PackedScene).instantiate()
+	scene.get_node("Placard").by_hand = true
+	var worlds := Stepping.hold(scene)
+	add_child(scene)
+	var gap := func() -> float:
+		var left: HapticDevice = worlds[0].get_node("LeftHand")
+		var right: HapticDevice = worlds[0].get_node("RightHand")
+		return right.get_hand_position().x - left.get_hand_position().x
+	for _i in 30:
+		Stepping.advance(worlds, 0.01)
+		await frames(1)
+	var before: float = gap.call()
+	check_near(before, 2.0 * scene.get_node("Fingers").OPENED, 1e-3, "gap")
+	var space := InputEventKey.new()
+	space.physical_keycode = KEY_SPACE
+	space.pressed = true
+	Input.parse_input_event(space)
+	Input.flush_buffered_events()
+	var closes := func() -> bool:
+		Stepping.advance(worlds, 0.01)
+		return gap.call() < 2.0 * scene.get_node("Fingers").CLOSED + 1e-3
+	check(await until(closes, SOON), "they stay %s m apart" % gap.call())
+	space.pressed = false
+	Input.parse_input_event(space)
+	Input.flush_buffered_events()

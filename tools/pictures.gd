@@ -1,0 +1,70 @@
+extends SceneTree
+## godot --path demo_project --script tools/pictures.gd -- [NAME…]
+##
+## Plays scenes of the gallery, all or those named, in stepped time, and saves a picture of each as its menu
+## shows it.
+
+const Gallery := preload("res://gallery/gallery.gd")
+const Stepping := preload("res://gallery/stage/stepping.gd")
+
+const SIZE := Vector2i(480, 270)
+const FRAME := 1.0 / 60.0
+## When the scripted hand touches what there is to touch: of most scenes, and of the others.
+const USUAL_SECONDS := 2.5
+const SECONDS := {
+	"magnet": 5.0,
+	"gate": 1.5,
+	"table_edge": 1.3,
+	"pinch": 4.5,
+	"hinge_door": 3.0,
+	"deforming_mesh": 4.0,
+	"peg_in_hole": 2.6,
+	"two_operators": 2.4,
+	"delay_lab": 4.0,
+	"wrong_model": 4.0,
+	"teleoperated_robot": 3.0,
+	"depth_camera": 6.0,
+	"point_cloud": 8.5,
+}
+## What a depth camera needs to find what stands before it, at most.
+const FINDS_WITHIN := 30.0
+
+
+func _initialize() -> void:
+	root.size = Vector2i(1280, 720)
+	OS.low_processor_usage_mode_sleep_usec = 1
+	_run.call_deferred()
+
+
+func _run() -> void:
+	var asked := OS.get_cmdline_user_args()
+	for scene_name: String in Gallery.SCENES if asked.is_empty() else Array(asked):
+		await _take(scene_name)
+	quit()
+
+
+func _take(scene_name: String) -> void:
+	var scene := (load(Gallery.path_of(scene_name)) as PackedScene).instantiate()
+	var worlds := Stepping.hold(scene)
+	root.add_child(scene)
+	(scene.get_node("Placard") as CanvasLayer).hide()
+	RenderingServer.render_loop_enabled = false
+	var deadline := Time.get_ticks_msec() + int(FINDS_WITHIN * 1000.0)
+	while not _sees(scene) and Time.get_ticks_msec() < deadline:
+		await process_frame
+	for _i in roundi(SECONDS.get(scene_name, USUAL_SECONDS) / FRAME):
+		Stepping.advance(worlds, FRAME)
+		await process_frame
+	RenderingServer.render_loop_enabled = true
+	await process_frame
+	await RenderingServer.frame_post_draw
+	var picture := root.get_texture().get_image()
+	picture.resize(SIZE.x, SIZE.y, Image.INTERPOLATE_LANCZOS)
+	picture.save_webp(Gallery.picture_of(scene_name), true, 0.9)
+	scene.free()
+
+
+func _sees(scene: Node) -> bool:
+	return scene.find_children("*", "DepthSensor").all(
+		func(sensor: DepthSensor) -> bool: return sensor.get_objects().size() > 1
+	)
