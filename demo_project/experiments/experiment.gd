@@ -25,7 +25,8 @@ extends Node
 ## --watch=1            it is drawn as it is played
 ## --camera.NAME=VALUE  a property of the scene's DepthSensor
 ## --replay=BUNDLE      instead of all this: plays it again, see replay.gd
-## --launch=1           instead of all this: what the launcher does, see ../launcher/launch.gd
+## --launch=form        instead of all this: the launcher; --launch=now: what it does, without its form
+##                      (../launcher/launch.gd)
 
 const Replay := preload("res://experiments/replay.gd")
 
@@ -59,10 +60,15 @@ var _stops := false
 func run(arguments: PackedStringArray) -> int:
 	if arguments[0].begins_with("--replay="):
 		return Replay.run(arguments)
-	if arguments[0].begins_with("--launch="):
-		var launcher: Node = load("res://launcher/run.gd").new()
+	if arguments[0] == "--launch=form":
+		var launcher := (load("res://launcher/launcher.tscn") as PackedScene).instantiate()
 		add_child(launcher)
-		return await launcher.run(arguments)
+		await launcher.tree_exited
+		return 0
+	if arguments[0] == "--launch=now":
+		var launch: Node = load("res://launcher/run.gd").new()
+		add_child(launch)
+		return await launch.run(arguments)
 	for argument in arguments:
 		var words := argument.trim_prefix("--").split("=", true, 1)
 		if words.size() != 2 or not _take(words[0], words[1]):

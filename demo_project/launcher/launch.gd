@@ -2,7 +2,8 @@ extends RefCounted
 ## What can be chosen at a start, and what becomes of it: for each process of this machine the options of
 ## experiments/experiment.gd. The launcher shows it as a form; without a screen the same is given in words:
 ##
-##     tactus.x86_64 --headless -- --launch=1 --scenario=4 --seconds=5 --output=FOLDER
+##     tactus.x86_64 -- --launch=form
+##     tactus.x86_64 --headless -- --launch=now --scenario=4 --seconds=5 --output=FOLDER
 
 const BOTH := "both, on this machine"
 const OPERATOR := "operator"
@@ -11,11 +12,11 @@ const FIRST_PORT := 47001
 
 ## By scenario. Those of a link are one scene for both of its sides; those with a robot have both within.
 const SCENES := {
-	1: "res://static_testbed.tscn",
-	2: "res://dynamic_testbed.tscn",
-	3: "res://robot_testbed.tscn",
-	4: "res://dynamic_testbed.tscn",
-	5: "res://camera_testbed.tscn",
+	1: "res://gallery/static_testbed/static_testbed.tscn",
+	2: "res://gallery/dynamic_testbed/dynamic_testbed.tscn",
+	3: "res://gallery/teleoperated_robot/teleoperated_robot.tscn",
+	4: "res://gallery/dynamic_testbed/dynamic_testbed.tscn",
+	5: "res://gallery/depth_camera/depth_camera.tscn",
 }
 const SCENARIOS := {
 	"1: a virtual world, no network": 1,

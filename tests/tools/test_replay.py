@@ -67,7 +67,7 @@ def test_the_exported_program_gives_them_too(bundle, exported, tmp_path):
 
 def launched(program: list, folder: Path, *options: str) -> None:
     ports = [20000 + os.getpid() % 6000 * 2 + number for number in (0, 1)]
-    done = play(program, "--launch=1", f"--output={folder}", f"--local_port={ports[0]}", f"--remote_port={ports[1]}", *options)
+    done = play(program, "--launch=now", f"--output={folder}", f"--local_port={ports[0]}", f"--remote_port={ports[1]}", *options)
     assert done.returncode == 0, done.stdout
 
 
@@ -99,7 +99,7 @@ def test_the_launcher_refuses_what_there_is_not(exported, tmp_path):
         "--seconds=0": "more than 0",
         "--colour=red": "is not understood",
     }.items():
-        done = play(exported, "--launch=1", f"--output={tmp_path}", option)
+        done = play(exported, "--launch=now", f"--output={tmp_path}", option)
         assert done.returncode == 1 and said in done.stdout, done.stdout
     assert not list(tmp_path.iterdir())
 
