@@ -47,6 +47,10 @@ struct AddBody {
     Form form;
     FormerBody former;
 };
+// What a body that gives is made of is not recorded: so far it can be played.
+struct AddSoftBody {
+    SessionHandle handle = no_handle;
+};
 struct DeformBody {
     SessionHandle handle = no_handle;
     Form form;
@@ -95,14 +99,16 @@ struct RowsWritten {
 
 }  // namespace call
 
-using InputCall = std::variant<
-    call::AddBody, command::RemoveBody, call::DeformBody, command::TeleportBody, command::MoveBody,
-    command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
-    command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-    command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
-    call::AddDevice, command::SetWorkspace, command::RemoveDevice, call::AddProxy, command::SetProxy,
-    command::RemoveProxy, call::AddTool, command::SetTool, command::RemoveTool, call::Record,
-    call::EndRecording, call::Attach, call::Announce, call::Epoch, call::WriteRows, call::RowsWritten>;
+using InputCall =
+    std::variant<call::AddBody, command::RemoveBody, call::DeformBody, command::TeleportBody,
+                 command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial,
+                 command::SetBodySurface, command::SetBodyLayers, command::SetBodyMotion,
+                 command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
+                 command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
+                 command::SetGravity, call::AddDevice, command::SetWorkspace, command::RemoveDevice,
+                 call::AddProxy, command::SetProxy, command::RemoveProxy, call::AddTool, command::SetTool,
+                 command::RemoveTool, call::Record, call::EndRecording, call::Attach, call::Announce,
+                 call::Epoch, call::WriteRows, call::RowsWritten, call::AddSoftBody>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -346,6 +352,8 @@ template <>
 inline constexpr int members<call::AddBody> = 3;
 template <>
 inline constexpr int members<call::DeformBody> = 2;
+template <>
+inline constexpr int members<call::AddSoftBody> = 1;
 template <>
 inline constexpr int members<call::AddDevice> = 2;
 template <>

@@ -232,8 +232,13 @@ ReadyBody InputReplay::prepared(const call::Form& form) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         take_tree(form.lineages[i], shapes[i], touch->parts[i]);
     }
-    return Session::prepare_body(
-        {form.description, form.touch_shapes, std::move(touch), form.touch_material, form.texture});
+    BodyAddition addition;
+    addition.description = form.description;
+    addition.touch_shapes = form.touch_shapes;
+    addition.touch = std::move(touch);
+    addition.touch_material = form.touch_material;
+    addition.texture = form.texture;
+    return Session::prepare_body(addition);
 }
 
 void InputReplay::carry_out(const call::AddBody& c) {
@@ -242,6 +247,10 @@ void InputReplay::carry_out(const call::AddBody& c) {
         session_->use_handle(c.handle);
         check(session_->add_body(std::move(body), c.former).handle == c.handle);
     }
+}
+
+void InputReplay::carry_out(const call::AddSoftBody&) {
+    give_up("a body that gives comes then, and what that is made of is not recorded");
 }
 
 void InputReplay::carry_out(const call::DeformBody& c) {

@@ -58,6 +58,7 @@ private:
     void check(bool sound);
 
     void carry_out(const call::AddBody& c);
+    void carry_out(const call::AddSoftBody&);
     void carry_out(const call::DeformBody& c);
     void carry_out(const call::AddDevice& c);
     void carry_out(const call::AddProxy& c);

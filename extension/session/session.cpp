@@ -275,7 +275,19 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     if (!ready.error.empty()) {
         return ready;
     }
-    ready.touch = addition.touch;
+    BodyDescription description = addition.description;
+    if (addition.soft) {
+        ready.soft =
+            std::make_shared<SoftSlot>(addition.soft, addition.soft_view, description.collision.mask, run);
+        ready.touch = {ready.soft, &ready.soft->form()};
+        // The rigid world has it as a place alone.
+        description.shapes = {{SphereShape{std::max(1e-3, 0.5 * addition.soft->size)}, {}}};
+        description.collision = {0, 0};
+        description.motion = Motion::Static;
+        description.may_move = false;
+    } else {
+        ready.touch = addition.touch;
+    }
     if (!ready.touch) {
         const auto& touched =
             addition.touch_shapes.empty() ? addition.description.shapes : addition.touch_shapes;
@@ -286,13 +298,13 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     if (!ready.error.empty()) {
         return ready;
     }
-    ready.body = prepare(addition.description);
+    ready.body = prepare(description);
     ready.error = ready.body.error();
     ready.material = with_texture(addition.touch_material, addition.texture.get());
     ready.texture = addition.texture;
     ready.layer = addition.description.collision.layer;
     ready.pose = addition.description.pose;
-    ready.motion = addition.description.motion;
+    ready.motion = description.motion;
     ready.source = addition;
     return ready;
 }
@@ -308,12 +320,14 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
                                std::to_string(impl_->settings.max_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    if (impl_->recorder) {
+    if (impl_->recorder && body.soft) {
+        impl_->note(call::AddSoftBody{handle});
+    } else if (impl_->recorder) {
         impl_->note(call::AddBody{handle, call::Form::of(body), former});
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
                                  std::move(body.touch), body.material, std::move(body.texture), body.layer,
-                                 body.pose, body.motion, former});
+                                 body.pose, body.motion, former, std::move(body.soft)});
     return {handle, {}};
 }
 

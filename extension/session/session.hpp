@@ -22,6 +22,7 @@
 #include "realtime/tick_status.hpp"
 #include "realtime/tick_trace.hpp"
 #include "session/session_types.hpp"
+#include "session/soft_slot.hpp"
 #include "session/teleop_side.hpp"
 
 namespace tactus {
@@ -37,6 +38,11 @@ struct BodyAddition {
     std::shared_ptr<const TouchShape> touch;
     TouchMaterial touch_material;
     std::shared_ptr<const HeightImage> texture;  // becomes touch_material.texture; null: none
+    // A body that gives (core/soft/soft_body.hpp): its surface is what is touched, in place of the above. It
+    // stays where it is put but for its form, and nothing collides with its shapes. For a session of its
+    // model's tick.
+    std::shared_ptr<const SoftModel> soft;
+    std::shared_ptr<SoftView> soft_view;  // shows its form; null: nobody looks
 };
 
 // A body for which everything that takes time or memory has happened.
@@ -48,8 +54,9 @@ struct ReadyBody {
     std::uint32_t layer = 0;
     Pose pose;
     Motion motion = Motion::Static;
-    BodyAddition source;  // that it was made of; what it points to is shared
-    std::string error;    // what is wrong and what to do; empty where it can be added
+    std::shared_ptr<SoftSlot> soft;  // null: it does not give
+    BodyAddition source;             // that it was made of; what it points to is shared
+    std::string error;               // what is wrong and what to do; empty where it can be added
 };
 
 struct AddResult {

@@ -77,6 +77,10 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     added.shape = std::move(c.shape);
     added.texture = std::move(c.texture);
     added.motion = c.motion;
+    added.soft = std::move(c.soft);
+    if (added.soft) {
+        giving_.push_back(c.handle);
+    }
     note_magnet(c.handle);
     handle_of_slot_[static_cast<std::size_t>(slot)] = c.handle;
     handle_of_id_[id.index()] = c.handle;
@@ -139,6 +143,10 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     std::erase(pushed_, c.handle);
     std::erase(guessed_, c.handle);
     std::erase(forming_, c.handle);
+    std::erase(giving_, c.handle);
+    for (const SessionHandle handle : giving_) {
+        bodies_[handle].soft->obstacle_count = 0;  // they look anew
+    }
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
     handle_of_id_[removed->id.index()] = no_handle;
@@ -168,7 +176,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
 // before the last one has been touched takes its place.
 bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
     Body* const deformed = body(c.handle);
-    const bool fits = deformed && c.shape->parts.size() == deformed->shape->parts.size();
+    const bool fits = deformed && !deformed->soft && c.shape->parts.size() == deformed->shape->parts.size();
     retired.kind = Retired::Kind::form;
     if (fits) {
         physics_.reshape(deformed->id, c.body);
@@ -255,14 +263,19 @@ bool SessionLoop::carry_out(command::SetBodySurface& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetBodyLayers& c, Retired&) {
     if (const Body* const changed = body(c.handle)) {
-        physics_.set_collision(changed->id, c.layers);
+        if (changed->soft) {
+            changed->soft->mask = c.layers.mask;
+        } else {
+            physics_.set_collision(changed->id, c.layers);
+        }
         scene_.set_layer(changed->slot, c.layers.layer);
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::SetBodyMotion& c, Retired&) {
-    if (Body* const changed = body(c.handle); changed && physics_.set_motion(changed->id, c.motion)) {
+    if (Body* const changed = body(c.handle);
+        changed && !changed->soft && physics_.set_motion(changed->id, c.motion)) {
         end_travel(c.handle);
         changed->motion = c.motion;
         if (c.motion != Motion::Static && state_of_[c.handle] == no_handle) {
@@ -446,9 +459,12 @@ struct Duplicate {
     Command& same;
 
     bool operator()(command::AddBody& c) {
-        same = command::AddBody{
-            c.handle, std::move(c.same_body), {}, c.shape, c.material, c.texture, c.layer, c.pose, c.motion,
-            c.former};
+        same = command::AddBody{c.handle,   std::move(c.same_body),
+                                {},         c.shape,
+                                c.material, c.texture,
+                                c.layer,    c.pose,
+                                c.motion,   c.former,
+                                nullptr};
         return true;
     }
     bool operator()(command::DeformBody& c) {

@@ -9,6 +9,7 @@
 #include "core/ports/device.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "session/session_types.hpp"
+#include "session/soft_slot.hpp"
 #include "session/teleop_side.hpp"
 #include "session/tool_slot.hpp"
 
@@ -24,6 +25,7 @@ struct AddBody {
     Pose pose;
     Motion motion;
     FormerBody former;
+    std::shared_ptr<SoftSlot> soft;  // owns `shape`, then; null: it does not give
 };
 struct RemoveBody {
     SessionHandle handle;

@@ -46,6 +46,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
       gravity_(settings.physics.gravity) {
     travelling_.reserve(settings.max_bodies);
     forming_.reserve(settings.max_bodies);
+    giving_.reserve(settings.max_bodies);
     magnets_.reserve(settings.max_bodies);
     pushed_.reserve(settings.max_bodies);
     guessed_.reserve(settings.max_bodies);
@@ -60,6 +61,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     time_ = now;
     scene_.begin_tick();
     take_forms();
+    take_soft_forms();
     follow_physics();
     travel();
     {
@@ -91,6 +93,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         const TraceScope scope(trace, TickStage::step_physics);
         if (!side_ || side_->simulates()) {
             step_physics();
+            step_soft();
         } else {
             guess();
         }
@@ -339,18 +342,26 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
     for (int i = 0; i < slot.parts.contact_count; ++i) {
         const ContactForce& part = slot.parts.contacts[i];
         const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(part.body)]];
-        if (pressed.motion == Motion::Dynamic) {
-            const TouchMaterial& material = scene_.body(part.body).material;
-            const bool sticks = !slot.sliding && material.static_friction > 0.0;
-            SpringForce spring{
-                -part.on_hand, part.point, part.wall.stiffness, part.wall.damping, slot.hand_velocity,
-                sticks,        {}};
-            if (i < slot.torsion.count) {
-                const Torsion& held = slot.torsion.items[static_cast<std::size_t>(i)];
-                spring.twist = {held.normal, held.twist, held.stiffness, held.limit, held.finger_spin};
-            }
-            physics_.apply_spring_force(pressed.id, spring);
+        if (pressed.motion != Motion::Dynamic && !pressed.soft) {
+            continue;
         }
+        const TouchBody& surface = scene_.body(part.body);
+        const bool sticks = !slot.sliding && surface.material.static_friction > 0.0;
+        SpringForce spring{
+            -part.on_hand, part.point, part.wall.stiffness, part.wall.damping, slot.hand_velocity,
+            sticks,        {}};
+        if (pressed.soft) {
+            const auto touching = slot.proxy->touching();
+            if (static_cast<std::size_t>(i) < touching.size() && spring.stiffness > 0.0) {
+                pressed.soft->press(surface.pose, touching[static_cast<std::size_t>(i)], spring);
+            }
+            continue;
+        }
+        if (i < slot.torsion.count) {
+            const Torsion& held = slot.torsion.items[static_cast<std::size_t>(i)];
+            spring.twist = {held.normal, held.twist, held.stiffness, held.limit, held.finger_spin};
+        }
+        physics_.apply_spring_force(pressed.id, spring);
     }
 }
 

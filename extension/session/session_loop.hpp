@@ -47,6 +47,7 @@ public:
         // See Session::see_body.
         std::optional<PoseDoubt> doubt;  // none: it has never been seen
         Nanoseconds guessed_until = 0;   // it goes on as it was seen to
+        std::shared_ptr<SoftSlot> soft;  // null: it does not give; else the one that owns `shape`
     };
 
     // What touching the scene gives a hand.
@@ -256,6 +257,11 @@ private:
     void write_devices(Nanoseconds now);
     SafetySample safety_sample(const DeviceSlot& slot, std::size_t index) const;
     void step_physics();
+    void take_soft_forms();
+    void find_obstacles(const Body& giving);
+    bool place_obstacles(const Body& giving);
+    void push_obstacles(const Body& giving);
+    void step_soft();
     void guess();
     void publish(Nanoseconds now);
     void append_record(const Recording& recording, Nanoseconds now);
@@ -272,6 +278,7 @@ private:
     std::vector<SessionHandle> handle_of_id_;    // physics body to handle, by index
     std::vector<SessionHandle> travelling_;
     std::vector<SessionHandle> forming_;   // bodies that take another form in the coming tick
+    std::vector<SessionHandle> giving_;    // bodies that give
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<JointId> joints_;          // by handle

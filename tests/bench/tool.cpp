@@ -7,6 +7,7 @@
 #include "shared/bench_kit.hpp"
 #include "shared/field_figures.hpp"
 #include "shared/rough_meshes.hpp"
+#include "shared/soft_figures.hpp"
 #include "shared/stack_figures.hpp"
 #include "shared/tool_figures.hpp"
 #include "shared/torsion_figures.hpp"
@@ -134,6 +135,62 @@ void report_field(Report& report, int samples, int ticks) {
     report.set("field.tick_p99_us", p99);
 }
 
+void report_presses(Report& report, const std::string& name, SoftFigures& figures) {
+    report.set(name + ".nodes", static_cast<double>(figures.nodes));
+    report.set(name + ".elements", static_cast<double>(figures.elements));
+    report.set(name + ".triangles", static_cast<double>(figures.triangles));
+    report.set(name + ".factor_entries", static_cast<double>(figures.factor_entries));
+    report.set(name + ".presses", figures.presses);
+    report.set(name + ".contact_ticks", figures.contact_ticks);
+    report.set(name + ".passes", figures.passes);
+    report.set(name + ".unfinished", figures.unfinished);
+    report.set(name + ".deepest_m", figures.deepest);
+    report.set(name + ".force_max_n", figures.largest_force);
+    report.set(name + ".energy_created_J", figures.energy_created);
+    report.set(name + ".energy_created_held_J", figures.energy_created_held);
+    report.set(name + ".shape_error_m", figures.shape_error);
+    report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
+    report.set(name + ".tick_p99_us", percentile(figures.microseconds, 0.99));
+    report.set(name + ".tick_max_us", percentile(figures.microseconds, 1.0));
+    report.set(name + ".still_tick_p50_us", percentile(figures.still_microseconds, 0.5));
+    std::printf(
+        "%s: %zu nodes, %zu elements, %zu entries; %d presses, %d ticks in contact, %d passes, %d "
+        "unfinished; "
+        "%.1f mm deep, %.1f N; created %g J (held %g J), shape off by %g mm; p50 %.0f, p99 %.0f, longest "
+        "%.0f, "
+        "asleep %.1f us\n",
+        name.c_str(), figures.nodes, figures.elements, figures.factor_entries, figures.presses,
+        figures.contact_ticks, figures.passes, figures.unfinished, 1e3 * figures.deepest,
+        figures.largest_force, figures.energy_created, figures.energy_created_held, 1e3 * figures.shape_error,
+        percentile(figures.microseconds, 0.5), percentile(figures.microseconds, 0.99),
+        percentile(figures.microseconds, 1.0), percentile(figures.still_microseconds, 0.5));
+}
+
+void report_soft(Report& report, int presses) {
+    SoftFigures block = press_block(presses, 1e4, 7);
+    report_presses(report, "soft.block", block);
+    SoftFigures cloth = press_cloth(presses, 1e6, 7);
+    report_presses(report, "soft.cloth", cloth);
+    report.set("soft.tick_p99_us",
+               std::max(percentile(block.microseconds, 0.99), percentile(cloth.microseconds, 0.99)));
+    report.set("soft.passes", block.passes + cloth.passes);
+    report.set("soft.energy_created_J", std::max(block.energy_created, cloth.energy_created));
+    report.set("soft.shape_error_m", std::max(block.shape_error, cloth.shape_error));
+    for (const double stiffness : {1e3, 1e4, 1e5, 1e6}) {
+        for (const int iterations : {1, 2, 4, 8}) {
+            const SoftAccuracy accuracy = soft_accuracy(stiffness, iterations);
+            const std::string name = "soft.accuracy." + std::to_string(static_cast<int>(stiffness)) + "_Pa." +
+                                     std::to_string(iterations);
+            report.set(name + ".force_error_percent", accuracy.force_error_percent);
+            report.set(name + ".static_error_percent", accuracy.static_error_percent);
+            report.set(name + ".step_us", accuracy.step_microseconds);
+            std::printf("%s: force off by %.2f %% on the way, %.3f %% at rest; %.0f us\n", name.c_str(),
+                        accuracy.force_error_percent, accuracy.static_error_percent,
+                        accuracy.step_microseconds);
+        }
+    }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -142,6 +199,7 @@ int main(int count, char** arguments) {
     const int angles = static_cast<int>(options.number("angles", 8));
     const int ticks = static_cast<int>(options.number("ticks", 10'000));
     const int samples = static_cast<int>(options.number("samples", 128));
+    const int presses = static_cast<int>(options.number("presses", 200));
     if (!options.understood()) {
         return 2;
     }
@@ -157,6 +215,9 @@ int main(int count, char** arguments) {
     }
     if (is_chosen("field", only)) {
         report_field(report, samples, ticks);
+    }
+    if (is_chosen("soft", only)) {
+        report_soft(report, presses);
     }
     if (is_chosen("rough_on_rough", only)) {
         report_rough(report, ticks);

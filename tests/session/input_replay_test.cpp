@@ -257,6 +257,22 @@ TEST(InputReplay, SoDoesOneWhoseTreesAreRefitted) {
     });
 }
 
+TEST(InputReplay, ABodyThatGivesEndsItAndItSaysSo) {
+    RecordedInputs inputs;
+    SessionRig rig({}, &inputs.recorder);
+    rig.ticks(20);
+    inputs.drain();
+    BodyAddition block;
+    block.soft = make_soft_volume(shared::box(Vec3(0.04)), 3, {}, {}, 1e-3).model;
+    ASSERT_NE(block.soft, nullptr);
+    rig.add(block);
+    rig.ticks(20);
+    inputs.end();
+    const InputReplay::Report report = inputs.play();
+    EXPECT_EQ(report.ticks, 20u);
+    EXPECT_NE(report.problem.find("gives"), std::string::npos);
+}
+
 // --- over a link
 
 LinkConditions faults() {

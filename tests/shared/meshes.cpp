@@ -70,6 +70,31 @@ TriangleMesh box(const Vec3& half) {
     return mesh;
 }
 
+TriangleMesh grid_box(const Vec3& half, int cells) {
+    TriangleMesh mesh;
+    const int side = cells + 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double sign : {-1.0, 1.0}) {
+            const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+            for (int i = 0; i < side * side; ++i) {
+                Vec3 place(0.0);
+                place[axis] = sign * half[axis];
+                place[(axis + 1) % 3] = half[(axis + 1) % 3] * (2.0 * (i % side) / cells - 1.0);
+                place[(axis + 2) % 3] = half[(axis + 2) % 3] * (2.0 * (i / side) / cells - 1.0);
+                mesh.vertices.push_back(place);
+            }
+            for (int i = 0; i < cells * cells; ++i) {
+                const auto a = first + static_cast<std::uint32_t>(i / cells * side + i % cells);
+                const std::uint32_t b = a + 1, c = a + static_cast<std::uint32_t>(side), d = c + 1;
+                const bool turned = sign < 0.0;
+                mesh.triangles.push_back(turned ? std::array{a, c, b} : std::array{a, b, c});
+                mesh.triangles.push_back(turned ? std::array{b, c, d} : std::array{b, d, c});
+            }
+        }
+    }
+    return mesh;
+}
+
 TriangleMesh terrain(int cells, double size, double height) {
     TriangleMesh mesh;
     const int side = cells + 1;

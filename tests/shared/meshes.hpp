@@ -11,6 +11,8 @@ TriangleMesh icosphere(int levels, double radius);
 
 // Twelve triangles around the origin.
 TriangleMesh box(const Vec3& half_extents);
+// The same, each side a grid of cells x cells squares.
+TriangleMesh grid_box(const Vec3& half_extents, int cells);
 
 // cells x cells squares of two triangles over [-size/2, size/2]^2 in x-z; smooth hills with fine ripples on
 // top.

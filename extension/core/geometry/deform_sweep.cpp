@@ -8,20 +8,6 @@ namespace tactus {
 
 namespace {
 
-// How much each corner counts in a point of the triangle.
-Vec3 weights_of(const Vec3& point, const TriangleCorners& t) {
-    const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = point - t.a;
-    const double bb = glm::dot(ab, ab), bc = glm::dot(ab, ac), cc = glm::dot(ac, ac);
-    const double area = bb * cc - bc * bc;
-    if (!(area > 1e-18 * bb * cc)) {
-        return {1.0, 0.0, 0.0};
-    }
-    const double pb = glm::dot(ap, ab), pc = glm::dot(ap, ac);
-    const double v = std::clamp((cc * pb - bc * pc) / area, 0.0, 1.0);
-    const double w = std::clamp((bb * pc - bc * pb) / area, 0.0, 1.0 - v);
-    return {1.0 - v - w, v, w};
-}
-
 double longest(const LanesVec3& v, int i) {
     return glm::length(lane(v, i));
 }
@@ -61,6 +47,19 @@ FloatLanes entry_into(const BoxNode& from, const BoxNode& to, const FloatDrive& 
 }
 
 }  // namespace
+
+Vec3 weights_of(const Vec3& point, const TriangleCorners& t) {
+    const Vec3 ab = t.b - t.a, ac = t.c - t.a, ap = point - t.a;
+    const double bb = glm::dot(ab, ab), bc = glm::dot(ab, ac), cc = glm::dot(ac, ac);
+    const double area = bb * cc - bc * bc;
+    if (!(area > 1e-18 * bb * cc)) {
+        return {1.0, 0.0, 0.0};
+    }
+    const double pb = glm::dot(ap, ab), pc = glm::dot(ap, ac);
+    const double v = std::clamp((cc * pb - bc * pc) / area, 0.0, 1.0);
+    const double w = std::clamp((bb * pc - bc * pb) / area, 0.0, 1.0 - v);
+    return {1.0 - v - w, v, w};
+}
 
 TrianglePack DeformSweep::pack_at(std::uint32_t index, double t) const {
     const TrianglePack was = from_.pack(index);

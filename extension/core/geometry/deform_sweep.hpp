@@ -20,6 +20,9 @@ inline BoxNode between(const BoxNode& from, const BoxNode& to, FloatLanes share)
     return node;
 }
 
+// How much each corner counts in a point of the triangle; each 0 to 1, together 1.
+Vec3 weights_of(const Vec3& point, const TriangleCorners& triangle);
+
 class DeformSweep {
 public:
     // `to` must be a refit of `from` (see TriangleTree::is_refit_of). Both are used as long as this is.

@@ -12,8 +12,13 @@ namespace tactus {
 
 class PackStore {
 public:
-    // Room for `count` packs, in single precision or not; what was kept is gone.
+    // Room for `count` packs, in single precision or not; what was kept is gone. Where it has just that room,
+    // nothing is allocated.
     void reset(std::size_t count, bool single) {
+        if (count == count_ && (single ? single_ != nullptr : exact_ != nullptr)) {
+            return;
+        }
+        count_ = count;
         exact_.reset();
         single_.reset();
         if (single) {
@@ -64,6 +69,7 @@ private:
                 __builtin_convertvector(corner.z, SingleLanes)};
     }
 
+    std::size_t count_ = 0;
     std::unique_ptr<TrianglePack[]> exact_;
     std::unique_ptr<SinglePack[]> single_;
 };

@@ -41,12 +41,6 @@ Bounds around(const BoxNode& node) {
     return bounds;
 }
 
-// What one task has seen of the triangles.
-struct Extremes {
-    double squared_radius = 0.0;
-    double magnitude = 0.0;
-};
-
 constexpr std::size_t triangles_a_task = std::size_t{1} << 16;
 constexpr std::size_t nodes_a_task = 4096;
 constexpr std::size_t packs_a_task = 16384;
@@ -91,53 +85,65 @@ void TriangleTree::place_triangles(const TriangleMesh& mesh, bool single, const 
     packs_.reset(ids_.size(), single);
     run_in_parts(run, ids_.size(), packs_a_task, [&](std::size_t, std::size_t p, std::size_t end) {
         for (; p < end; ++p) {
-            TrianglePack pack;
-            LanesVec3* const corners[3] = {&pack.a, &pack.b, &pack.c};
-            for (std::size_t i = 0; i < lane_count; ++i) {
-                const auto& triangle = mesh.triangles[ids_[p][i]];
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const Vec3& corner = mesh.vertices[triangle[k]];
-                    corners[k]->x[i] = corner.x;
-                    corners[k]->y[i] = corner.y;
-                    corners[k]->z[i] = corner.z;
-                }
-            }
-            packs_.set(p, pack);
+            place_pack(p, mesh);
         }
     });
+}
+
+void TriangleTree::place_pack(std::size_t index, const TriangleMesh& mesh) {
+    TrianglePack pack;
+    LanesVec3* const corners[3] = {&pack.a, &pack.b, &pack.c};
+    for (std::size_t i = 0; i < lane_count; ++i) {
+        const auto& triangle = mesh.triangles[ids_[index][i]];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& corner = mesh.vertices[triangle[k]];
+            corners[k]->x[i] = corner.x;
+            corners[k]->y[i] = corner.y;
+            corners[k]->z[i] = corner.z;
+        }
+    }
+    packs_.set(index, pack);
 }
 
 void TriangleTree::fit_boxes(const ParallelRunner& run) {
     const std::size_t tasks = (nodes_.size() + nodes_a_task - 1) / nodes_a_task;
     std::vector<Extremes> seen(tasks);
     run(tasks, [&](std::size_t task) {
-        const std::size_t end = std::min(nodes_.size(), (task + 1) * nodes_a_task);
-        Extremes extremes;
-        for (std::size_t n = task * nodes_a_task; n < end; ++n) {
-            for (int i = 0; i < node_width; ++i) {
-                const std::uint32_t child = nodes_[n].child[i];
-                if (child == BoxNode::unused || !(child & BoxNode::leaf_bit)) {
-                    continue;
-                }
-                const TrianglePack triangles = packs_[child & ~BoxNode::leaf_bit];
-                Bounds bounds;
-                grow(bounds, triangles.a);
-                grow(bounds, triangles.b);
-                grow(bounds, triangles.c);
-                const Vec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
-                extremes.magnitude = std::max({extremes.magnitude, largest.x, largest.y, largest.z});
-                const Vec3 far = glm::max(glm::abs(bounds.low - origin_), glm::abs(bounds.high - origin_));
-                extremes.squared_radius = std::max(extremes.squared_radius, glm::dot(far, far));
-                set_box(nodes_[n], i, bounds.low - origin_, bounds.high - origin_);
-            }
-        }
-        seen[task] = extremes;
+        seen[task] = fit_leaves(task * nodes_a_task, std::min(nodes_.size(), (task + 1) * nodes_a_task));
     });
     Extremes all;
     for (const Extremes& part : seen) {
         all.squared_radius = std::max(all.squared_radius, part.squared_radius);
         all.magnitude = std::max(all.magnitude, part.magnitude);
     }
+    fit_inner(all);
+    fit_turned_boxes(run);
+}
+
+TriangleTree::Extremes TriangleTree::fit_leaves(std::size_t first_node, std::size_t end) {
+    Extremes extremes;
+    for (std::size_t n = first_node; n < end; ++n) {
+        for (int i = 0; i < node_width; ++i) {
+            const std::uint32_t child = nodes_[n].child[i];
+            if (child == BoxNode::unused || !(child & BoxNode::leaf_bit)) {
+                continue;
+            }
+            const TrianglePack triangles = packs_[child & ~BoxNode::leaf_bit];
+            Bounds bounds;
+            grow(bounds, triangles.a);
+            grow(bounds, triangles.b);
+            grow(bounds, triangles.c);
+            const Vec3 largest = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
+            extremes.magnitude = std::max({extremes.magnitude, largest.x, largest.y, largest.z});
+            const Vec3 far = glm::max(glm::abs(bounds.low - origin_), glm::abs(bounds.high - origin_));
+            extremes.squared_radius = std::max(extremes.squared_radius, glm::dot(far, far));
+            set_box(nodes_[n], i, bounds.low - origin_, bounds.high - origin_);
+        }
+    }
+    return extremes;
+}
+
+void TriangleTree::fit_inner(const Extremes& all) {
     for (std::size_t n = nodes_.size(); n-- > 0;) {
         for (int i = 0; i < node_width; ++i) {
             const std::uint32_t child = nodes_[n].child[i];
@@ -152,7 +158,6 @@ void TriangleTree::fit_boxes(const ParallelRunner& run) {
     extent_ = std::max({largest.x, largest.y, largest.z});
     radius_ = std::sqrt(all.squared_radius);
     magnitude_ = all.magnitude;
-    fit_turned_boxes(run);
 }
 
 TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRunner& run) const {
@@ -169,6 +174,15 @@ TriangleTree TriangleTree::refitted(const TriangleMesh& moved, const ParallelRun
 void TriangleTree::refit(const TriangleMesh& moved, const ParallelRunner& run) {
     place_triangles(moved, corner_extent(moved, run).is_single, run);
     fit_boxes(run);
+}
+
+void TriangleTree::follow(const TriangleMesh& moved) {
+    packs_.reset(ids_.size(), false);
+    for (std::size_t p = 0; p < ids_.size(); ++p) {
+        place_pack(p, moved);
+    }
+    fit_inner(fit_leaves(0, nodes_.size()));
+    turned_.assign(nodes_.size(), TurnedNode{});
 }
 
 }  // namespace tactus

@@ -100,6 +100,7 @@ struct Touch {
     Vec3 force_direction{0.0, 1.0, 0.0};  // unit; the normal, or what force shading makes of it, in the world
     double pressure = 0.0;  // penetration it holds back: the force over the stiffness (unit: meters)
     int body = -1;          // slot in the TouchScene
+    FeatureId feature;      // of the scene, now
 };
 
 struct TouchList {

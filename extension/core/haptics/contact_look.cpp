@@ -235,6 +235,7 @@ Touch ContactLook::touch_of(const Contact& contact, double pressure) const {
     touch.normal = touch.force_direction = contact.normal;
     touch.pressure = pressure;
     touch.body = static_cast<int>(part.body);
+    touch.feature = contact.feature;
     if (part.part->smooth_normals) {
         const std::uint32_t slot = contact.feature.triangle;
         const TriangleCorners t = part.part->tree()->corners(slot);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/haptics/surface_way.hpp"
+
 namespace tactus {
 
 Wall under_pad(const Wall& surface, double pad_stiffness) {
@@ -29,7 +31,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         const TouchMaterial& material = body.material;
         const Wall wall = safe_wall(safe.lag, safe.device_damping,
                                     under_pad({material.stiffness, material.damping}, safe.pad_stiffness));
-        const Vec3 surface_way = contact.point - previous_place(body, contact.point);
+        const Vec3 surface_way = way_of_surface(scene, contact);
         const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
         const double spring = wall.stiffness * contact.pressure;
         const double damper = wall.damping * approach;

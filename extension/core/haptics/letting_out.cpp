@@ -11,6 +11,10 @@ using Change = TouchScene::Change;
 // A sphere that just touches has room enough: the first step lifts it off by what is missing.
 constexpr double touching_share = 0.02;
 
+bool is_form(Change::Kind kind) {
+    return kind == Change::Kind::form || kind == Change::Kind::gives;
+}
+
 bool rests_on(const TouchingSphere& sphere, int body) {
     return std::ranges::any_of(sphere.touching, [&](const Touch& c) { return c.body == body; });
 }
@@ -30,8 +34,8 @@ bool was_inside(const TouchBody& body, const Change* change, std::uint32_t mask,
 // `change`: what has happened to the body; null where the sphere is what has changed.
 bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, const TouchingSphere& sphere,
                         WorkBudget& work) {
-    const bool rides = change && change->kind == Change::Kind::form && body.former &&
-                       is_deformation(*body.former, *body.shape);
+    const bool rides =
+        change && is_form(change->kind) && body.former && is_deformation(*body.former, *body.shape);
     if (!body.shape || (body.layer & sphere.mask) == 0 || rides) {
         return false;
     }

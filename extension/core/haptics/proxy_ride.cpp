@@ -99,6 +99,15 @@ private:
     ContactList contacts_;
 };
 
+// Nothing has happened since but that bodies give.
+bool only_gives(const TouchScene& scene, std::uint64_t since) {
+    bool gives = scene.revision() - since <= TouchScene::remembered_changes;
+    for (std::uint64_t revision = since + 1; gives && revision <= scene.revision(); ++revision) {
+        gives = scene.change(revision).kind == TouchScene::Change::Kind::gives;
+    }
+    return gives;
+}
+
 }  // namespace
 
 // Whether the force may change although neither hand nor bodies have moved.
@@ -116,7 +125,7 @@ bool Proxy::take_in_jumps() {
     if (present_) {
         let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(), surroundings_.work()));
     }
-    return true;
+    return other_sphere || other_material || !only_gives(*scene_, since);
 }
 
 // Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/haptics/surface_way.hpp"
+
 namespace tactus {
 
 namespace {
@@ -128,7 +130,7 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
             added += texture_force(body, contact);
         }
         if (material.viscosity > 0.0 || material.impact_strength > 0.0) {
-            const Vec3 carried = (contact.point - previous_place(body, contact.point)) / seconds;
+            const Vec3 carried = way_of_surface(scene, contact) / seconds;
             const Vec3 speed = hand.velocity - carried;
             added -= along_surface(speed, contact.normal) * material.viscosity;
             if (material.impact_strength > 0.0 && !ring_of(memory.rings, contact.body)) {

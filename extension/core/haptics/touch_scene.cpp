@@ -109,10 +109,23 @@ void TouchScene::begin_tick() {
 }
 
 bool TouchScene::deform(int index, const TouchShape& shape) {
-    TouchBody& body = body_at(index);
-    if (shape.parts.size() != body.shape->parts.size()) {
+    if (shape.parts.size() != body(index).shape->parts.size()) {
         return false;
     }
+    take_form(index, shape, Change::Kind::form);
+    return true;
+}
+
+bool TouchScene::give(int index, const TouchShape& shape) {
+    if (!is_deformation(*body(index).shape, shape)) {
+        return false;
+    }
+    take_form(index, shape, Change::Kind::gives);
+    return true;
+}
+
+void TouchScene::take_form(int index, const TouchShape& shape, Change::Kind kind) {
+    TouchBody& body = body_at(index);
     if (!body.former) {
         deformed_.push_back(index);
         body.former = body.shape;
@@ -124,8 +137,7 @@ bool TouchScene::deform(int index, const TouchShape& shape) {
         part.pose = compose(body.pose, shape.parts[i].pose);
         part.previous = compose(body.previous, shape.parts[i].pose);
     }
-    note_change(index, Change::Kind::form, body.pose, body.layer);
-    return true;
+    note_change(index, kind, body.pose, body.layer);
 }
 
 void TouchScene::set_pose(int index, const Pose& pose, bool teleport) {

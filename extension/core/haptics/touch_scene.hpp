@@ -60,6 +60,9 @@ public:
     // Proxies sweep along the way of the triangles that are refits of those before. False, and nothing
     // happens, where the parts are not as many.
     bool deform(int body, const TouchShape& shape);
+    // The same for a body that gives under what touches it, in every tick: no change to what is felt. False,
+    // and nothing happens, where the triangles are not refits of those before.
+    bool give(int body, const TouchShape& shape);
 
     std::size_t slots() const { return bodies_.size(); }
     std::size_t slots_in_use() const { return used_; }  // all bodies are below
@@ -75,7 +78,7 @@ public:
     // Parts of a body that was added, removed, teleported, deformed or changed its layer: what a proxy
     // remembers of them is void.
     struct Change {
-        enum class Kind : std::uint8_t { came, went, elsewhere, layer, form } kind = Kind::came;
+        enum class Kind : std::uint8_t { came, went, elsewhere, layer, form, gives } kind = Kind::came;
         std::uint32_t first_part = 0;
         std::uint32_t part_count = 0;
         int body = -1;
@@ -92,6 +95,7 @@ public:
 private:
     TouchBody& body_at(int slot) { return bodies_[static_cast<std::size_t>(slot)]; }
     int find_parts(std::size_t count) const;
+    void take_form(int body, const TouchShape& shape, Change::Kind kind);
     void note_change(int body, Change::Kind kind, const Pose& from, std::uint32_t layer_from);
 
     std::vector<TouchBody> bodies_;

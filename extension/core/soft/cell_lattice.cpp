@@ -1,0 +1,186 @@
+// A closed surface filled with cells of a lattice: every cell that it cuts or holds, each cut into the six
+// tetrahedra around its diagonal. All cells are cut alike, so that the tetrahedra of neighbours share faces.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "core/geometry/inside_test.hpp"
+#include "core/geometry/mesh_check.hpp"
+#include "core/geometry/triangle_tree.hpp"
+#include "core/soft/soft_draft.hpp"
+
+namespace tactus {
+
+namespace {
+
+constexpr int max_cells = 64;          // along a side
+constexpr int samples_a_side = 3;      // of a cell, to tell how much of it is filled
+constexpr double least_filled = 0.05;  // of a cell that the surface cuts: no node is as light as nothing
+
+// The corners from (0, 0, 0) to (1, 1, 1) along the axes in each order, wound right.
+constexpr std::array<std::array<int, 3>, 6> axis_orders{
+    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
+
+using Cell = std::array<int, 3>;
+
+class CellLattice {
+public:
+    CellLattice(const TriangleMesh& surface, int cells)
+        : surface_(surface), tree_(TriangleTree::build(surface)) {
+        low_ = Vec3(std::numeric_limits<double>::infinity());
+        Vec3 high = -low_;
+        for (const auto& triangle : surface.triangles) {
+            for (const std::uint32_t corner : triangle) {
+                low_ = glm::min(low_, surface.vertices[corner]);
+                high = glm::max(high, surface.vertices[corner]);
+            }
+        }
+        const Vec3 size = high - low_;
+        const double edge = std::max({size.x, size.y, size.z}) / cells;
+        for (int axis = 0; axis < 3; ++axis) {
+            count_[static_cast<std::size_t>(axis)] =
+                std::max(1, static_cast<int>(std::lround(size[axis] / edge)));
+            spacing_[axis] = size[axis] / count_[static_cast<std::size_t>(axis)];
+        }
+    }
+
+    bool is_flat() const { return !(spacing_.x > 0.0 && spacing_.y > 0.0 && spacing_.z > 0.0); }
+
+    SoftDraft fill(double density) {
+        add_anchors();
+        Cell cell{};
+        for (cell[2] = 0; cell[2] < count_[2]; ++cell[2]) {
+            for (cell[1] = 0; cell[1] < count_[1]; ++cell[1]) {
+                for (cell[0] = 0; cell[0] < count_[0]; ++cell[0]) {
+                    add_cell(cell);
+                }
+            }
+        }
+        add_masses(density);
+        draft_.surface = surface_;
+        return std::move(draft_);
+    }
+
+private:
+    Cell cell_of(const Vec3& place) const {
+        Cell cell{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto k = static_cast<std::size_t>(axis);
+            const int at = static_cast<int>(std::floor((place[axis] - low_[axis]) / spacing_[axis]));
+            cell[k] = std::clamp(at, 0, count_[k] - 1);
+        }
+        return cell;
+    }
+
+    Vec3 corner_place(const Cell& corner) const {
+        return low_ + spacing_ * Vec3(corner[0], corner[1], corner[2]);
+    }
+
+    std::uint32_t node_at(const Cell& corner) {
+        const auto [found, is_new] =
+            node_of_.try_emplace(corner, static_cast<std::uint32_t>(draft_.nodes.size()));
+        if (is_new) {
+            draft_.nodes.push_back(corner_place(corner));
+        }
+        return found->second;
+    }
+
+    // Along the axes in the order of how far the point is along each: that is the tetrahedron around it.
+    void add_anchors() {
+        for (const Vec3& vertex : surface_.vertices) {
+            Cell corner = cell_of(vertex);
+            cut_.insert(corner);
+            const Vec3 inside = glm::clamp((vertex - corner_place(corner)) / spacing_, Vec3(0.0), Vec3(1.0));
+            std::array<int, 3> axes{0, 1, 2};
+            std::ranges::sort(axes, [&](int a, int b) { return inside[a] > inside[b]; });
+            SoftAnchor anchor;
+            anchor.node[0] = node_at(corner);
+            anchor.weight[0] = 1.0 - inside[axes[0]];
+            for (std::size_t k = 0; k < 3; ++k) {
+                ++corner[static_cast<std::size_t>(axes[k])];
+                anchor.node[k + 1] = node_at(corner);
+                anchor.weight[k + 1] = inside[axes[k]] - (k < 2 ? inside[axes[k + 1]] : 0.0);
+            }
+            draft_.anchors.push_back(anchor);
+        }
+    }
+
+    double share_filled(const Cell& cell) const {
+        int inside = 0;
+        for (int i = 0; i < samples_a_side * samples_a_side * samples_a_side; ++i) {
+            const Vec3 share = (Vec3(i % samples_a_side, i / samples_a_side % samples_a_side,
+                                     i / (samples_a_side * samples_a_side)) +
+                                0.5) /
+                               static_cast<double>(samples_a_side);
+            WorkBudget work(1'000'000);
+            inside += tree_.winding(corner_place(cell) + spacing_ * share, work).inside() ? 1 : 0;
+        }
+        return static_cast<double>(inside) / (samples_a_side * samples_a_side * samples_a_side);
+    }
+
+    void add_cell(const Cell& cell) {
+        const double share = share_filled(cell);
+        if (share == 0.0 && !cut_.contains(cell)) {
+            return;
+        }
+        for (std::size_t k = 0; k < axis_orders.size(); ++k) {
+            Cell corner = cell;
+            Tetrahedron t{node_at(corner), 0, 0, 0};
+            for (std::size_t c = 0; c < 3; ++c) {
+                ++corner[static_cast<std::size_t>(axis_orders[k][c])];
+                t[c + 1] = node_at(corner);
+            }
+            if (k >= 3) {
+                std::swap(t[2], t[3]);
+            }
+            draft_.tetrahedra.push_back(t);
+            draft_.filled.push_back(std::max(share, least_filled));
+        }
+    }
+
+    void add_masses(double density) {
+        draft_.mass.assign(draft_.nodes.size(), 0.0);
+        for (std::size_t i = 0; i < draft_.tetrahedra.size(); ++i) {
+            const double volume = tetrahedron_volume(draft_.nodes, draft_.tetrahedra[i]) * draft_.filled[i];
+            for (const std::uint32_t corner : draft_.tetrahedra[i]) {
+                draft_.mass[corner] += 0.25 * density * volume;
+            }
+        }
+    }
+
+    const TriangleMesh& surface_;
+    TriangleTree tree_;
+    Vec3 low_{0.0};
+    Vec3 spacing_{0.0};
+    Cell count_{};
+    std::map<Cell, std::uint32_t> node_of_;
+    std::set<Cell> cut_;  // cells that hold a vertex of the surface
+    SoftDraft draft_;
+};
+
+}  // namespace
+
+CellDraft fill_with_cells(const TriangleMesh& surface, int cells, double density) {
+    if (std::string error = check_mesh(surface); !error.empty()) {
+        return {{}, std::move(error)};
+    }
+    if (cells < 1 || cells > max_cells) {
+        return {{}, "its number of cells is not between 1 and 64: set it so"};
+    }
+    if (!is_closed(surface)) {
+        return {{},
+                "its mesh is open and has no inside: close its holes and turn all its triangles alike, or "
+                "make it a sheet"};
+    }
+    CellLattice lattice(surface, cells);
+    if (lattice.is_flat()) {
+        return {{}, "its mesh has no volume: give it some thickness, or make it a sheet"};
+    }
+    return {lattice.fill(density), {}};
+}
+
+}  // namespace tactus

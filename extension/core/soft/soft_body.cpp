@@ -1,0 +1,399 @@
+#include "core/soft/soft_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+
+namespace {
+
+// No node goes faster (unit: meters per second).
+constexpr double fastest = 100.0;
+// Slower than this it is still (unit: meters per second).
+constexpr double still_speed = 2e-6;
+// Of the rotations, in each step: they go on from where they were.
+constexpr int turns_a_step = 2;
+// Rounds in which contacts that feel each other come to agree.
+constexpr int contact_rounds = 16;
+
+Lanes row_of(const Vec3& v) {
+    return Lanes{v.x, v.y, v.z, 0.0};
+}
+Vec3 vector_of(const Lanes& row) {
+    return {row[0], row[1], row[2]};
+}
+
+// Four rows of x, y, z as four lanes of each.
+LanesVec3 gathered(const std::vector<Lanes>& rows, const std::array<std::uint32_t, 4>& node) {
+    const Lanes a = rows[node[0]], b = rows[node[1]], c = rows[node[2]], d = rows[node[3]];
+    const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);   // x x z z
+    const Lanes ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);  // y y . .
+    const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+    const Lanes cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    return {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+            __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
+            __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7)};
+}
+
+// And back, added to the rows one after the other: two lanes may belong to one node.
+void scatter(std::vector<Lanes>& rows, const std::array<std::uint32_t, 4>& node, const LanesVec3& v) {
+    const Lanes none = splat(0.0);
+    const Lanes xy_low = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6);   // x0 y0 x2 y2
+    const Lanes xy_high = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);  // x1 y1 x3 y3
+    const Lanes z_low = __builtin_shufflevector(v.z, none, 0, 4, 2, 6);   // z0 0 z2 0
+    const Lanes z_high = __builtin_shufflevector(v.z, none, 1, 5, 3, 7);
+    rows[node[0]] += __builtin_shufflevector(xy_low, z_low, 0, 1, 4, 5);
+    rows[node[1]] += __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5);
+    rows[node[2]] += __builtin_shufflevector(xy_low, z_low, 2, 3, 6, 7);
+    rows[node[3]] += __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7);
+}
+
+LanesVec3 scaled_sum(const LanesVec3& a, Lanes p, const LanesVec3& b, Lanes q) {
+    return {multiply_add(a.x, p, b.x * q), multiply_add(a.y, p, b.y * q), multiply_add(a.z, p, b.z * q)};
+}
+
+LanesMat3 deformation_of(const std::vector<Lanes>& places, const TetGroup& group) {
+    const LanesVec3 origin = gathered(places, group.node[0]);
+    const LanesVec3 first = gathered(places, group.node[1]) - origin;
+    const LanesVec3 second = gathered(places, group.node[2]) - origin;
+    const LanesVec3 third = gathered(places, group.node[3]) - origin;
+    const auto column = [&](Lanes a, Lanes b, Lanes c) {
+        return along(along(first * a, second, b), third, c);
+    };
+    return {column(group.gradient[0].x, group.gradient[1].x, group.gradient[2].x),
+            column(group.gradient[0].y, group.gradient[1].y, group.gradient[2].y),
+            column(group.gradient[0].z, group.gradient[1].z, group.gradient[2].z)};
+}
+
+struct SpringState {
+    LanesVec3 sum;  // e
+    Lanes length;   // |e|
+};
+
+SpringState state_of(const std::vector<Lanes>& places, const SpringGroup& group) {
+    LanesVec3 sum = gathered(places, group.node[0]) * group.share[0];
+    for (std::size_t c = 1; c < 4; ++c) {
+        sum = along(sum, gathered(places, group.node[c]), group.share[c]);
+    }
+    return {sum, lanes_sqrt(dot(sum, sum))};
+}
+
+}  // namespace
+
+SoftBody::SoftBody(std::shared_ptr<const SoftModel> model) : model_(std::move(model)) {
+    const std::size_t count = model_->rest.size();
+    for (std::vector<Lanes>* rows : {&place_, &velocity_, &next_, &inertial_, &seen_, &right_, &answers_}) {
+        rows->assign(count, splat(0.0));
+    }
+    turn_.resize(model_->tetrahedra.size());
+    answer_.resize(count);
+    reset();
+}
+
+void SoftBody::reset() {
+    for (std::size_t i = 0; i < place_.size(); ++i) {
+        place_[i] = row_of(model_->rest[i]);
+        velocity_[i] = splat(0.0);
+    }
+    std::ranges::fill(turn_, no_turn_lanes());
+    still_ticks_ = 0;
+}
+
+void SoftBody::put(std::size_t node, const Vec3& place, const Vec3& velocity) {
+    place_[node] = row_of(place);
+    velocity_[node] = row_of(velocity);
+    wake();
+}
+
+void SoftBody::write_surface(std::span<Vec3> out) const {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const SoftAnchor& anchor = model_->anchors[i];
+        Lanes place = splat(0.0);
+        for (std::size_t k = 0; k < 4; ++k) {
+            place = multiply_add(place_[anchor.node[k]], splat(anchor.weight[k]), place);
+        }
+        out[i] = vector_of(place);
+    }
+}
+
+Vec3 SoftBody::surface_point(std::uint32_t triangle, const Vec3& weights) const {
+    Lanes place = splat(0.0);
+    for (int corner = 0; corner < 3; ++corner) {
+        const SoftAnchor& anchor =
+            model_->anchors[model_->surface.triangles[triangle][static_cast<std::size_t>(corner)]];
+        for (std::size_t k = 0; k < 4; ++k) {
+            place = multiply_add(place_[anchor.node[k]], splat(anchor.weight[k] * weights[corner]), place);
+        }
+    }
+    return vector_of(place);
+}
+
+// F0 + k (h - u) - c (v - v0) as k' (s - u): the damper sees the way of the step over its time.
+void SoftBody::begin_contacts(std::span<const SoftPush> pushes) {
+    contact_count_ = 0;
+    for (const SoftPush& push : pushes.first(std::min(pushes.size(), max_pushes))) {
+        Contact& contact = contacts_[contact_count_++];
+        const double seconds = model_->seconds;
+        contact.stiffness = push.stiffness + push.damping / seconds;
+        contact.sticks = push.sticks;
+        contact.direction = push.force / std::max(glm::length(push.force), 1e-300);
+        contact.force = push.force;
+        Vec3 point_velocity(0.0);
+        for (std::size_t i = 0; i < corners_of_push; ++i) {
+            const std::size_t corner = i / 4;
+            const SoftAnchor& anchor = model_->anchors[model_->surface.triangles[push.triangle][corner]];
+            const std::uint32_t node = anchor.node[i % 4];
+            const double weight = anchor.weight[i % 4] * push.weights[static_cast<int>(corner)];
+            contact.node[i] = node;
+            contact.weight[i] = model_->held[node] != 0 ? 0.0 : weight;
+            point_velocity += contact.weight[i] * vector_of(velocity_[node]);
+        }
+        contact.slack =
+            (push.force + push.stiffness * seconds * push.hand_velocity + push.damping * point_velocity) /
+            contact.stiffness;
+    }
+}
+
+// How every node goes by a unit force at each contact, and what the contacts see of that: the same along x, y
+// and z, since the matrix is.
+void SoftBody::find_compliance() {
+    for (std::size_t begin = 0; begin < contact_count_; begin += 4) {
+        const std::size_t end = std::min(contact_count_, begin + 4);
+        std::ranges::fill(answers_, splat(0.0));
+        for (std::size_t c = begin; c < end; ++c) {
+            for (std::size_t i = 0; i < corners_of_push; ++i) {
+                answers_[contacts_[c].node[i]][c - begin] += contacts_[c].weight[i];
+            }
+        }
+        model_->factor.solve(answers_);
+        for (std::size_t n = 0; n < answers_.size(); ++n) {
+            for (std::size_t c = begin; c < end; ++c) {
+                answer_[n][c] = answers_[n][c - begin];
+            }
+        }
+    }
+    for (std::size_t c = 0; c < contact_count_; ++c) {
+        for (std::size_t d = 0; d < contact_count_; ++d) {
+            compliance_[c][d] = 0.0;
+            for (std::size_t i = 0; i < corners_of_push; ++i) {
+                compliance_[c][d] += contacts_[c].weight[i] * answer_[contacts_[c].node[i]][d];
+            }
+        }
+    }
+}
+
+// f = -dE/dx: with b = lambda V (tr(R^T F) - 3) - 2 mu V, the stress times the volume is 2 mu V F + b R.
+void SoftBody::add_tetrahedra() {
+    for (std::size_t g = 0; g < turn_.size(); ++g) {
+        const TetGroup& group = model_->tetrahedra[g];
+        const LanesMat3 f = deformation_of(seen_, group);
+        for (int i = 0; i < turns_a_step; ++i) {
+            turn_[g] = turned_towards(turn_[g], f);
+        }
+        const LanesMat3 r = matrix_of(turn_[g]);
+        const Lanes b = multiply_subtract(group.bulk, common_trace(r, f) - splat(3.0), group.shear);
+        const LanesMat3 stress{scaled_sum(f.x, group.shear, r.x, b), scaled_sum(f.y, group.shear, r.y, b),
+                               scaled_sum(f.z, group.shear, r.z, b)};
+        LanesVec3 sum = splat(Vec3(0.0));
+        for (std::size_t c = 0; c < 3; ++c) {
+            const LanesVec3& gradient = group.gradient[c];
+            const LanesVec3 back =
+                along(along(stress.x * gradient.x, stress.y, gradient.y), stress.z, gradient.z);
+            scatter(right_, group.node[c + 1], back * splat(-1.0));
+            sum = sum + back;
+        }
+        scatter(right_, group.node[0], sum);
+    }
+}
+
+void SoftBody::add_springs() {
+    for (const SpringGroup& group : model_->springs) {
+        const SpringState spring = state_of(seen_, group);
+        const Lanes rest = group.length / lanes_max(spring.length, splat(1e-12));
+        const LanesVec3 pull = spring.sum * (group.stiffness * (rest - splat(1.0)));
+        for (std::size_t c = 0; c < 4; ++c) {
+            scatter(right_, group.node[c], pull * group.share[c]);
+        }
+    }
+}
+
+Vec3 SoftBody::way_of(const Contact& contact) const {
+    Lanes way = splat(0.0);
+    for (std::size_t i = 0; i < corners_of_push; ++i) {
+        const std::uint32_t node = contact.node[i];
+        way = multiply_add(next_[node] - place_[node], splat(contact.weight[i]), way);
+    }
+    return vector_of(way);
+}
+
+// Each contact in turn: what its spring presses with where its point comes to be, given what the others do.
+void SoftBody::press_contacts() {
+    std::array<Vec3, max_pushes> free{};
+    for (std::size_t c = 0; c < contact_count_; ++c) {
+        free[c] = way_of(contacts_[c]);
+    }
+    const int rounds = contact_count_ > 1 ? contact_rounds : 1;
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t c = 0; c < contact_count_; ++c) {
+            Contact& contact = contacts_[c];
+            Vec3 left = contact.slack - free[c];
+            for (std::size_t d = 0; d < contact_count_; ++d) {
+                left -= d == c ? Vec3(0.0) : contacts_[d].force * compliance_[c][d];
+            }
+            const double softness = 1.0 / contact.stiffness + compliance_[c][c];
+            const double along = glm::dot(left, contact.direction);
+            const Vec3 pressing = contact.sticks ? left : contact.direction * along;
+            contact.force = along > 0.0 ? pressing / softness : Vec3(0.0);
+        }
+    }
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        Vec3 way(0.0);
+        for (std::size_t c = 0; c < contact_count_; ++c) {
+            way += contacts_[c].force * answer_[n][c];
+        }
+        next_[n] += row_of(way);
+    }
+}
+
+// One step towards where G is least. Elastic forces are taken ahead of x' by what damping sees, tau v'.
+void SoftBody::iterate() {
+    const SoftModel& model = *model_;
+    const double inverse_square = 1.0 / (model.seconds * model.seconds);
+    const Lanes ahead = splat(model.material.damping / model.seconds);
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        seen_[n] = multiply_add(next_[n] - place_[n], ahead, next_[n]);
+        right_[n] = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
+    }
+    add_tetrahedra();
+    add_springs();
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        right_[n] = model.held[n] != 0 ? splat(0.0) : right_[n];
+    }
+    model.factor.solve(right_);
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        next_[n] += right_[n];
+    }
+    if (contact_count_ > 0) {
+        press_contacts();
+    }
+}
+
+// Vertices that have entered are put back onto the surface, their nodes by their share and the less the
+// heavier they are; along it they stick as long as friction bears it.
+void SoftBody::keep_out(SoftObstacle& obstacle) {
+    const SoftModel& model = *model_;
+    for (const SoftAnchor& anchor : model.anchors) {
+        Lanes place = splat(0.0), before = splat(0.0);
+        double give = 0.0;  // way of the vertex by a unit impulse over a unit time
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t node = anchor.node[k];
+            place = multiply_add(next_[node], splat(anchor.weight[k]), place);
+            before = multiply_add(place_[node], splat(anchor.weight[k]), before);
+            give += model.held[node] != 0 ? 0.0 : anchor.weight[k] * anchor.weight[k] / model.mass[node];
+        }
+        const Vec3 local = to_local(obstacle.pose, vector_of(place));
+        const SolidDistance found = distance_to_solid(*obstacle.solid, local);
+        if (found.distance >= 0.0 || give <= 0.0) {
+            continue;
+        }
+        const Vec3 normal = direction_to_parent(obstacle.pose, found.normal);
+        const Vec3 carried = to_parent(obstacle.pose, to_local(obstacle.previous, vector_of(before)));
+        const Vec3 slipped = vector_of(place) - carried;
+        const Vec3 across = slipped - normal * glm::dot(slipped, normal);
+        const double most = obstacle.friction * -found.distance;
+        const double length = glm::length(across);
+        const Vec3 held = across * (length > most ? most / length : 1.0);
+        const double share = give / (give + obstacle.inverse_mass);
+        const Vec3 back = (normal * -found.distance - held) * share;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t node = anchor.node[k];
+            if (model.held[node] == 0) {
+                next_[node] += row_of(back * (anchor.weight[k] / (model.mass[node] * give)));
+            }
+        }
+        const Vec3 impulse = back * (-1.0 / (give * model.seconds));
+        obstacle.impulse += impulse;
+        obstacle.turn += glm::cross(vector_of(place) - obstacle.pose.position, impulse);
+    }
+}
+
+// False where it has left the range of numbers.
+bool SoftBody::finish() {
+    const SoftModel& model = *model_;
+    const double farthest = 1e3 * model.size + 1e3;
+    const double rate = 1.0 / model.seconds;
+    const double kept = std::max(0.0, 1.0 - model.material.drag * model.seconds);
+    double quickest = 0.0;
+    bool sound = true;
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        Vec3 velocity = (vector_of(next_[n]) - vector_of(place_[n])) * rate;
+        const double speed = glm::length(velocity);
+        velocity *= speed > fastest ? fastest / speed : 1.0;
+        sound = sound && std::isfinite(speed) && glm::length(vector_of(next_[n])) <= farthest;
+        quickest = std::max(quickest, speed);
+        place_[n] = speed > fastest ? place_[n] + row_of(velocity * model.seconds) : next_[n];
+        velocity_[n] = row_of(velocity * kept);
+    }
+    still_ticks_ = quickest > still_speed || contact_count_ > 0 ? 0 : still_ticks_ + 1;
+    return sound;
+}
+
+std::uint32_t SoftBody::step(const Vec3& gravity, std::span<const SoftPush> pushes,
+                             std::span<SoftObstacle> obstacles) {
+    if (!pushes.empty()) {
+        wake();
+    }
+    if (is_asleep()) {
+        return 0;
+    }
+    const Lanes seconds = splat(model_->seconds);
+    const Lanes fall = row_of(gravity * (model_->seconds * model_->seconds));
+    for (std::size_t n = 0; n < next_.size(); ++n) {
+        next_[n] = model_->held[n] != 0 ? place_[n] : multiply_add(velocity_[n], seconds, place_[n]);
+        inertial_[n] = next_[n] + fall;
+    }
+    begin_contacts(pushes);
+    find_compliance();
+    for (int i = 0; i < iterations; ++i) {
+        iterate();
+    }
+    for (SoftObstacle& obstacle : obstacles) {
+        keep_out(obstacle);
+    }
+    if (finish()) {
+        return 0;
+    }
+    reset();
+    return soft_lost;
+}
+
+SoftEnergy SoftBody::energy() const {
+    SoftEnergy energy;
+    for (std::size_t n = 0; n < place_.size(); ++n) {
+        const Vec3 velocity = vector_of(velocity_[n]);
+        energy.kinetic += 0.5 * model_->mass[n] * glm::dot(velocity, velocity);
+    }
+    const auto add = [&](const Lanes& values) {
+        energy.elastic += values[0] + values[1] + values[2] + values[3];
+    };
+    for (std::size_t g = 0; g < turn_.size(); ++g) {
+        const TetGroup& group = model_->tetrahedra[g];
+        const LanesMat3 f = deformation_of(place_, group);
+        LanesQuat turn = turn_[g];
+        for (int i = 0; i < 4 * turns_a_step; ++i) {
+            turn = turned_towards(turn, f);
+        }
+        const LanesMat3 r = matrix_of(turn);
+        const LanesMat3 d{f.x - r.x, f.y - r.y, f.z - r.z};
+        const Lanes change = common_trace(r, f) - splat(3.0);
+        add(splat(0.5) * (group.shear * common_trace(d, d) + group.bulk * change * change));
+    }
+    for (const SpringGroup& group : model_->springs) {
+        const Lanes longer = state_of(place_, group).length - group.length;
+        add(splat(0.5) * group.stiffness * longer * longer);
+    }
+    return energy;
+}
+
+}  // namespace tactus

@@ -1,0 +1,103 @@
+// Bodies that give, in the loop: what presses them, what they lie on, and the form that they take.
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "session/session_loop.hpp"
+
+namespace tactus {
+
+namespace {
+
+// What is farther than this is no obstacle until it is looked for again (unit: meters).
+constexpr double near_enough = 0.1;
+constexpr std::uint64_t ticks_between_looks = 16;
+
+}  // namespace
+
+// Over a link nothing is told of a body's form: there it stays as it is at rest.
+void SessionLoop::take_soft_forms() {
+    for (const SessionHandle handle : giving_) {
+        Body& giving = bodies_[handle];
+        if (giving.soft->take_form()) {
+            scene_.give(giving.slot, giving.soft->form());
+        }
+    }
+}
+
+// Solids alone, of what has a layer that the body lies on: a mesh takes too long to ask for every vertex.
+void SessionLoop::find_obstacles(const Body& giving) {
+    SoftSlot& soft = *giving.soft;
+    soft.obstacle_count = 0;
+    const ScenePart& own = scene_.parts()[scene_.body(giving.slot).first_part];
+    const Vec3 center = to_parent(own.pose, own.part->center);
+    for (std::size_t i = 0; i < scene_.slots_in_use(); ++i) {
+        const TouchBody& other = scene_.body(static_cast<int>(i));
+        const bool is_solid =
+            other.shape && static_cast<int>(i) != giving.slot && (other.layer & soft.mask) != 0;
+        for (std::size_t part = 0; is_solid && part < other.shape->parts.size(); ++part) {
+            const TouchPart& surface = other.shape->parts[part];
+            const double distance =
+                glm::distance(to_parent(compose(other.pose, surface.pose), surface.center), center);
+            if (!surface.tree() && distance <= surface.radius + own.part->radius + near_enough &&
+                soft.obstacle_count < SoftSlot::max_obstacles) {
+                soft.near[soft.obstacle_count++] = {static_cast<int>(i), part};
+            }
+        }
+    }
+}
+
+// Where they are after the physics step, in the frame of the body. True where one of them has moved.
+bool SessionLoop::place_obstacles(const Body& giving) {
+    SoftSlot& soft = *giving.soft;
+    const Pose into = inverse(scene_.body(giving.slot).pose);
+    bool moved = false;
+    for (std::size_t i = 0; i < soft.obstacle_count; ++i) {
+        const TouchBody& other = scene_.body(soft.near[i].body);
+        const Body& owner = bodies_[handle_of_slot_[static_cast<std::size_t>(soft.near[i].body)]];
+        const TouchPart& part = other.shape->parts[soft.near[i].part];
+        const bool is_still = owner.motion == Motion::Static;
+        const Pose now = is_still ? other.pose : physics_.pose(owner.id);
+        moved = moved || now.position != other.pose.position || now.rotation != other.pose.rotation;
+        soft.obstacles[i] = {&part.solid(), compose(into, compose(now, part.pose)),
+                             compose(into, compose(other.pose, part.pose)),
+                             soft.body.model().material.friction,
+                             owner.motion == Motion::Dynamic ? 1.0 / physics_.mass(owner.id) : 0.0};
+    }
+    return moved;
+}
+
+// What it pushes back goes to the bodies that move, in their next step.
+void SessionLoop::push_obstacles(const Body& giving) {
+    const SoftSlot& soft = *giving.soft;
+    const Pose at = scene_.body(giving.slot).pose;
+    for (std::size_t i = 0; i < soft.obstacle_count; ++i) {
+        const SoftObstacle& obstacle = soft.obstacles[i];
+        const Body& owner = bodies_[handle_of_slot_[static_cast<std::size_t>(soft.near[i].body)]];
+        if (owner.motion == Motion::Dynamic && obstacle.impulse != Vec3(0.0)) {
+            physics_.apply_force(owner.id, direction_to_parent(at, obstacle.impulse) / seconds_,
+                                 to_parent(at, obstacle.pose.position));
+            physics_.apply_torque(owner.id, direction_to_parent(at, obstacle.turn) / seconds_);
+        }
+    }
+}
+
+// A twin has what this loop has, and would go on from another form.
+void SessionLoop::step_soft() {
+    if (twin()) {
+        return;
+    }
+    for (const SessionHandle handle : giving_) {
+        const Body& giving = bodies_[handle];
+        if ((tick_ + handle) % ticks_between_looks == 0 || giving.soft->obstacle_count == 0) {
+            find_obstacles(giving);
+        }
+        if (place_obstacles(giving)) {
+            giving.soft->body.wake();
+        }
+        const std::uint32_t status = giving.soft->step(scene_.body(giving.slot).pose, gravity_);
+        status_ |= status & soft_lost ? static_cast<TickStatus>(session_body_lost) : 0u;
+        push_obstacles(giving);
+    }
+}
+
+}  // namespace tactus

@@ -1,0 +1,58 @@
+// A body that gives, in the loop: its two last forms as they are touched, what presses it in this tick, and
+// what it lies on. Made off the loop, private to session/.
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "core/geometry/touch_shape.hpp"
+#include "core/soft/soft_body.hpp"
+#include "physics/physics_world.hpp"
+#include "session/session_types.hpp"
+#include "session/soft_view.hpp"
+
+namespace tactus {
+
+// What is touched of one at rest.
+std::shared_ptr<TouchShape> soft_touch_shape(const SoftModel& model, const ParallelRunner& run);
+
+class SoftSlot {
+public:
+    static constexpr std::size_t max_obstacles = 16;
+    struct Obstacle {
+        int body = -1;         // slot in the touch scene
+        std::size_t part = 0;  // of its shape
+    };
+
+    // `view` may be null: nobody draws it. `mask`: layers that it lies on.
+    SoftSlot(std::shared_ptr<const SoftModel> model, std::shared_ptr<SoftView> view, std::uint32_t mask,
+             const ParallelRunner& run);
+
+    SoftBody body;
+    std::uint32_t mask;
+
+    // Its form as it was touched last, and the one that it takes next: true where that is another one.
+    const TouchShape& form() const { return forms_[shown_]; }
+    bool take_form();
+
+    // A hand presses it where it is touched, in this tick. `at` is the body's place, `touch` of its surface.
+    void press(const Pose& at, const Touch& touch, const SpringForce& spring);
+    // What presses it does so in one step from here. `gravity` in the world.
+    std::uint32_t step(const Pose& at, const Vec3& gravity);
+
+    std::array<Obstacle, max_obstacles> near{};
+    std::array<SoftObstacle, max_obstacles> obstacles{};
+    std::size_t obstacle_count = 0;
+
+private:
+    std::array<TouchShape, 2> forms_;
+    std::array<std::shared_ptr<TriangleTree>, 2> trees_;  // of the forms
+    std::size_t shown_ = 0;
+    bool moved_ = false;  // since the form that is shown
+    TriangleMesh surface_;
+    std::shared_ptr<SoftView> view_;
+    std::array<SoftPush, SoftBody::max_pushes> pushes_;
+    std::size_t push_count_ = 0;
+};
+
+}  // namespace tactus

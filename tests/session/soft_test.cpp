@@ -1,0 +1,237 @@
+// Bodies that give, touched.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "core/math/bit_hash.hpp"
+#include "session_rig.hpp"
+#include "shared/meshes.hpp"
+#include "shared/soft_figures.hpp"
+#include "support/realtime_audit.hpp"
+
+namespace tactus {
+namespace {
+
+using session_test::body;
+using session_test::ground;
+using session_test::SessionRig;
+using shared::distance_to_surface;
+using shared::winds_around;
+
+constexpr double radius = 0.01;
+
+struct SoftRig : SessionRig {
+    std::shared_ptr<const SoftModel> model;
+    std::shared_ptr<SoftView> view;
+    SessionHandle handle = no_handle;
+
+    // A block of 80 mm on the floor, its middle at the given height.
+    SoftRig(const SoftMaterial& material, const HeldParts& held, double height = 0.04,
+            double friction = 0.0) {
+        add(ground());
+        const SoftModelResult made =
+            make_soft_volume(shared::grid_box(Vec3(0.04), 6), 6, material, held, 1e-3);
+        EXPECT_EQ(made.error, "");
+        model = made.model;
+        view = std::make_shared<SoftView>(model->surface.vertices);
+        BodyAddition addition;
+        addition.description.pose.position = Vec3(0.0, height, 0.0);
+        addition.touch_material = {500.0, 0.0, friction, friction};
+        addition.soft = model;
+        addition.soft_view = view;
+        handle = add(addition);
+        device.position = Vec3(0.0, height + 0.06, 0.0);
+    }
+
+    // As it is now, in the world.
+    TriangleMesh surface(double height = 0.04) {
+        view->refresh();
+        TriangleMesh mesh = model->surface;
+        for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+            mesh.vertices[i] = view->places()[i] + Vec3(0.0, height, 0.0);
+        }
+        return mesh;
+    }
+};
+
+const HeldParts foot{Vec3(-1.0), Vec3(1.0, -0.039, 1.0), {}};
+
+TEST(Soft, ABlockGivesUnderAHandWhichNeverEntersIt) {
+    SoftRig rig({.stiffness = 1e4}, foot);
+    rig.session.set_gravity(Vec3(0.0));
+    rig.ticks(10);
+    double deepest = 1.0;
+    for (int i = 0; i < 300; ++i) {
+        rig.draw(rig.device.position + Vec3(0.0, i < 150 ? -2e-4 : 2e-4, 0.0), 1);
+        const TriangleMesh surface = rig.surface();
+        const ProxyState& state = rig.proxy_state();
+        ASSERT_FALSE(winds_around(surface, state.position)) << i;
+        ASSERT_GT(distance_to_surface(surface, state.position), 0.8 * radius) << i;
+        deepest = std::min(deepest, state.position.y - radius);
+        ASSERT_LT(std::abs(state.force.x) + std::abs(state.force.z), 0.3 * glm::length(state.force) + 1e-3);
+    }
+    EXPECT_LT(deepest, 0.075);  // it gave by 5 mm and more
+    EXPECT_EQ(rig.proxy_state().contact_count, 0);
+    rig.ticks(3000);
+    const TriangleMesh after = rig.surface();
+    for (std::size_t i = 0; i < after.vertices.size(); ++i) {
+        ASSERT_LT(glm::distance(after.vertices[i], rig.model->surface.vertices[i] + Vec3(0.0, 0.04, 0.0)),
+                  1e-4);
+    }
+}
+
+// At rest the hand's spring and the block are in series: the force is k times what the hand is beyond the
+// surface by, and it is the same in the tick after.
+TEST(Soft, HeldInItPressesSteadily) {
+    SoftRig rig({.stiffness = 1e4, .damping = 0.01}, foot);
+    rig.draw(Vec3(0.0, 0.07, 0.0), 200);
+    rig.ticks(2000);
+    const ProxyState held = rig.proxy_state();
+    EXPECT_NEAR(held.force.y, 500.0 * (held.position.y - held.hand.y), 1e-6);
+    EXPECT_GT(held.force.y, 0.5);
+    rig.ticks(500);
+    EXPECT_NEAR(rig.proxy_state().force.y, held.force.y, 1e-4);
+    EXPECT_NEAR(rig.device.force.y, held.force.y, 1e-4);
+}
+
+// What the hand gives a block that floats freely, the block has: both sides feel opposite forces.
+TEST(Soft, WhatAHandGivesItHas) {
+    SoftRig rig({.stiffness = 1e5, .damping = 0.005, .drag = 0.0}, {}, 1.0);
+    rig.session.set_gravity(Vec3(0.0));
+    double given = 0.0;  // against its way (unit: newton seconds)
+    for (int i = 0; i < 400; ++i) {
+        rig.draw(rig.device.position - Vec3(0.0, 2e-4, 0.0), 1);
+        given += 1e-3 * rig.proxy_state().force.y;
+    }
+    const auto mean = [](const TriangleMesh& mesh) {
+        Vec3 sum(0.0);
+        for (const Vec3& vertex : mesh.vertices) {
+            sum += vertex;
+        }
+        return sum / static_cast<double>(mesh.vertices.size());
+    };
+    const Vec3 before = mean(rig.surface());
+    rig.device.position.y = 2.0;
+    rig.device.velocity = Vec3(0.0);
+    rig.ticks(101);
+    const Vec3 speed = (mean(rig.surface()) - before) / 0.101;
+    EXPECT_NEAR(-speed.y * rig.model->total_mass(), given, 0.05 * given);
+    EXPECT_GT(given, 0.01);
+}
+
+// A finger that sticks takes the surface along and is held back by what that costs; a smooth one slides.
+TEST(Soft, FrictionDragsItsSurfaceAlong) {
+    SoftRig smooth({.stiffness = 2e4}, foot, 0.04, 0.0), rough({.stiffness = 2e4}, foot, 0.04, 0.8);
+    double held_back[2];
+    double* out = held_back;
+    for (SoftRig* rig : {&smooth, &rough}) {
+        rig->draw(Vec3(0.0, 0.08, 0.0), 100);
+        rig->draw(Vec3(0.005, 0.08, 0.0), 200);
+        rig->ticks(500);
+        *out++ = -rig->proxy_state().force.x;
+    }
+    EXPECT_LT(std::abs(held_back[0]), 0.3);  // its facets
+    EXPECT_GT(held_back[1], 1.5 * held_back[0]);
+}
+
+TEST(Soft, ABlockThatFallsComesToRestOnTheGround) {
+    SoftRig rig({.stiffness = 5e4, .damping = 0.005}, {}, 0.1);
+    rig.device.position = Vec3(0.0, 1.0, 0.0);
+    rig.ticks(4000);
+    double lowest = 1.0;
+    for (const Vec3& vertex : rig.surface(0.1).vertices) {
+        lowest = std::min(lowest, vertex.y);
+    }
+    EXPECT_NEAR(lowest, 0.0, 1e-4);
+}
+
+TEST(Soft, ABoxLiesOnABlock) {
+    SoftRig rig({.stiffness = 2e4, .damping = 0.01}, foot);
+    rig.device.position = Vec3(0.0, 1.0, 0.0);
+    const SessionHandle box = rig.add(body(BoxShape{Vec3(0.03)}, Vec3(0.0, 0.13, 0.0), Motion::Dynamic, 0.2));
+    rig.ticks(3000);
+    const BodyState* const state = rig.state_of(box);
+    ASSERT_NE(state, nullptr);
+    EXPECT_NEAR(state->pose.position.y, 0.11, 0.01);
+    EXPECT_LT(glm::length(state->linear_velocity), 0.02);
+}
+
+TEST(Soft, ATickAllocatesLocksAndCallsNothing) {
+    SoftRig rig({.stiffness = 1e4}, foot);
+    rig.ticks(20);
+    rig.newest();
+    testing::AuditScope audit;
+    for (int i = 0; i < 400; ++i) {
+        rig.device.position.y += i < 200 ? -1.5e-4 : 1.5e-4;
+        rig.session.tick(rig.now += session_test::period);
+    }
+    audit.finish();
+    EXPECT_EQ(audit.allocations() + audit.frees(), 0u) << audit.describe();
+    EXPECT_EQ(audit.locks() + audit.waits() + audit.system_calls(), 0u) << audit.describe();
+}
+
+TEST(Soft, TheSameTouchesGiveTheSameBits) {
+    std::uint64_t hashes[2];
+    for (std::uint64_t& hash : hashes) {
+        SoftRig rig({.stiffness = 1e4}, {}, 0.045);
+        BitHash bits;
+        for (int i = 0; i < 500; ++i) {
+            rig.draw(rig.device.position + Vec3(2e-5, i < 300 ? -1.5e-4 : 1e-4, 1e-5), 1);
+            bits.add(rig.proxy_state().force);
+        }
+        hash = bits.value();
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+TEST(Soft, ItCanBeTakenOutWhileItIsTouched) {
+    SoftRig rig({.stiffness = 1e4}, foot);
+    rig.draw(Vec3(0.0, 0.075, 0.0), 100);
+    EXPECT_GT(rig.proxy_state().contact_count, 0);
+    rig.session.remove_body(rig.handle);
+    rig.ticks(10);
+    rig.session.collect();
+    EXPECT_EQ(rig.proxy_state().contact_count, 0);
+}
+
+// A force that may jump fades in over many ticks: on what gives, the hand's own way makes it, tick by tick.
+TEST(Soft, TheForceFollowsTheHandWithoutFading) {
+    SoftRig rig({.stiffness = 3e4}, foot);
+    rig.draw(Vec3(0.0, 0.085, 0.0), 50);
+    double before = rig.proxy_state().force.y, largest = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        rig.draw(rig.device.position - Vec3(0.0, 1e-4, 0.0), 1);
+        const ProxyState& state = rig.proxy_state();
+        EXPECT_NEAR(state.force.y, 500.0 * (state.position.y - state.hand.y), 1e-6) << i;
+        largest = std::max(largest, std::abs(state.force.y - before));
+        before = state.force.y;
+    }
+    EXPECT_LT(largest, 0.06);
+}
+
+TEST(Soft, AClothIsNotPassed) {
+    SessionRig rig;
+    const SoftModelResult made = make_soft_sheet(
+        shared::terrain(15, 0.3, 0.0), {.stiffness = 1e6, .density = 300.0, .thickness = 1e-3},
+        {Vec3(-1.0, -1.0, -1.0), Vec3(-0.149, 1.0, 1.0), {15, 255}}, 1e-3);
+    ASSERT_EQ(made.error, "");
+    auto view = std::make_shared<SoftView>(made.model->surface.vertices);
+    BodyAddition addition;
+    addition.touch_material = {500.0, 0.0, 0.0, 0.0};
+    addition.soft = made.model;
+    addition.soft_view = view;
+    rig.device.position = Vec3(0.0, 0.05, 0.0);
+    rig.add(addition);
+    rig.ticks(500);
+    for (int i = 0; i < 400; ++i) {
+        rig.draw(rig.device.position + Vec3(0.0, i < 200 ? -3e-4 : 3e-4, 0.0), 1);
+        view->refresh();
+        TriangleMesh mesh = made.model->surface;
+        mesh.vertices = view->places();
+        ASSERT_GT(shared::height_above(mesh, rig.proxy_state().position), 0.5 * radius) << i;
+    }
+}
+
+}  // namespace
+}  // namespace tactus
