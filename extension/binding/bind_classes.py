@@ -41,7 +41,7 @@ VARIANT_TYPES = {
     "Array": "ARRAY", "PackedStringArray": "PACKED_STRING_ARRAY", "PackedVector3Array": "PACKED_VECTOR3_ARRAY",
     "PackedFloat32Array": "PACKED_FLOAT32_ARRAY", "PackedFloat64Array": "PACKED_FLOAT64_ARRAY",
 }  # fmt: skip
-RESOURCES = {"HapticField", "HapticGuide", "HapticMaterial", "HapticPath", "NetworkConditions", "TeleopTuning", "Mesh", "Texture2D"}
+RESOURCES = {"Curve3D", "HapticField", "HapticGuide", "HapticMaterial", "HapticPath", "NetworkConditions", "TeleopTuning", "Mesh", "Texture2D"}
 
 OWN_ATTRIBUTES = {
     "class": ["header", "includes", "changed"],
