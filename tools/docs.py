@@ -16,7 +16,7 @@ from setup import cache
 # Pages by the heading they stand under beside every page. README.md is the first page.
 CONTENTS = {
     "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera"],
-    "Research": ["tutorials/own_experiment", "experiments", "teleoperation"],
+    "Research": ["tutorials/own_experiment", "experiments", "bundles", "teleoperation"],
     "Extend": ["tutorials/own_driver", "wire_format"],
     "Reference": ["classes/index"],
     "How it works": ["proxy", "tool", "physics", "devices", "sensing", "discovery", "tolerances", "stress"],

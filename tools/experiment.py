@@ -1,5 +1,6 @@
 """./run experiment NAME [--key=value …]: calls run(options, output) of tools/experiments/NAME.py.
 ./run experiment SWEEPFILE [--cluster=ADDRESS] [--workers=N]: plays many of them (sweeps/command.py).
+./run experiment BUNDLE: plays one again that has left its inputs (measuring/bundles.py).
 
 `options` holds the keys and values as text, `output` is build/experiments/NAME, emptied before; NAME_real where an
 experiment in virtual time is asked for real time. run returns the flat summary, which is written to summary.json there.
@@ -11,6 +12,8 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
+import replay
+from measuring import bundles
 from setup import cache
 from sweeps import command as sweep
 from sweeps import description
@@ -22,9 +25,14 @@ def names() -> list[str]:
 
 def main(arguments: list[str]) -> int:
     is_sweep = bool(arguments) and arguments[0].endswith(description.ENDINGS)
+    if len(arguments) == 1 and arguments[0] not in names() and replay.is_bundle(Path(arguments[0])):
+        bundle = Path(arguments[0]).resolve()
+        output = cache.emptied(cache.clone() / "build/experiments" / f"{bundle.name}_again")
+        return _write_summary(bundles.run(bundle, output), output)
     if not arguments or not (is_sweep or arguments[0] in names()):
         print(f"./run experiment NAME [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
         print("./run experiment SWEEPFILE [--cluster=ADDRESS] [--workers=N], where SWEEPFILE ends in .toml or .json", file=sys.stderr)
+        print("./run experiment BUNDLE, where BUNDLE is a folder that an experiment has left", file=sys.stderr)
         return 2
     name, *rest = arguments
     malformed = [argument for argument in rest if not argument.startswith("--") or "=" not in argument]
@@ -37,9 +45,13 @@ def main(arguments: list[str]) -> int:
     experiment = importlib.import_module(f"experiments.{name}")
     folder = f"{name}_real" if _leaves_virtual_time(experiment, options) else name
     output = cache.emptied(cache.clone() / "build/experiments" / folder)
-    summary = experiment.run(options, output)
-    (output / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
-    print(f"build/experiments/{folder}/summary.json")
+    return _write_summary(experiment.run(options, output), output)
+
+
+def _write_summary(summary: dict[str, object], output: Path) -> int:
+    path = output / "summary.json"
+    path.write_text(json.dumps(summary, indent=2) + "\n")
+    print(path.relative_to(cache.clone()))
     return 0
 
 

@@ -56,6 +56,10 @@ def experiment(arguments: list[str]) -> int:
     return cache.run_tool("experiment.py", *arguments)
 
 
+def replay(arguments: list[str]) -> int:
+    return cache.run_tool("replay.py", *arguments)
+
+
 def docs(arguments: list[str]) -> int:
     return cache.run_tool("docs.py", *arguments)
 
@@ -76,7 +80,7 @@ def addon(arguments: list[str]) -> int:
     return cache.run_tool("addon.py", *arguments)
 
 
-COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, docs, edit, app, export, addon)}
+COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, replay, docs, edit, app, export, addon)}
 
 if __name__ == "__main__":
     try:

@@ -20,6 +20,15 @@ extends Node
 ##                      the far side stays until the operator has gone
 ## --device.NAME=VALUE  a property of the scene's HapticDevice
 ## --corrects=touch     the model is left as it is until it is touched
+## --inputs=1           all that enters the loop goes to CASE_inputs.tactus and how it was played to
+##                      CASE_settings.json: with these the output is a bundle
+## --watch=1            it is drawn as it is played
+## --camera.NAME=VALUE  a property of the scene's DepthSensor
+## --replay=BUNDLE      instead of all this: plays it again, see replay.gd
+## --launch=form        instead of all this: the launcher; --launch=now: what it does, without its form
+##                      (../launcher/launch.gd)
+
+const Replay := preload("res://experiments/replay.gd")
 
 const FRAMES_PER_SECOND := 60
 
@@ -40,11 +49,26 @@ var _options := {
 	"screenshots": "",
 	"processor": "",
 	"corrects": "always",
+	"inputs": "0",
+	"watch": "0",
 }
+var _camera_options := {}
+var _stops := false
 
 
 ## Returns the exit code of the program: 0 when all was written.
 func run(arguments: PackedStringArray) -> int:
+	if arguments[0].begins_with("--replay="):
+		return Replay.run(arguments)
+	if arguments[0] == "--launch=form":
+		var launcher := (load("res://launcher/launcher.tscn") as PackedScene).instantiate()
+		add_child(launcher)
+		await launcher.tree_exited
+		return 0
+	if arguments[0] == "--launch=now":
+		var launch: Node = load("res://launcher/run.gd").new()
+		add_child(launch)
+		return await launch.run(arguments)
 	for argument in arguments:
 		var words := argument.trim_prefix("--").split("=", true, 1)
 		if words.size() != 2 or not _take(words[0], words[1]):
@@ -69,11 +93,18 @@ func _take(option: String, value: String) -> bool:
 			_link_options[name] = JSON.parse_string(value)
 		"device":
 			_device_options[name] = JSON.parse_string(value)
+		"camera":
+			_camera_options[name] = JSON.parse_string(value)
 		_:
 			if not _options.has(option):
 				return false
 			_options[option] = value
 	return true
+
+
+## Before its time is over.
+func stop() -> void:
+	_stops = true
 
 
 func _fail(message: String) -> int:
@@ -94,6 +125,8 @@ func _run_scene(scene: Node) -> int:
 	Engine.max_fps = 0 if stepped else FRAMES_PER_SECOND
 	world.clock = HapticWorld.CLOCK_STEPPED if stepped else HapticWorld.CLOCK_REAL_TIME
 	world.measure_baseline = _options.baseline == "1"
+	if _options.inputs == "1":
+		_record_inputs(scene, world)
 	if _options.processor != "":
 		world.processor = int(_options.processor)
 	var link := _first(scene, "MMTLink") as MMTLink
@@ -103,6 +136,7 @@ func _run_scene(scene: Node) -> int:
 	_set_all(link, _link_options)
 	var device := _first(scene, "HapticDevice") as HapticDevice
 	_set_all(device, _device_options)
+	_set_all(_first(scene, "DepthSensor"), _camera_options)
 	if _is_operator(link):
 		_way = device.path
 		device.path = _rest_at(_way.sample(0.0))
@@ -128,7 +162,29 @@ func _run_scene(scene: Node) -> int:
 	for problem in world.get_problems():
 		printerr(problem)
 	remove_child(scene)
-	return 0 if _write("_statistics.json", statistics) and _write("_periods.json", periods) else 1
+	var written := _write("_statistics.json", statistics) and _write("_periods.json", periods)
+	if _options.inputs == "1":
+		written = _write("_settings.json", _settings()) and written
+	return 0 if written else 1
+
+
+## Of the world that is played, and of those beside it, which it meets inside of the scene.
+func _record_inputs(scene: Node, played: HapticWorld) -> void:
+	for world: HapticWorld in scene.find_children("*", "HapticWorld", true, false):
+		var of_whom := "" if world == played else "_" + String(world.name).to_snake_case()
+		world.inputs_path = _file(of_whom + "_inputs.tactus")
+
+
+## How it was played, for whoever finds the bundle.
+func _settings() -> Dictionary:
+	return {
+		"options": _options,
+		"link": _link_options,
+		"device": _device_options,
+		"godot": Engine.get_version_info().string,
+		"machine": "%s, %s" % [OS.get_processor_name(), OS.get_distribution_name()],
+		"utc": Time.get_datetime_string_from_system(true),
+	}
 
 
 ## Options change nothing that another scene shares.
@@ -173,6 +229,8 @@ func _meet(link: MMTLink, device: HapticDevice) -> bool:
 
 
 func _is_over(world: HapticWorld, link: MMTLink, begin: float) -> bool:
+	if _stops:
+		return true
 	if _is_networked(link) and link.side == MMTLink.SIDE_TELEOPERATOR:
 		return link.get_state() in [MMTLink.STATE_LOST, MMTLink.STATE_LEFT]
 	return world.get_time() - begin >= float(_options.duration)
@@ -188,7 +246,7 @@ func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 		link.correction_scheme = MMTLink.CORRECTION_NONE
 	var proxy := _first(world, "ProxyPointer") as ProxyPointer
 	# Nobody looks until a picture is taken, and a processor that draws is slow.
-	RenderingServer.render_loop_enabled = false
+	RenderingServer.render_loop_enabled = _options.watch == "1"
 	while not _is_over(world, link, begin):
 		await get_tree().process_frame
 		if stepped:
@@ -201,6 +259,7 @@ func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 			link.correction_scheme = correction
 		if not screenshots.is_empty() and world.get_time() >= screenshots[0]:
 			await _take_screenshot(screenshots.pop_front())
+	RenderingServer.render_loop_enabled = true
 
 
 func _take_screenshot(time: float) -> void:
@@ -208,7 +267,7 @@ func _take_screenshot(time: float) -> void:
 		return
 	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
-	RenderingServer.render_loop_enabled = false
+	RenderingServer.render_loop_enabled = _options.watch == "1"
 	get_viewport().get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
 
 

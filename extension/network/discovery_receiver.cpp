@@ -92,7 +92,7 @@ void DiscoveryReceiver::take_fragment(const Piece& piece) {
         // Complete: its acknowledgement was lost. One answer for each time that it is told.
         ++counts_.repeated;
         if (object->verdict && piece.offset + piece.size == piece.total_bytes) {
-            acknowledge(piece.object, object->hash, *object->verdict);
+            acknowledge({piece.object, object->hash, *object->verdict});
         }
         return;
     }
@@ -145,7 +145,7 @@ DiscoveryReceiver::Object* DiscoveryReceiver::object_for(const Piece& piece) {
 void DiscoveryReceiver::no_room_for(const Piece& piece) {
     ++counts_.no_room;
     if (piece.offset + piece.size == piece.total_bytes) {
-        acknowledge(piece.object, piece.hash, DiscoveryVerdict::no_room);
+        acknowledge({piece.object, piece.hash, DiscoveryVerdict::no_room});
     }
 }
 
@@ -257,7 +257,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::accept(Reading& reading) {
 }
 
 std::optional<DiscoveryEvent> DiscoveryReceiver::remove(const Piece& piece) {
-    acknowledge(piece.object, piece.hash, DiscoveryVerdict::removed);
+    acknowledge({piece.object, piece.hash, DiscoveryVerdict::removed});
     if (is_outdated(piece)) {
         return std::nullopt;
     }
@@ -286,13 +286,13 @@ void DiscoveryReceiver::answer(ObjectId object, DiscoveryVerdict verdict) {
     const auto found = objects_.find(object);
     if (found != objects_.end() && found->second.progress == Progress::complete) {
         found->second.verdict = verdict;
-        acknowledge(object, found->second.hash, verdict);
+        acknowledge({object, found->second.hash, verdict});
     }
 }
 
 // Where there is no room for it, the far side tells again and is answered then.
-void DiscoveryReceiver::acknowledge(ObjectId object, const ContentHash& hash, DiscoveryVerdict verdict) {
-    acknowledgements_.try_push(DiscoveryAcknowledgement{object, hash, verdict});
+void DiscoveryReceiver::acknowledge(const DiscoveryAcknowledgement& acknowledgement) {
+    acknowledgements_.try_push(acknowledgement);
 }
 
 }  // namespace tactus

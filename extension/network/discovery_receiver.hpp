@@ -80,6 +80,8 @@ public:
 
     // Whether the object described last under this id could be built. The far side is told.
     void answer(ObjectId object, DiscoveryVerdict verdict);
+    // The far side is told this, whatever was described.
+    void acknowledge(const DiscoveryAcknowledgement& acknowledgement);
 
     const DiscoveryReceiverCounts& counts() const { return counts_; }
 
@@ -137,7 +139,6 @@ private:
     void no_room_for(const Piece& piece);
     void release(Object& object);
     bool is_outdated(const Piece& piece) const;
-    void acknowledge(ObjectId object, const ContentHash& hash, DiscoveryVerdict verdict);
 
     DiscoverySettings settings_;
     SpscRing<Piece> pieces_;

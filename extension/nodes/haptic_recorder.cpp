@@ -1,7 +1,6 @@
 #include "nodes/haptic_recorder.hpp"
 
 #include <godot_cpp/classes/node3d.hpp>
-#include <godot_cpp/classes/project_settings.hpp>
 
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
@@ -11,6 +10,7 @@
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
+#include "nodes/whole_path.hpp"
 
 namespace tactus {
 
@@ -64,10 +64,7 @@ bool HapticRecorder::start() {
         say("it has no file to write: set 'csv_path', 'trace_path' or both before it starts");
         return false;
     }
-    const auto whole = [](const String& path) {
-        return from_godot(path.is_empty() ? path : ProjectSettings::get_singleton()->globalize_path(path));
-    };
-    recording_ = Recording::open({whole(csv_path_), whole(trace_path_), trace_seconds_}, say);
+    recording_ = Recording::open({whole_path(csv_path_), whole_path(trace_path_), trace_seconds_}, say);
     return recording_ != nullptr;
 }
 

@@ -15,6 +15,7 @@
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
+#include "nodes/whole_path.hpp"
 #include "nodes/world_run.hpp"
 #include "realtime/workers.hpp"
 #include "world/status_words.hpp"
@@ -141,13 +142,31 @@ void HapticWorld::start() {
     settings.links = MMTLink::of(*this);
     // Both sides of a teleoperation have to come to the same result.
     settings.session.full_rate_bodies = !settings.links.empty() ? 0 : settings.session.full_rate_bodies;
+    settings.inputs = record_inputs(settings.session);
     change_ = Change::none;
-    run_ = std::make_shared<WorldRun>(*this, settings);
+    run_ = std::make_shared<WorldRun>(*this, std::move(settings));
     Roll<HapticWorld>::enter(this);
     run_->synchronise(shortest_way);
     start_loop();
     set_process(true);
     post_signal(*this, "started");
+}
+
+// A world that starts anew does not write over what it has recorded before.
+std::unique_ptr<InputRecording> HapticWorld::record_inputs(const SessionSettings& settings) {
+    if (inputs_path_.is_empty()) {
+        return nullptr;
+    }
+    ++starts_;
+    const String path = starts_ == 1 ? inputs_path_
+                                     : inputs_path_.get_basename() + "_" + String::num_int64(starts_) + "." +
+                                           inputs_path_.get_extension();
+    return InputRecording::open(
+        whole_path(path), settings, [id = get_instance_id()](const std::string& what) {
+            if (const auto* const world = node_of_id<HapticWorld>(id)) {
+                UtilityFunctions::push_warning(name_of(*world), ": ", to_godot(what), ".");
+            }
+        });
 }
 
 TickLoopSettings HapticWorld::loop_settings() const {

@@ -19,6 +19,7 @@
 namespace tactus {
 
 class HapticRecorder;
+class InputRecording;
 class WorldRun;
 struct BodyPush;
 
@@ -101,6 +102,7 @@ private:
     void gravity_changed();
     void catch_up();
     void let_go_of_former();
+    std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
     void start_loop();
     TickLoopSettings loop_settings() const;
     void node_added(godot::Node* node);
@@ -116,6 +118,8 @@ private:
     int processor_ = last_processor;
     bool lock_memory_ = true;
     bool measure_baseline_ = false;
+    godot::String inputs_path_;
+    int starts_ = 0;  // with inputs that are recorded
 
     // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
     std::shared_ptr<WorldRun> run_;

@@ -13,6 +13,7 @@
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_path.hpp"
 #include "nodes/haptic_recorder.hpp"
+#include "nodes/haptic_replay.hpp"
 #include "nodes/haptic_tool.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
@@ -40,6 +41,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(ProxyPointer);
     GDREGISTER_CLASS(HapticTool);
     GDREGISTER_CLASS(HapticRecorder);
+    GDREGISTER_CLASS(HapticReplay);
     GDREGISTER_CLASS(HapticFeedback);
     GDREGISTER_CLASS(NetworkConditions);
     GDREGISTER_CLASS(TeleopTuning);

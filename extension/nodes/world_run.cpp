@@ -45,10 +45,10 @@ std::vector<LinkPlan> plans_of(const std::vector<MMTLink*>& links) {
 
 }  // namespace
 
-WorldRun::WorldRun(HapticWorld& world, const RunSettings& settings)
+WorldRun::WorldRun(HapticWorld& world, RunSettings settings)
     : world_(world),
       running_(settings.session, settings.real_time, pose_of(world.get_global_transform()),
-               plans_of(settings.links)),
+               plans_of(settings.links), std::move(settings.inputs)),
       bodies_(world, settings.session.max_bodies, settings.real_time, complaints_) {
     for (const MMTLink* link : settings.links) {
         link_nodes_.push_back(link->get_instance_id());

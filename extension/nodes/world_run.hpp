@@ -23,12 +23,13 @@ class MMTLink;
 struct RunSettings {
     SessionSettings session;
     bool real_time = true;
-    std::vector<MMTLink*> links;  // empty: nobody at a far side
+    std::vector<MMTLink*> links;             // empty: nobody at a far side
+    std::unique_ptr<InputRecording> inputs;  // null: they are not recorded
 };
 
 class WorldRun {
 public:
-    WorldRun(HapticWorld& world, const RunSettings& settings);
+    WorldRun(HapticWorld& world, RunSettings settings);
     ~WorldRun();
     WorldRun(const WorldRun&) = delete;
     WorldRun& operator=(const WorldRun&) = delete;

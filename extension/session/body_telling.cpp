@@ -8,6 +8,9 @@ namespace tactus {
 void BodyTelling::take_orders(TeleopPort& port) {
     while (PreparedDiscovery* const announced = port.announced.front()) {
         const ObjectId object = announced->object;
+        if (port.tap) {
+            port.tap->took_announced();
+        }
         if (discovery_.announce(*announced)) {
             states_.announced(object);
         }
@@ -16,6 +19,9 @@ void BodyTelling::take_orders(TeleopPort& port) {
     }
     ObjectId gone = no_object;
     while (port.withdrawn.try_pop(gone)) {
+        if (port.tap) {
+            port.tap->took_withdrawn(gone);
+        }
         std::shared_ptr<const std::vector<std::byte>> content;
         discovery_.withdraw(gone, content);
         states_.withdrawn(gone);

@@ -8,6 +8,9 @@ bool Channel::begin_tick(Nanoseconds now) {
     bool changed = false;
     if (port_->settings.refresh()) {
         before_ = std::exchange(settings_, port_->settings.front());
+        if (port_->tap) {
+            port_->tap->took(settings_);
+        }
         link_.set_skew(settings_.skew);
         link_.set_scenario(scenario_of(settings_));
         if (settings_.leaving && !before_.leaving) {

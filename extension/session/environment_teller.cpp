@@ -109,9 +109,13 @@ void EnvironmentTeller::send_on() {
         if (!withdrawal && port_->withdrawn.size() > 0) {
             return;
         }
+        const PreparedDiscovery told = next;
         if (withdrawal ? !port_->withdrawn.try_push(next.object)
                        : !port_->announced.try_push(std::move(next))) {
             return;
+        }
+        if (!withdrawal && port_->tap) {
+            port_->tap->announced(told);
         }
         waiting_.pop_front();
     }

@@ -10,6 +10,9 @@ void OperatorSide::acknowledge() {
     constexpr int max_a_tick = 8;
     DiscoveryAcknowledgement acknowledgement;
     for (int i = 0; i < max_a_tick && channel_.port().discovery.next_acknowledgement(acknowledgement); ++i) {
+        if (channel_.port().tap) {
+            channel_.port().tap->took(acknowledgement);
+        }
         channel_.send(acknowledgement);
     }
 }

@@ -119,6 +119,9 @@ void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
     start_over_if_peer_has();
     ObjectBinding binding;
     while (channel_.port().bindings.try_pop(binding)) {
+        if (channel_.port().tap) {
+            channel_.port().tap->took(binding);
+        }
         bind(binding);
     }
     while (const Packet* const packet = channel_.receive()) {

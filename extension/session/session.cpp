@@ -8,6 +8,7 @@
 #include "realtime/spsc_ring.hpp"
 #include "realtime/thread_role.hpp"
 #include "realtime/triple_buffer.hpp"
+#include "session/input_recorder.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
@@ -27,12 +28,15 @@ public:
             free_.push_back(static_cast<SessionHandle>(i));
         }
     }
-    SessionHandle take() {
-        if (free_.empty()) {
+    // `wanted`: this one, where it is free; no_handle: any.
+    SessionHandle take(SessionHandle wanted) {
+        const auto found =
+            wanted == no_handle && !free_.empty() ? free_.end() - 1 : std::ranges::find(free_, wanted);
+        if (found == free_.end()) {
             return no_handle;
         }
-        const SessionHandle handle = free_.back();
-        free_.pop_back();
+        const SessionHandle handle = *found;
+        free_.erase(found);
         in_use_[handle] = true;
         return handle;
     }
@@ -127,6 +131,11 @@ std::string check_tool(const ToolUse& use) {
     return limits::is_pose(use.grasp) ? "" : "the tool's grasp is no place: reset it";
 }
 
+template <typename Command, typename... Calls>
+constexpr bool is_call(const std::variant<Calls...>*) {
+    return (std::is_same_v<Command, Calls> || ...);
+}
+
 // In commands of the least kind (SessionSettings::commands_per_tick).
 std::uint32_t share_of_tick(const Command& command) {
     const auto* const body = std::get_if<command::AddBody>(&command);
@@ -136,20 +145,43 @@ std::uint32_t share_of_tick(const Command& command) {
 }  // namespace
 
 struct Session::Impl {
-    explicit Impl(const SessionSettings& s)
+    Impl(const SessionSettings& s, InputRecorder* input_recorder)
         : settings(s),
+          recorder(input_recorder),
           snapshots(empty_snapshot(s.max_bodies)),
           commands(ring_capacity),
           retired(ring_capacity),
-          loop(s, snapshots),
+          loop(s, snapshots, input_recorder),
           bodies(s.max_bodies),
           devices(max_devices),
           proxies(max_proxies),
           tools(max_tools),
           joints(s.physics.max_joints) {}
 
+    SessionHandle take_from(HandlePool& pool) { return pool.take(std::exchange(next_handle, no_handle)); }
+
+    void note(const InputCall& call) {
+        if (recorder) {
+            recorder->note(call);
+        }
+    }
+    // A command that is plain values is noted as it is, any other one by who sends it.
+    void note_plain(const Command& command) {
+        std::visit(
+            [this](const auto& c) {
+                using Plain = std::remove_cvref_t<decltype(c)>;
+                if constexpr (is_call<Plain>(static_cast<const InputCall*>(nullptr))) {
+                    recorder->note(c);
+                }
+            },
+            command);
+    }
+
     void send(Command&& command) {
         TACTUS_ASSERT_NOT_HAPTIC_THREAD();
+        if (recorder) {
+            note_plain(command);
+        }
         send_backlog();
         if (!backlog.empty() || !commands.try_push(std::move(command))) {
             backlog.push_back(std::move(command));
@@ -169,34 +201,49 @@ struct Session::Impl {
         }
     }
 
-    // Loop side. A command whose remains might find no room waits. True where the tick had no time for more.
-    bool take_commands(std::uint32_t most) {
-        std::uint32_t taken = 0;
-        while (taken < most && retired.size() + 1 < retired.capacity()) {
-            Command* const command = commands.front();
+    // Loop side. The next command; null: there is none, or what it leaves behind might find no room.
+    Command* next_command() { return retired.size() + 1 < retired.capacity() ? commands.front() : nullptr; }
+
+    void carry_out(Command& command) {
+        Retired remains;
+        if (SessionLoop* const twin = loop.twin()) {
+            Command same;
+            twin->follow(loop, command);
+            if (duplicate(command, same) && twin->take(same, remains)) {
+                remains.handle = no_handle;  // given back once, by the loop itself
+                retired.try_push(std::move(remains));
+                remains = {};
+            }
+        }
+        if (loop.take(command, remains)) {
+            retired.try_push(std::move(remains));
+        }
+        commands.pop();
+    }
+
+    // Loop side. No more than a share of `most`, or exactly as many as were asked for.
+    struct Taken {
+        std::uint32_t commands = 0;
+        bool all_it_may = false;
+    };
+    Taken take_commands(std::uint32_t most) {
+        Taken taken;
+        std::uint32_t share = 0;
+        while (exactly ? taken.commands < *exactly : share < most) {
+            Command* const command = next_command();
             if (!command) {
                 break;
             }
-            taken += share_of_tick(*command);
-            Retired remains;
-            if (SessionLoop* const twin = loop.twin()) {
-                Command same;
-                twin->follow(loop, *command);
-                if (duplicate(*command, same) && twin->take(same, remains)) {
-                    remains.handle = no_handle;  // given back once, by the loop itself
-                    retired.try_push(std::move(remains));
-                    remains = {};
-                }
-            }
-            if (loop.take(*command, remains)) {
-                retired.try_push(std::move(remains));
-            }
-            commands.pop();
+            share += share_of_tick(*command);
+            carry_out(*command);
+            ++taken.commands;
         }
-        return taken >= most;
+        taken.all_it_may = share >= most;
+        return taken;
     }
 
     const SessionSettings settings;
+    InputRecorder* const recorder;  // null: nobody records
     TripleBuffer<SessionSnapshot> snapshots;
     SpscRing<Command> commands;
     SpscRing<Retired> retired;
@@ -206,9 +253,13 @@ struct Session::Impl {
     bool has_twin = false;  // the side that was attached last has one
     std::vector<RecorderRing<SessionRecord>*> recorded;
     std::deque<Command> backlog;
+
+    SessionHandle next_handle = no_handle;  // see Session::use_handle
+    std::optional<std::uint32_t> exactly;   // see Session::take_exactly
 };
 
-Session::Session(const SessionSettings& settings) : impl_(std::make_unique<Impl>(settings)) {}
+Session::Session(const SessionSettings& settings, InputRecorder* recorder)
+    : impl_(std::make_unique<Impl>(settings, recorder)) {}
 Session::~Session() = default;
 
 const SessionSettings& Session::settings() const {
@@ -254,6 +305,7 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     ready.layer = addition.description.collision.layer;
     ready.pose = addition.description.pose;
     ready.motion = description.motion;
+    ready.source = addition;
     return ready;
 }
 
@@ -262,11 +314,16 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
         return {no_handle, std::move(body.error)};
     }
     impl_->make_second(body);
-    const SessionHandle handle = impl_->bodies.take();
+    const SessionHandle handle = impl_->take_from(impl_->bodies);
     if (handle == no_handle) {
         return {no_handle, "the world already holds its limit of " +
                                std::to_string(impl_->settings.max_bodies) +
                                " bodies: raise the limit or remove some"};
+    }
+    if (impl_->recorder && body.soft) {
+        impl_->note(call::AddSoftBody{handle});
+    } else if (impl_->recorder) {
+        impl_->note(call::AddBody{handle, call::Form::of(body), former});
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
                                  std::move(body.touch), body.material, std::move(body.texture), body.layer,
@@ -283,6 +340,9 @@ void Session::remove_body(SessionHandle body) {
 std::string Session::deform_body(SessionHandle body, ReadyBody&& form) {
     if (form.error.empty() && impl_->bodies.in_use(body)) {
         impl_->make_second(form);
+        if (impl_->recorder) {
+            impl_->note(call::DeformBody{body, call::Form::of(form)});
+        }
         impl_->send(command::DeformBody{body, std::move(form.body), std::move(form.same_body),
                                         std::move(form.touch)});
     }
@@ -354,7 +414,7 @@ AddResult Session::add_joint(const JointDescription& joint, SessionHandle first,
     if (first == second) {
         return {no_handle, "the joint joins a body with itself, or nothing at all: name two different ones"};
     }
-    const SessionHandle handle = impl_->joints.take();
+    const SessionHandle handle = impl_->take_from(impl_->joints);
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(impl_->settings.physics.max_joints) +
                                " joints: remove one"};
@@ -380,10 +440,11 @@ AddResult Session::add_device(Device& device, const Workspace& workspace) {
     if (std::string error = check_workspace(workspace); !error.empty()) {
         return {no_handle, std::move(error)};
     }
-    const SessionHandle handle = impl_->devices.take();
+    const SessionHandle handle = impl_->take_from(impl_->devices);
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(max_devices) + " devices: remove one"};
     }
+    impl_->note(call::AddDevice{handle, workspace});
     impl_->send(command::AddDevice{handle, &device, workspace});
     return {handle, {}};
 }
@@ -404,13 +465,14 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
     if (std::string error = check_proxy(description); !error.empty()) {
         return {no_handle, std::move(error)};
     }
-    const SessionHandle handle = impl_->proxies.take();
+    const SessionHandle handle = impl_->take_from(impl_->proxies);
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(max_proxies) + " proxies: remove one"};
     }
     const auto make = [&] {
         return std::make_unique<Proxy>(impl_->settings.max_parts, description.settings);
     };
+    impl_->note(call::AddProxy{handle, description});
     impl_->send(command::AddProxy{handle, make(), impl_->has_twin ? make() : nullptr, description});
     return {handle, {}};
 }
@@ -434,10 +496,11 @@ AddResult Session::add_tool(std::shared_ptr<const ToolShape> shape, const ToolUs
     if (std::string error = check_tool(use); !error.empty()) {
         return {no_handle, std::move(error)};
     }
-    const SessionHandle handle = impl_->tools.take();
+    const SessionHandle handle = impl_->take_from(impl_->tools);
     if (handle == no_handle) {
         return {no_handle, "a world takes at most " + std::to_string(max_tools) + " tools: remove one"};
     }
+    impl_->note(call::AddTool{handle, shape, use});
     impl_->send(command::AddTool{
         handle, std::make_unique<ToolSlot>(std::move(shape), impl_->settings.max_parts, use)});
     return {handle, {}};
@@ -462,12 +525,18 @@ bool Session::record(RecorderRing<SessionRecord>& ring, SessionHandle proxy, Ses
         }
         impl_->recorded.push_back(&ring);
     }
+    if (impl_->recorder) {
+        impl_->note(call::Record{impl_->recorder->number_of(&ring), proxy, object});
+    }
     impl_->send(command::Record{&ring, proxy, object});
     return true;
 }
 
 void Session::end_recording(RecorderRing<SessionRecord>& ring) {
     if (std::erase(impl_->recorded, &ring) > 0) {
+        if (impl_->recorder) {
+            impl_->note(call::EndRecording{impl_->recorder->number_of(&ring)});
+        }
         impl_->send(command::EndRecording{&ring});
     }
 }
@@ -475,6 +544,10 @@ void Session::end_recording(RecorderRing<SessionRecord>& ring) {
 void Session::attach(std::unique_ptr<TeleopSide> side) {
     impl_->has_twin = side && side->twin();
     impl_->send(command::Attach{std::move(side)});
+}
+
+void Session::attach(const std::vector<LinkEnd>& ends) {
+    attach(make_side(settings(), impl_->recorder ? impl_->recorder->tap(ends) : ends));
 }
 
 bool Session::collect() {
@@ -520,17 +593,43 @@ std::size_t Session::backlog() const {
 }
 
 void Session::settle() {
-    do {
-        const HapticRole loop_side;
-        impl_->take_commands(0xffff'ffffu);
-    } while (collect());
+    std::uint32_t taken = 0;
+    const std::optional<std::uint32_t> wanted = impl_->exactly;
+    bool has_more = true;
+    while (has_more && !(wanted && taken == *wanted)) {
+        {
+            const HapticRole loop_side;
+            impl_->exactly = wanted ? std::optional(*wanted - taken) : std::nullopt;
+            taken += impl_->take_commands(0xffff'ffffu).commands;
+        }
+        has_more = collect();
+    }
+    impl_->exactly.reset();
     const HapticRole loop_side;
     impl_->loop.settle();
+    if (impl_->recorder) {
+        impl_->recorder->note_between_ticks(heard::Settle{taken});
+    }
+}
+
+void Session::use_handle(SessionHandle handle) {
+    impl_->next_handle = handle;
+}
+
+void Session::take_exactly(std::uint32_t commands) {
+    impl_->exactly = commands;
+}
+
+std::uint64_t Session::outcome() const {
+    return impl_->loop.outcome();
 }
 
 void Session::rest() {
     const HapticRole loop_side;
     impl_->loop.rest();
+    if (impl_->recorder) {
+        impl_->recorder->note_between_ticks(heard::Rest{});
+    }
 }
 
 TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
@@ -538,11 +637,20 @@ TickStatus Session::tick(Nanoseconds now, TickTrace* trace) {
     TickStatus status = 0;
     {
         const TraceScope scope(trace, TickStage::take_commands);
-        if (impl_->take_commands(impl_->settings.commands_per_tick)) {
+        const Impl::Taken taken = impl_->take_commands(impl_->settings.commands_per_tick);
+        impl_->exactly.reset();
+        if (taken.all_it_may) {
             status |= session_commands_waiting;
         }
+        if (impl_->recorder) {
+            impl_->recorder->begin_tick(now, taken.commands);
+        }
     }
-    return status | impl_->loop.tick(now, trace);
+    status |= impl_->loop.tick(now, trace);
+    if (impl_->recorder) {
+        impl_->recorder->end_tick(impl_->loop.outcome());
+    }
+    return status;
 }
 
 }  // namespace tactus

@@ -27,6 +27,9 @@
 
 namespace tactus {
 
+class InputRecorder;
+struct LinkEnd;
+
 struct BodyAddition {
     BodyDescription description;
     // What the proxy touches, in the body's frame; empty: the description's own shapes.
@@ -52,6 +55,7 @@ struct ReadyBody {
     Pose pose;
     Motion motion = Motion::Static;
     std::shared_ptr<SoftSlot> soft;  // null: it does not give
+    BodyAddition source;             // that it was made of; what it points to is shared
     std::string error;               // what is wrong and what to do; empty where it can be added
 };
 
@@ -62,7 +66,8 @@ struct AddResult {
 
 class Session {
 public:
-    explicit Session(const SessionSettings& settings);
+    // With a recorder, which outlives it, all that enters can be played again (input_replay.hpp).
+    explicit Session(const SessionSettings& settings, InputRecorder* recorder = nullptr);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -132,8 +137,10 @@ public:
     void end_recording(RecorderRing<SessionRecord>& ring);
 
     // A side of a teleoperation (operator_side.hpp, teleoperator_side.hpp), in place of the one before; null:
-    // none. Before anything else is added, or a twin does not know it.
+    // none. Before anything else is added, or a twin does not know it. A recorder hears of it only where the
+    // session makes it, of these ends of links.
     void attach(std::unique_ptr<TeleopSide> side);
+    void attach(const std::vector<LinkEnd>& ends);
 
     // Destroys what the loop has given back; call it now and then, as each of Godot's frames does. True while
     // commands are still on their way to the loop.
@@ -149,6 +156,14 @@ public:
     // Before the loop starts, on the owner's thread: carries out everything sent so far at once.
     void settle();
 
+    // --- owner side, where a recording is played (input_replay.hpp)
+    // -------------------------------------------------------------------------------------------------
+
+    // What is added next gets this handle, where it is free.
+    void use_handle(SessionHandle handle);
+    // The next tick(), or settle(), takes exactly so many commands.
+    void take_exactly(std::uint32_t commands);
+
     // --- loop side
     // --------------------------------------------------------------------------------------------------
 
@@ -158,6 +173,10 @@ public:
     // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
     // that is elsewhere when they go on begins anew there, without a kick.
     void rest();
+
+    // What has come of the last tick, to the bit, as one number: pointers, tools, what devices were given,
+    // and every body that has changed.
+    std::uint64_t outcome() const;
 
 private:
     struct Impl;

@@ -7,6 +7,7 @@
 #include "core/teleop/body_motion.hpp"
 #include "physics/limits.hpp"
 #include "realtime/thread_role.hpp"
+#include "session/input_recorder.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {
@@ -44,6 +45,10 @@ void SessionLoop::read_devices(Nanoseconds now) {
         const DeviceSample sample = slot.device->read(now);
         slot.heard = sample;
         slot.capabilities = slot.device->capabilities();
+        if (recorder_) {
+            recorder_->note_reading(static_cast<SessionHandle>(&slot - devices_.data()), sample,
+                                    slot.capabilities);
+        }
         if (limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
             limits::is_rotation(sample.rotation)) {
             slot.sample = sample;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/math/bit_hash.hpp"
 #include "core/teleop/body_motion.hpp"
 #include "realtime/thread_role.hpp"
 
@@ -29,10 +30,12 @@ Pose part_of_the_way(const Pose& from, const Pose& to, int ticks) {
 
 }  // namespace
 
-SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots)
+SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots,
+                         InputRecorder* recorder)
     : settings_(settings),
       seconds_(to_seconds(settings.period)),
       snapshots_(snapshots),
+      recorder_(recorder),
       scene_(settings.max_bodies, settings.max_parts),
       physics_(with_room(settings)),
       bodies_(settings.max_bodies),
@@ -465,6 +468,41 @@ void SessionLoop::publish(Nanoseconds now) {
         }
     }
     snapshots_.publish();
+}
+
+std::uint64_t SessionLoop::outcome() const {
+    BitHash hash;
+    for (const ProxySlot& slot : proxies_) {
+        if (slot.proxy) {
+            hash.add(slot.state.position);
+            hash.add(slot.state.force);
+            hash.add(std::uint64_t{slot.state.status});
+        }
+    }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot) {
+            hash.add(slot->state.pose.position);
+            hash.add(slot->state.pose.rotation);
+            hash.add(slot->state.force);
+            hash.add(slot->state.torque);
+        }
+    }
+    for (const DeviceSlot& slot : devices_) {
+        if (slot.device) {
+            hash.add(slot.safe.force);
+            hash.add(slot.safe.torque);
+        }
+    }
+    for (std::size_t i = state_changes_.newest(); i != state_changes_.end() && states_[i].changed_at == tick_;
+         i = state_changes_.older(i)) {
+        const BodyState& state = states_[i];
+        hash.add(std::uint64_t{state.handle});
+        hash.add(state.pose.position);
+        hash.add(state.pose.rotation);
+        hash.add(state.linear_velocity);
+        hash.add(state.angular_velocity);
+    }
+    return hash.value();
 }
 
 void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {

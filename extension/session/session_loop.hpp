@@ -20,6 +20,8 @@
 
 namespace tactus {
 
+class InputRecorder;
+
 // A device as what drives it has to know it.
 struct RobotView {
     bool connected = false;
@@ -81,7 +83,9 @@ public:
         SceneForce scene_force() const { return {force, step, jumped}; }
     };
 
-    SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots);
+    // `recorder`: hears what devices say; null: nobody does.
+    SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSnapshot>& snapshots,
+                InputRecorder* recorder = nullptr);
 
     // Carries out a command. What has to be destroyed elsewhere is left in `retired`; true where there is
     // something.
@@ -98,6 +102,7 @@ public:
 
     // See Session.
     void rest();
+    std::uint64_t outcome() const;
 
     // Another loop that has to get every command, too.
     SessionLoop* twin() { return side_ ? side_->twin() : nullptr; }
@@ -265,6 +270,7 @@ private:
     SessionSettings settings_;
     double seconds_;  // of a tick
     TripleBuffer<SessionSnapshot>& snapshots_;
+    InputRecorder* const recorder_;
     TouchScene scene_;
     PhysicsWorld physics_;
     std::vector<Body> bodies_;                   // by handle

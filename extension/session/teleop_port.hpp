@@ -102,7 +102,25 @@ struct ObjectBinding {
     SessionHandle body = no_handle;
 };
 
+// Hears what crosses a port to the loop, for a recording of it (input_recorder.hpp).
+class PortTap {
+public:
+    virtual ~PortTap() = default;
+
+    // --- loop: it has taken these
+    virtual void took(const TeleopSettings& settings) = 0;
+    virtual void took(const ObjectBinding& binding) = 0;
+    virtual void took(const DiscoveryAcknowledgement& acknowledgement) = 0;
+    virtual void took_announced() = 0;
+    virtual void took_withdrawn(ObjectId object) = 0;
+
+    // --- owner: it has put this in
+    virtual void announced(const PreparedDiscovery& discovery) = 0;
+};
+
 struct TeleopPort {
+    PortTap* tap = nullptr;  // null: nobody hears it. Set before anything crosses
+
     TripleBuffer<TeleopSettings> settings;
     TripleBuffer<TeleopStatistics> statistics;
 

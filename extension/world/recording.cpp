@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "platform/file.hpp"
 #include "session/record_csv.hpp"
 
 namespace tactus {
@@ -31,12 +30,12 @@ Recording::Recording(const RecordingFiles& files, const Say& say)
       trace_(create(files.trace)),
       text_(record_csv_header()) {}
 
-Recording::File Recording::create(const std::string& path) const {
+OpenFile Recording::create(const std::string& path) const {
     if (path.empty()) {
         return nullptr;
     }
     make_folder_of(path);
-    File file(open_file(path, "wb"));
+    OpenFile file(open_file(path, "wb"));
     if (file == nullptr) {
         say_("'" + path + "' cannot be written: choose a folder that exists and may be written to");
     }

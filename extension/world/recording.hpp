@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/file.hpp"
 #include "realtime/recorder_ring.hpp"
 #include "realtime/tick_trace.hpp"
 #include "session/session_types.hpp"
@@ -50,19 +51,14 @@ public:
     std::uint64_t lost() const { return lost_; }
 
 private:
-    struct FileCloser {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    using File = std::unique_ptr<std::FILE, FileCloser>;
-
     Recording(const RecordingFiles& files, const Say& say);
-    File create(const std::string& path) const;
+    OpenFile create(const std::string& path) const;
 
     RecordingFiles files_;
     Say say_;
     std::shared_ptr<Ring> ring_;
-    File csv_;
-    File trace_;
+    OpenFile csv_;
+    OpenFile trace_;
     std::string text_;
     std::vector<TickRecord> ticks_;
     bool is_open_ = true;

@@ -3,8 +3,10 @@
 namespace tactus {
 
 RunningWorld::RunningWorld(const SessionSettings& settings, bool real_time, const Pose& frame,
-                           const std::vector<LinkPlan>& links)
-    : session_(settings), loop_(session_, real_time) {
+                           const std::vector<LinkPlan>& links, std::unique_ptr<InputRecording> inputs)
+    : inputs_(std::move(inputs)),
+      session_(settings, inputs_ != nullptr ? &inputs_->recorder() : nullptr),
+      loop_(session_, real_time) {
     std::vector<WorldLink*> attached;
     for (const LinkPlan& plan : links) {
         links_.push_back(
@@ -56,7 +58,11 @@ void RunningWorld::end() {
     for (const auto& link : links_) {
         link->end();
     }
-    recording_.reset();
+    let_go_of_recording();
+    if (inputs_ != nullptr) {
+        inputs_->drain(loop_.epoch());
+        inputs_->close();
+    }
 }
 
 bool RunningWorld::collect() {
@@ -103,15 +109,31 @@ bool RunningWorld::synchronise(WorldLink& link, const std::optional<LinkPlan>& p
 
 std::string RunningWorld::record(std::shared_ptr<Recording> recording) {
     recording_ = std::move(recording);
+    if (inputs_ != nullptr) {
+        InputRecorder& recorder = inputs_->recorder();
+        recorder.note(call::WriteRows{recorder.number_of(recording_->ring().get())});
+    }
     return recording_->has_trace() ? loop_.trace_ticks() : std::string();
 }
 
 void RunningWorld::finish_recording() {
     drain();
+    let_go_of_recording();
+}
+
+// What comes into its ring from now on nobody writes down.
+void RunningWorld::let_go_of_recording() {
+    if (recording_ != nullptr && inputs_ != nullptr) {
+        InputRecorder& recorder = inputs_->recorder();
+        recorder.note(call::RowsWritten{recorder.number_of(recording_->ring().get()), recording_->rows()});
+    }
     recording_.reset();
 }
 
 void RunningWorld::drain() {
+    if (inputs_ != nullptr) {
+        inputs_->drain(loop_.epoch());
+    }
     if (recording_ != nullptr) {
         recording_->drain(loop_.epoch());
         if (TickTrace* trace = loop_.trace()) {

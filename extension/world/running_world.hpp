@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "world/input_recording.hpp"
 #include "world/recording.hpp"
 #include "world/tick_listeners.hpp"
 #include "world/world_link.hpp"
@@ -19,9 +20,10 @@ namespace tactus {
 
 class RunningWorld {
 public:
-    // `frame`: of the world as it begins. No links: nobody is at a far side.
+    // `frame`: of the world as it begins. No links: nobody is at a far side. `inputs`: of the same settings;
+    // null: they are not recorded.
     RunningWorld(const SessionSettings& settings, bool real_time, const Pose& frame,
-                 const std::vector<LinkPlan>& links);
+                 const std::vector<LinkPlan>& links, std::unique_ptr<InputRecording> inputs = nullptr);
     ~RunningWorld() { end(); }
     RunningWorld(const RunningWorld&) = delete;
     RunningWorld& operator=(const RunningWorld&) = delete;
@@ -72,9 +74,13 @@ public:
     void finish_recording();
     // What has been recorded goes to its files.
     void drain();
+    const InputRecording* inputs() const { return inputs_.get(); }  // null: none are recorded
 
 private:
-    std::vector<std::unique_ptr<WorldLink>> links_;  // above the session, whose sides use them
+    void let_go_of_recording();
+
+    std::unique_ptr<InputRecording> inputs_;         // above the session, which it hears
+    std::vector<std::unique_ptr<WorldLink>> links_;  // likewise: its sides use them
     Session session_;
     WorldLoop loop_;
     std::vector<std::pair<SessionHandle, BodyPush>> forces_;  // until the next frame

@@ -5,10 +5,6 @@
 #include <unordered_set>
 
 #include "network/key_source.hpp"
-#include "session/operator_side.hpp"
-#include "session/robot_side.hpp"
-#include "session/shared_environment.hpp"
-#include "session/teleoperator_side.hpp"
 
 namespace tactus {
 
@@ -73,18 +69,16 @@ void WorldLink::end() {
 }
 
 void WorldLink::attach(Session& session, const std::vector<WorldLink*>& links) {
-    std::vector<std::unique_ptr<TeleopSide>> sides;
+    std::vector<LinkEnd> ends;
     for (WorldLink* const link : links) {
-        sides.push_back(link->make_side(session.settings(), PointerShare{sides.size(), links.size()}));
+        ends.push_back(link->end_of(session.settings(), PointerShare{ends.size(), links.size()}));
     }
-    if (sides.size() == 1) {
-        session.attach(std::move(sides.front()));
-    } else if (!sides.empty()) {
-        session.attach(std::make_unique<SharedEnvironment>(std::move(sides)));
+    if (!ends.empty()) {
+        session.attach(ends);
     }
 }
 
-std::unique_ptr<TeleopSide> WorldLink::make_side(const SessionSettings& session, const PointerShare& share) {
+LinkEnd WorldLink::end_of(const SessionSettings& session, const PointerShare& share) {
     EndpointSettings endpoint;
     endpoint.side = is_operator() ? Side::operator_side : Side::teleoperator_side;
     endpoint.scenario = plan_.scenario;
@@ -93,13 +87,10 @@ std::unique_ptr<TeleopSide> WorldLink::make_side(const SessionSettings& session,
     settings_ = plan_.teleop;
     settings_.gravity = gravity_;
     settings_.frame = frame_;
-    if (is_operator()) {
-        return std::make_unique<OperatorSide>(session, OperatorRoom{}, settings_, route_, port_, endpoint);
-    }
-    if (settings_.robot) {
-        return std::make_unique<RobotSide>(session, settings_, route_, port_, endpoint);
-    }
-    return std::make_unique<TeleoperatorSide>(session, settings_, route_, port_, endpoint, share);
+    const SidePlan::Kind kind = is_operator()     ? SidePlan::Kind::operator_side
+                                : settings_.robot ? SidePlan::Kind::robot
+                                                  : SidePlan::Kind::environment;
+    return {{kind, settings_, endpoint, OperatorRoom{}, share}, &route_, port_};
 }
 
 // --- the way

@@ -19,6 +19,7 @@
 #include "session/environment_teller.hpp"
 #include "session/model_builder.hpp"
 #include "session/session.hpp"
+#include "session/side_plan.hpp"
 #include "world/link_way.hpp"
 
 namespace tactus {
@@ -161,7 +162,7 @@ private:
     };
 
     static WayPlan way_of(const LinkPlan& plan);
-    std::unique_ptr<TeleopSide> make_side(const SessionSettings& session, const PointerShare& share);
+    LinkEnd end_of(const SessionSettings& session, const PointerShare& share);
     void tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now);
     void tell_joints(const std::vector<ToldJoint>& joints);
     void pass_on_settings(const Vec3& gravity);

@@ -5,8 +5,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/math/bit_hash.hpp"
 #include "session_rig.hpp"
-#include "shared/bit_hash.hpp"
 #include "shared/meshes.hpp"
 #include "support/process.hpp"
 
@@ -14,8 +14,6 @@ namespace tactus {
 namespace {
 
 using namespace session_test;
-
-using shared::BitHash;
 
 struct Outcome {
     std::uint64_t hash = 0;

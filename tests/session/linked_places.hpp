@@ -11,8 +11,7 @@
 
 #include "network/link_emulator.hpp"
 #include "network/memory_link.hpp"
-#include "session/operator_side.hpp"
-#include "session/teleoperator_side.hpp"
+#include "session/side_plan.hpp"
 #include "session_rig.hpp"
 #include "shared/endpoints.hpp"
 
@@ -23,7 +22,8 @@ using shared::endpoint;
 class LinkedPlaces {
 public:
     struct Place {
-        explicit Place(const SessionSettings& settings, int hands) : session(settings), devices(hands) {
+        Place(const SessionSettings& settings, int hands, InputRecorder* recorder)
+            : session(settings, recorder), devices(hands) {
             Workspace workspace;
             workspace.force_limit = 100.0;
             for (HeldDevice& device : devices) {
@@ -50,19 +50,24 @@ public:
 
     // `delay`: there and back (unit: seconds).
     LinkedPlaces(double delay, double loss, int hands, const TeleopSettings& here = {},
-                 const TeleopSettings& there = {}, std::size_t tracked = 64)
+                 const TeleopSettings& there = {}, std::size_t tracked = 64,
+                 InputRecorder* near_inputs = nullptr, InputRecorder* far_inputs = nullptr)
         : settings_(session_settings()),
           conditions_(conditions(delay, loss)),
           at_far_(wire_.second(), conditions_, 1),
           at_near_(wire_.first(), conditions_, 2),
-          near(settings_, hands),
-          far(settings_, hands) {
+          near(settings_, hands, near_inputs),
+          far(settings_, hands, far_inputs) {
         OperatorRoom room;
         room.max_tracked = tracked;
-        near.session.attach(std::make_unique<OperatorSide>(settings_, room, here, at_near_, near.port,
-                                                           endpoint(Side::operator_side, 1)));
-        far.session.attach(std::make_unique<TeleoperatorSide>(settings_, there, at_far_, far.port,
-                                                              endpoint(Side::teleoperator_side, 2)));
+        near.session.attach(
+            {{{SidePlan::Kind::operator_side, here, endpoint(Side::operator_side, 1), room, {}},
+              &at_near_,
+              near.port}});
+        far.session.attach(
+            {{{SidePlan::Kind::environment, there, endpoint(Side::teleoperator_side, 2), {}, {}},
+              &at_far_,
+              far.port}});
     }
 
     SessionHandle add(const BodyAddition& there, const BodyAddition& here) {
@@ -104,11 +109,14 @@ public:
         }
     }
 
+    void change(const LinkConditions& other) {
+        at_far_.change(other);
+        at_near_.change(other);
+    }
     void lose_everything(bool lost) {
         LinkConditions other = conditions_;
         other.loss = lost ? 1.0 : conditions_.loss;
-        at_far_.change(other);
-        at_near_.change(other);
+        change(other);
     }
 
     // How far model and environment are apart after the newest sample that both know (unit: meters).

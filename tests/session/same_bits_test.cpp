@@ -4,8 +4,8 @@
 // Nothing here asks the C library for more than a square root: of sines each has its own opinion.
 #include <string>
 
+#include "core/math/bit_hash.hpp"
 #include "session_rig.hpp"
-#include "shared/bit_hash.hpp"
 
 namespace tactus {
 namespace {
@@ -78,7 +78,7 @@ Outcome run() {
     rig.session.set_proxy(rig.proxy, description);
 
     Outcome outcome;
-    shared::BitHash hash;
+    BitHash hash;
     Turning around(0.001), up_and_down(0.004);
     Vec3 start(0.0);
     for (int i = 0; i < 3'000; ++i) {

@@ -45,7 +45,8 @@ inline BodyAddition ground() {
 
 class SessionRig {
 public:
-    explicit SessionRig(const SessionSettings& settings = {}) : session(settings) {
+    explicit SessionRig(const SessionSettings& settings = {}, InputRecorder* recorder = nullptr)
+        : session(settings, recorder) {
         Workspace workspace;
         workspace.force_limit = 1e6;
         hand = session.add_device(device, workspace).handle;

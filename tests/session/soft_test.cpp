@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/math/bit_hash.hpp"
 #include "session_rig.hpp"
-#include "shared/bit_hash.hpp"
 #include "shared/meshes.hpp"
 #include "shared/soft_figures.hpp"
 #include "support/realtime_audit.hpp"
@@ -175,7 +175,7 @@ TEST(Soft, TheSameTouchesGiveTheSameBits) {
     std::uint64_t hashes[2];
     for (std::uint64_t& hash : hashes) {
         SoftRig rig({.stiffness = 1e4}, {}, 0.045);
-        shared::BitHash bits;
+        BitHash bits;
         for (int i = 0; i < 500; ++i) {
             rig.draw(rig.device.position + Vec3(2e-5, i < 300 ? -1.5e-4 : 1e-4, 1e-5), 1);
             bits.add(rig.proxy_state().force);

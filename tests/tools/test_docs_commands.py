@@ -15,7 +15,7 @@ FOLDER = cache.clone()
 DOCUMENTS = sorted([FOLDER / "README.md", *(FOLDER / "docs").rglob("*.md")])
 _COMMAND = re.compile(r"\./run (\w+)((?: [\w./=,{}-]+)*)")
 # In place of a name.
-_ANY = ("NAME", "NAME…", "FILTER", "SCENE", "SWEEPFILE")
+_ANY = ("NAME", "NAME…", "FILTER", "SCENE", "SWEEPFILE", "BUNDLE")
 
 
 def _commands() -> list[tuple[str, str, list[str]]]:

@@ -75,6 +75,8 @@ public:
     void follow(const TriangleMesh& moved);
     // True where both hold the same triangles at the same places of the tree, one as it is refitted.
     bool is_refit_of(const TriangleTree& other) const { return lineage_ == other.lineage_; }
+    // The same number for those: another one for each build in this process, never 0.
+    std::uint64_t lineage() const { return lineage_; }
 
     // The packs around a point by their boxes, nearest nodes first: as many as fit, up to the
     // radius.

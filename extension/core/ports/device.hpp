@@ -31,6 +31,8 @@ struct DeviceCapabilities {
     double coulomb = 0.0;            // friction (unit: newtons)
     double velocity_smoothed = 0.0;  // DeviceSample::velocity, to first order (unit: seconds), >= 0
     double ramp = 0.0;               // until a force that begins is there (unit: seconds)
+
+    bool operator==(const DeviceCapabilities&) const = default;
 };
 
 struct DeviceSample {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "shared/bit_hash.hpp"
+#include "core/math/bit_hash.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "support/realtime_audit.hpp"
@@ -69,7 +69,7 @@ bool is_finite(const SoftBody& body) {
 }
 
 std::uint64_t bits_of(const SoftBody& body) {
-    shared::BitHash hash;
+    BitHash hash;
     for (std::size_t i = 0; i < body.places().size(); ++i) {
         hash.add(at(body.places()[i]));
         hash.add(at(body.velocities()[i]));

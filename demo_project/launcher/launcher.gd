@@ -1,0 +1,158 @@
+extends Control
+## Picks what is played, starts it, shows it and saves it as a bundle that can be played again.
+
+const Launch := preload("res://launcher/launch.gd")
+const Run := preload("res://launcher/run.gd")
+const Replay := preload("res://experiments/replay.gd")
+
+## Each row of the form: its words, the choice, and what can be chosen: texts to values, an enumeration, or a
+## range of numbers with its step; nothing: any text.
+const ROWS := [
+	["Scenario", "scenario", Launch.SCENARIOS],
+	[
+		"Side",
+		"side",
+		{"both, on this machine": Launch.BOTH, "operator": Launch.OPERATOR, "environment": Launch.ENVIRONMENT}
+	],
+	["Device", "driver", Launch.DRIVERS],
+	["Camera", "camera", Launch.SOURCES],
+	["Address of the other side", "remote_address", null],
+	["Port of this side", "local_port", [1, 65535, 1]],
+	["Port of the other side", "remote_port", [1, 65535, 1]],
+	["File with the key", "key_file", null],
+	["Delay, there and back (ms)", "delay_ms", [0, 2000, 1]],
+	["Jitter (ms)", "jitter_ms", [0, 500, 1]],
+	["Loss (share)", "loss", [0, 1, 0.01]],
+	["Correction", "correction", Launch.CORRECTIONS],
+	["Derivation", "derivation", Launch.DERIVATIONS],
+	["Control scheme", "control", Launch.CONTROLS],
+	["Length (s)", "seconds", [1, 3600, 1]],
+	["Folder of the bundle", "output", null],
+]
+const OF_A_NETWORK := ["side", "remote_address", "local_port", "remote_port", "key_file"]
+const OF_TWO_MACHINES := ["remote_address", "key_file"]
+
+var _launch := Launch.new()
+var _run: Run
+var _rows := {}
+
+@onready var _form: GridContainer = %Form
+@onready var _said: Label = %Said
+
+
+func _ready() -> void:
+	_launch.chosen.output = "user://bundles/" + Time.get_datetime_string_from_system(true).replace(":", "")
+	for row: Array in ROWS:
+		_add_row(row[0], row[1], row[2])
+	%Start.pressed.connect(_start)
+	%Stop.pressed.connect(func() -> void: _run.stop())
+	%Again.pressed.connect(_play_again)
+	_show_state(false)
+	_chosen()
+	%Start.grab_focus()
+
+
+func _add_row(words: String, choice: String, values: Variant) -> void:
+	var label := Label.new()
+	label.text = words
+	var control: Control
+	if values is Dictionary:
+		control = _choice_among(values.keys(), values.values(), choice)
+	elif values is Array and values[0] is String:
+		var names := Launch.names_of(values)
+		control = _choice_among(Array(names).map(_readable.bind(names[0])), Array(names), choice)
+	elif values is Array:
+		control = _number(values, choice)
+	else:
+		control = _text(choice)
+	control.size_flags_horizontal = SIZE_EXPAND_FILL
+	_form.add_child(label)
+	_form.add_child(control)
+	_rows[choice] = [label, control]
+
+
+## Of DRIVER_FORCE_DIMENSION: Force dimension.
+func _readable(name: String, first: String) -> String:
+	return name.trim_prefix(first.get_slice("_", 0) + "_").replace("_", " ").to_lower().capitalize()
+
+
+func _choice_among(words: Array, values: Array, choice: String) -> OptionButton:
+	var button := OptionButton.new()
+	for word: String in words:
+		button.add_item(word)
+	button.select(values.find(_launch.chosen[choice]))
+	button.item_selected.connect(func(index: int) -> void: _choose(choice, values[index]))
+	return button
+
+
+func _number(limits: Array, choice: String) -> SpinBox:
+	var box := SpinBox.new()
+	box.min_value = limits[0]
+	box.max_value = limits[1]
+	box.step = limits[2]
+	box.value = _launch.chosen[choice]
+	box.value_changed.connect(
+		func(value: float) -> void: _choose(choice, type_convert(value, typeof(_launch.chosen[choice])))
+	)
+	return box
+
+
+func _text(choice: String) -> LineEdit:
+	var line := LineEdit.new()
+	line.text = _launch.chosen[choice]
+	line.text_changed.connect(func(text: String) -> void: _choose(choice, text))
+	return line
+
+
+func _choose(choice: String, value: Variant) -> void:
+	_launch.chosen[choice] = value
+	_chosen()
+
+
+## What has no part in the scenario is not asked for.
+func _chosen() -> void:
+	var shown := {
+		"camera": _launch.chosen.scenario == 5,
+		"control": _launch.chosen.scenario != 1,
+		"correction": _launch.chosen.scenario in [4, 5],
+		"derivation": _launch.chosen.scenario in [4, 5],
+	}
+	for choice: String in ["delay_ms", "jitter_ms", "loss"]:
+		shown[choice] = _launch.chosen.scenario != 1
+	for choice: String in OF_A_NETWORK:
+		shown[choice] = _launch.has_network()
+	for choice: String in OF_TWO_MACHINES:
+		shown[choice] = _launch.has_network() and _launch.chosen.side != Launch.BOTH
+	for choice: String in shown:
+		for part: Control in _rows[choice]:
+			part.visible = shown[choice]
+	_said.text = _launch.problem()
+	%Start.disabled = not _said.text.is_empty()
+
+
+func _show_state(plays: bool) -> void:
+	%Panel.visible = not plays
+	%Stop.visible = plays
+
+
+func _start() -> void:
+	_show_state(true)
+	_run = Run.new()
+	_run.finished.connect(func(message: String) -> void: _said.text = message)
+	add_child(_run)
+	move_child(_run, 0)
+	var code := await _run.start(_launch)
+	%Again.set_meta("bundle", _run.folder)
+	%Again.visible = code == 0
+	_run.queue_free()
+	_run = null
+	_show_state(false)
+
+
+func _play_again() -> void:
+	var bundle: String = %Again.get_meta("bundle")
+	_said.text = "Playing it again …"
+	await get_tree().process_frame
+	await get_tree().process_frame
+	var same := Replay.run(["--replay=" + bundle]) == Replay.SAME
+	_said.text = "The same came of it, to the bit" if same else "It was not the same: the output says where"

@@ -1,0 +1,36 @@
+// A file of recorded inputs (input_recording.hpp), played; the rows that were written down then are written
+// again.
+//
+// Any one thread, but the haptic one.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "platform/file.hpp"
+#include "session/input_replay.hpp"
+
+namespace tactus {
+
+class InputPlayer {
+public:
+    // `csv`: where the rows go; empty: nowhere. Null where a file cannot be opened, and `error` says why.
+    static std::unique_ptr<InputPlayer> open(const std::string& inputs, const std::string& csv,
+                                             std::string& error);
+
+    // False where there are no more ticks. Then the rows are written to their end.
+    bool play(std::uint64_t ticks);
+    const InputReplay::Report& report() const { return replay_.report(); }
+    Nanoseconds now() const { return replay_.now(); }
+    Session* session() { return replay_.session(); }
+
+private:
+    InputPlayer(OpenFile inputs, OpenFile csv);
+    void write_rows();
+
+    OpenFile inputs_, csv_;
+    std::string text_;
+    InputReplay replay_;
+};
+
+}  // namespace tactus
