@@ -261,6 +261,9 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
     if (!body.error.empty()) {
         return {no_handle, std::move(body.error)};
     }
+    if (body.soft && body.soft->body.model().seconds != to_seconds(impl_->settings.period)) {
+        return {no_handle, "the body that gives was made for ticks of another length: make it anew"};
+    }
     impl_->make_second(body);
     const SessionHandle handle = impl_->bodies.take();
     if (handle == no_handle) {
