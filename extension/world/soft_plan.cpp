@@ -35,6 +35,9 @@ bool SoftPlan::is_for(const SceneFrame& frame, double seconds) const {
 SoftModelResult SoftPlan::make() const {
     const SoftDescription& d = description_;
     const auto place = [&](const Vec3& point) { return d.frame.origin + d.frame.axes * point; };
+    if (d.source == nullptr && d.tetrahedra.empty()) {
+        return {nullptr, "it has no mesh: set 'mesh', or 'points' and 'tetrahedra'"};
+    }
     if (d.source == nullptr) {
         std::vector<Vec3> points = d.points;
         std::ranges::transform(points, points.begin(), place);

@@ -32,7 +32,6 @@ func _highest(soft: HapticSoftBody) -> float:
 
 func test_a_block_gives_by_as_much_as_it_is_pressed_and_comes_back() -> void:
 	var world := add_world()
-	world.gravity = Vector3.ZERO
 	var soft := _block()
 	world.add_child(_body_of(soft))
 	var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.03, 0)))
@@ -45,7 +44,7 @@ func test_a_block_gives_by_as_much_as_it_is_pressed_and_comes_back() -> void:
 	check_equal(soft.get_element_count(), 750, "elements")
 	check_equal(world.get_problems().size(), 0, "problems")
 	var away: HapticPath = path(Vector3(0, 0.03, 0), Vector3(0, 0.2, 0))
-	(world.get_node("HapticDevice") as HapticDevice).path = away
+	(world.get_node("Device") as HapticDevice).path = away
 	world.advance(3.0)
 	check(absf(_highest(soft) - 0.04) < 1e-4, "shape is not back: %s" % _highest(soft))
 
@@ -72,6 +71,7 @@ func test_a_cloth_between_its_corners_bears_the_hand() -> void:
 
 func test_a_ball_that_is_not_held_falls_on_the_ground() -> void:
 	var world := add_world()
+	world.gravity = Vector3(0, -9.81, 0)
 	var ground := StaticBody3D.new()
 	var shape := CollisionShape3D.new()
 	shape.shape = WorldBoundaryShape3D.new()
@@ -100,7 +100,6 @@ func test_a_ball_that_is_not_held_falls_on_the_ground() -> void:
 
 func test_tetrahedra_can_be_given() -> void:
 	var world := add_world()
-	world.gravity = Vector3.ZERO
 	var soft := HapticSoftBody.new()
 	soft.points = PackedVector3Array(
 		[Vector3(-0.1, 0, -0.1), Vector3(0.1, 0, -0.1), Vector3(0, 0, 0.1), Vector3(0, 0.1, 0)]
@@ -150,7 +149,6 @@ func test_another_stiffness_is_another_feeling() -> void:
 	var forces: Array[float] = []
 	for stiffness: float in [3e3, 3e4]:
 		var world := add_world()
-		world.gravity = Vector3.ZERO
 		var soft := _block()
 		world.add_child(_body_of(soft))
 		var proxy := add_hand(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.035, 0)))
