@@ -11,6 +11,9 @@ namespace {
 // Short enough for friction at rest (unit: seconds).
 constexpr double longest_step = 250e-6;
 
+// In which the arm's levers are those of its start: it moves by a millimeter or so (unit: seconds).
+constexpr double longest_move = 1e-3;
+
 // Of the legs amid the workspace, for what their inertia is in the hand (unit: meters).
 constexpr double mean_lever = 0.09;
 
@@ -39,9 +42,9 @@ DeviceCapabilities EmulatedRobot::capabilities() const {
 
 DeviceSample EmulatedRobot::read(Nanoseconds now) {
     const double seconds = started_ ? std::clamp(to_seconds(now - previous_), 0.0, longest_tick) : 0.0;
-    const int steps = static_cast<int>(std::ceil(seconds / longest_step));
-    for (int i = 0; i < steps; ++i) {
-        step(seconds / steps);
+    const int moves = static_cast<int>(std::ceil(seconds / longest_move));
+    for (int i = 0; i < moves; ++i) {
+        move(seconds / moves);
     }
     previous_ = now;
     started_ = true;
@@ -73,13 +76,19 @@ FalconReport EmulatedRobot::encoders() {
     return report;
 }
 
-void EmulatedRobot::step(double seconds) {
+void EmulatedRobot::move(double seconds) {
     const Mat3 jacobian = delta_jacobian(pose_);
     const Mat3 mass =
         Mat3(settings_.body.mass) + settings_.leg_inertia * (glm::transpose(jacobian) * jacobian);
-    const Vec3 force = delta_force(pose_, torques_) + contact_ - friction_of(settings_.body, velocity_);
-    velocity_ += seconds * (glm::inverse(mass) * force);
-    const Vec3 next = place_ + seconds * velocity_;
+    const Mat3 mobility = glm::inverse(mass);
+    const Vec3 driven = delta_force(pose_, torques_) + contact_;
+    const int steps = static_cast<int>(std::ceil(seconds / longest_step));
+    const double step = seconds / steps;
+    Vec3 next = place_;
+    for (int i = 0; i < steps; ++i) {
+        velocity_ += step * (mobility * (driven - friction_of(settings_.body, velocity_)));
+        next += step * velocity_;
+    }
     const DeltaPose there = delta_pose(settings_.data.geometry, next);
     if (there.state == DeltaState::sound) {
         place_ = next;

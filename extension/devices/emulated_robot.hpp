@@ -46,7 +46,7 @@ public:
     const Vec3& contact() const { return contact_; }
 
 private:
-    void step(double seconds);
+    void move(double seconds);
     FalconReport encoders();
 
     EmulatedRobotSettings settings_;

@@ -1,5 +1,6 @@
 #include "devices/usb.hpp"
 
+#include <array>
 #include <mutex>
 
 #include "devices/runtime_library.hpp"
@@ -43,6 +44,16 @@ const Library* library(std::string& error) {
     });
     error = ready ? "" : "the libusb on this system is too old: version 1.0.16 or later is needed";
     return ready ? &usb : nullptr;
+}
+
+std::string place_of(const Library& usb, Device* device) {
+    std::array<std::uint8_t, 8> ports{};
+    const int depth = usb.get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
+    std::string place = "usb" + std::to_string(usb.get_bus_number(device));
+    for (int port = 0; port < depth; ++port) {
+        place += (port == 0 ? "-" : ".") + std::to_string(ports[static_cast<std::size_t>(port)]);
+    }
+    return place;
 }
 
 }  // namespace tactus::usb

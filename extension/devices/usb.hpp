@@ -74,4 +74,7 @@ struct Library {
 // vanish.
 const Library* library(std::string& error);
 
+// The bus and the ports on the way to a device, as the system names them.
+std::string place_of(const Library& usb, Device* device);
+
 }  // namespace tactus::usb

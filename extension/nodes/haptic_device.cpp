@@ -7,6 +7,7 @@
 #include <godot_cpp/classes/input_event_mouse_motion.hpp>
 #include <godot_cpp/classes/viewport.hpp>
 
+#include "devices/scan.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/hand_input.hpp"
 #include "nodes/haptic_world.hpp"
@@ -37,9 +38,26 @@ void HapticDevice::changed() {
     update_configuration_warnings();
 }
 
+double HapticDevice::get_workspace_radius() const {
+    return state_.radius > 0.0 ? state_.radius : usual_radius(kind(), steering_);
+}
+
+TypedArray<Dictionary> HapticDevice::find_devices() {
+    TypedArray<Dictionary> found;
+    for (const PluggedDevice& device : plugged_devices()) {
+        Dictionary d;
+        d["driver"] = static_cast<int64_t>(hand_of(device.kind));
+        d["id"] = to_godot(device.id);
+        d["name"] = to_godot(device.name);
+        found.push_back(d);
+    }
+    return found;
+}
+
+// In the editor a gizmo of the addon's plugin shows it.
 void HapticDevice::draw_box() {
-    const double radius = state_.radius > 0.0 ? state_.radius : usual_radius(kind(), steering_);
-    const bool is_seen = is_inside_tree() && radius > 0.0 && (show_workspace_ || is_edited());
+    const double radius = get_workspace_radius();
+    const bool is_seen = is_inside_tree() && radius > 0.0 && show_workspace_ && !is_edited();
     if (is_seen && box_ == nullptr) {
         box_ = add_picture(*this, drawn_cube_edges(1.0, box_line), see_through_material(box_color));
     }

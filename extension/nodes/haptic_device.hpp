@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/node_path.hpp>
+#include <godot_cpp/variant/typed_array.hpp>
 #include <memory>
 
 #include "devices/space_mouse.hpp"
@@ -52,6 +53,9 @@ public:
     godot::Vector3 get_torque() const { return to_godot(state_.torque); }
     int64_t get_buttons() const { return state_.buttons; }
     godot::String get_open_device_id() const;
+    // Half a side of the box around the workspace, in the device's own frame; 0: it has none (unit: meters).
+    double get_workspace_radius() const;
+    static godot::TypedArray<godot::Dictionary> find_devices();
     godot::String get_state_text() const;
 
     // Puts the hand of a mouse under this point of the screen, at the depth where it is now.

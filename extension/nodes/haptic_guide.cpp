@@ -2,21 +2,32 @@
 
 #include <algorithm>
 
+#include "nodes/curve_reading.hpp"
 #include "nodes/mesh_drawing.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
+std::vector<Vec3> HapticGuide::places() const {
+    if (curve_.is_valid() && form_ == FORM_WAY) {
+        return even_places_along(curve_, HandGuide::max_points);
+    }
+    std::vector<Vec3> places;
+    for (const Vector3& point : points_) {
+        places.push_back(from_godot(point));
+    }
+    return places;
+}
+
 // Of too many points as many are taken as show that.
 HandGuide HapticGuide::described() const {
+    const std::vector<Vec3> places = this->places();
     HandGuide guide;
     guide.form = static_cast<HandGuide::Form>(form_);
-    guide.count = static_cast<std::size_t>(points_.size());
+    guide.count = places.size();
     const std::size_t taken = std::min(guide.count, HandGuide::max_points);
-    for (std::size_t i = 0; i < taken; ++i) {
-        guide.points[i] = from_godot(points_[static_cast<int64_t>(i)]);
-    }
+    std::copy_n(places.begin(), taken, guide.points.begin());
     guide.stiffness = stiffness_;
     guide.range = range_;
     return guide;
@@ -33,11 +44,7 @@ Vector3 HapticGuide::get_place(const Vector3& hand) const {
 }
 
 Ref<ArrayMesh> HapticGuide::create_line_mesh(double thickness) const {
-    std::vector<Vec3> points;
-    for (const Vector3& point : points_) {
-        points.push_back(from_godot(point));
-    }
-    return drawn_mesh(get_problem().is_empty() ? tube(points, thickness, false) : Drawing{});
+    return drawn_mesh(get_problem().is_empty() ? tube(places(), thickness, false) : Drawing{});
 }
 
 }  // namespace tactus

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <godot_cpp/classes/array_mesh.hpp>
+#include <godot_cpp/classes/curve3d.hpp>
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/packed_vector3_array.hpp>
@@ -36,9 +37,12 @@ protected:
 
 private:
     HandGuide described() const;
+    // In the world: its own points, or those along its curve.
+    std::vector<Vec3> places() const;
 
     Form form_ = FORM_WAY;
     godot::PackedVector3Array points_;
+    godot::Ref<godot::Curve3D> curve_;
     double stiffness_ = 200.0;
     double range_ = 0.03;
 };

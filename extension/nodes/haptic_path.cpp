@@ -1,6 +1,7 @@
 #include "nodes/haptic_path.hpp"
 
 #include "nodes/conversions.hpp"
+#include "nodes/curve_reading.hpp"
 #include "nodes/mesh_drawing.hpp"
 
 namespace tactus {
@@ -16,6 +17,9 @@ HandPath HapticPath::hand_path() const {
     if (form_ == FORM_CIRCLE_WAVE) {
         return circle_;
     }
+    if (form_ == FORM_CURVE) {
+        return along_curve();
+    }
     KeyframePath path;
     path.interpolation =
         interpolation_ == INTERPOLATION_SMOOTH ? PathInterpolation::catmull_rom : PathInterpolation::linear;
@@ -27,7 +31,22 @@ HandPath HapticPath::hand_path() const {
     return path;
 }
 
+KeyframePath HapticPath::along_curve() const {
+    KeyframePath path;
+    path.interpolation = PathInterpolation::linear;
+    path.loop = curve_loop_;
+    double way = 0.0;
+    for (const Vec3& place : places_along(curve_)) {
+        way += path.keyframes.empty() ? 0.0 : glm::distance(place, path.keyframes.back().position);
+        path.keyframes.push_back({from_seconds(way / curve_speed_), place});
+    }
+    return path;
+}
+
 String HapticPath::get_problem() const {
+    if (form_ == FORM_CURVE && (curve_.is_null() || curve_->get_point_count() < 2)) {
+        return "there is no curve of two points or more: set 'curve' to a Curve3D, as a Path3D has one";
+    }
     if (form_ == FORM_POINTS && !times_.is_empty() && times_.size() != points_.size()) {
         return "there are " + String::num_int64(points_.size()) + " points and " +
                String::num_int64(times_.size()) +

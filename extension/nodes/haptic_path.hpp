@@ -1,6 +1,7 @@
 #pragma once
 
 #include <godot_cpp/classes/array_mesh.hpp>
+#include <godot_cpp/classes/curve3d.hpp>
 #include <godot_cpp/classes/resource.hpp>
 #include <godot_cpp/core/binder_common.hpp>
 #include <godot_cpp/variant/packed_float64_array.hpp>
@@ -16,7 +17,7 @@ class HapticPath : public godot::Resource {
     GDCLASS(HapticPath, godot::Resource)
 
 public:
-    enum Form : int64_t { FORM_CIRCLE_WAVE, FORM_POINTS };
+    enum Form : int64_t { FORM_CIRCLE_WAVE, FORM_POINTS, FORM_CURVE };
     enum Interpolation : int64_t { INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH };
 
     TACTUS_PROPERTIES(HapticPath)
@@ -35,6 +36,7 @@ protected:
 
 private:
     void form_changed();
+    KeyframePath along_curve() const;
     HandSample sample_at(double time) const;  // at rest where the path cannot be followed
 
     Form form_ = FORM_CIRCLE_WAVE;
@@ -43,6 +45,9 @@ private:
     godot::PackedFloat64Array times_;
     Interpolation interpolation_ = INTERPOLATION_SMOOTH;
     bool loop_ = false;
+    godot::Ref<godot::Curve3D> curve_;
+    double curve_speed_ = 0.1;  // (unit: meters per second)
+    bool curve_loop_ = false;
 };
 
 }  // namespace tactus

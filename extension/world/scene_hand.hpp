@@ -42,6 +42,9 @@ constexpr bool is_steered(HandKind kind) {
 constexpr bool has_driver(HandKind kind) {
     return kind >= HandKind::falcon && kind <= HandKind::inverse3;
 }
+constexpr HandKind hand_of(DriverKind kind) {
+    return static_cast<HandKind>(static_cast<int>(HandKind::falcon) + static_cast<int>(kind));
+}
 
 struct HandPlan {
     HandKind kind = HandKind::mouse;  // not automatic

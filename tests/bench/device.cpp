@@ -19,6 +19,7 @@
 #include "devices/drivers.hpp"
 #include "devices/emulated_robot.hpp"
 #include "devices/following_device.hpp"
+#include "devices/path_device.hpp"
 #include "devices/robot_table.hpp"
 #include "devices/simulated_arm.hpp"
 #ifdef __linux__
@@ -192,6 +193,8 @@ void report_ticks(Report& report, const char* name, double over_path) {
 
 // Hands without a driver of their own; those that are led are one, whoever leads them.
 void report_ticks_of_hands(Report& report) {
+    PathDevice path{path_over_floor()};  // how far off the measure itself is
+    report_ticks(report, "path", tick_over_path(path, seconds_of_ticks, [](double) {}));
     FollowingDevice led({});
     int tick = 0;
     report_ticks(report, "mouse", tick_over_path(led, seconds_of_ticks, [&](double time) {

@@ -122,3 +122,20 @@ func test_the_scene_with_a_guide_plays() -> void:
 	check(led > 100 and astray * 10 < led, "%d frames led, %d astray" % [led, astray])
 	check_equal(world.get_problems().size(), 0, "problems: %s" % world.get_problems())
 	scene.free()
+
+
+func test_a_guide_along_a_curve_leads_along_it() -> void:
+	var guide := _guide(HapticGuide.FORM_WAY, [])
+	guide.curve = Curve3D.new()
+	check(guide.get_problem().contains("too few points"), guide.get_problem())
+	guide.curve.add_point(Vector3(-0.1, 0.1, 0), Vector3.ZERO, Vector3(0.05, 0.05, 0))
+	guide.curve.add_point(Vector3(0.1, 0.1, 0), Vector3(-0.05, 0.05, 0))
+	check_equal(guide.get_problem(), "", "problem")
+	var middle := guide.curve.sample(0, 0.5)
+	check_near(guide.get_place(middle + Vector3(0, 0.01, 0)), middle, 1e-3, "place in the middle")
+	check_near(guide.get_place(Vector3(-1, 0.1, 0)), Vector3(-0.1, 0.1, 0), 1e-6, "its end")
+	var seen := [0]
+	guide.changed.connect(func() -> void: seen[0] += 1)
+	guide.curve.set_point_position(1, Vector3(0.2, 0.1, 0))
+	check_equal(seen[0], 1, "changes that were told")
+	check_near(guide.get_place(Vector3(1, 0.1, 0)), Vector3(0.2, 0.1, 0), 1e-6, "its end, moved")

@@ -1,3 +1,4 @@
+@tool
 extends Node
 ## Runs the test_* methods of the file that the first user argument names, or of those the methods that
 ## follow.

@@ -176,3 +176,26 @@ func test_the_path_of_the_thesis_is_a_circle_of_ten_seconds_through_the_ground()
 	check_near(way.sample(10.0), way.sample(0.0), 1e-6, "end")
 	check_near(way.sample_velocity(2.0), (way.sample(2.001) - way.sample(1.999)) / 0.002, 1e-3, "velocity")
 	check(way.create_line_mesh().get_faces().size() > 0, "there is no line to draw")
+
+
+func test_a_path_along_a_curve_goes_at_an_even_speed() -> void:
+	var way := HapticPath.new()
+	way.form = HapticPath.FORM_CURVE
+	check(way.get_problem().contains("set 'curve'"), way.get_problem())
+	check_equal(way.get_duration(), 0.0, "duration without a curve")
+	way.curve = Curve3D.new()
+	way.curve.add_point(Vector3.ZERO, Vector3.ZERO, Vector3(0.1, 0, 0))
+	way.curve.add_point(Vector3(0.2, 0.1, 0), Vector3(-0.1, 0, 0))
+	way.curve.bake_interval = 0.002
+	way.curve_speed = 0.05
+	check_equal(way.get_problem(), "", "problem")
+	var seconds := way.get_duration()
+	check_near(seconds * 0.05, way.curve.get_baked_length(), 1e-3, "length")
+	for i in 20:
+		var time := seconds * (i + 0.5) / 20.0
+		check_near(way.sample_velocity(time).length(), 0.05, 1e-4, "speed at %s s" % time)
+		check_near(
+			way.curve.get_closest_point(way.sample(time)), way.sample(time), 2e-4, "place on the curve"
+		)
+	check_near(way.sample(seconds), Vector3(0.2, 0.1, 0), 1e-6, "end")
+	check(way.create_line_mesh().get_faces().size() > 0, "there is no line to draw")

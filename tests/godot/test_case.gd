@@ -1,3 +1,4 @@
+@tool
 extends Node
 ## What a headless test extends. It is a branch of the tree of its own: what it adds below goes with it.
 

@@ -9,6 +9,7 @@
 
 #include "devices/driver_device.hpp"
 #include "devices/falcon/falcon_driver.hpp"
+#include "devices/scan.hpp"
 #include "platform/sleep.hpp"
 #include "played/played_stall.hpp"
 #include "played/played_usb.hpp"
@@ -83,6 +84,19 @@ TEST(PlayedFalcon, StartsIsHomedAndFollowsTheHand) {
         tick_until(*device, Vec3(0.0), [&usb](const auto&) { return usb.leds() == falcon_led_green; }));
     EXPECT_EQ(device->capabilities().max_force, falcon_capabilities().max_force);
     EXPECT_EQ(device->health().phase, Phase::running);
+}
+
+TEST(PlayedFalcon, IsFoundWhileItIsPluggedInAndNotOpened) {
+    PlayedUsb usb({});
+    EXPECT_TRUE(plugged_devices().empty());
+    usb.plug();
+    const std::vector<PluggedDevice> found = plugged_devices();
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].kind, DriverKind::falcon);
+    EXPECT_EQ(found[0].id, "usb1-1");
+    // Whoever opens it finds it free.
+    const auto device = falcon(with_firmware(found[0].id));
+    EXPECT_TRUE(tick_until(*device, Vec3(0.0), is_connected)) << device->health().text;
 }
 
 TEST(PlayedFalcon, TheHandFeelsTheForceThatWasAskedFor) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "model_rig.hpp"
 #include "shared/robot_at_block.hpp"
 #include "shared/teleop_run.hpp"
@@ -76,23 +78,27 @@ TEST(RobotSide, TellsWhatIsKnownOfItsPlace) {
     EXPECT_EQ(rig.near->port->statistics.front().link.peer_hello.scenario, 5);
 }
 
-// Two seconds of touch: half of them it rubs, half of them it pushes.
+// Two seconds of touch: half of them it presses and rubs, half of them it pushes. What drags along under the
+// rubbing tip tells little of its friction, and what is light little of its mass.
 TEST(RobotSide, LearnsHowStiffHowRoughAndHowHeavyWhatItTouchesIs) {
-    unsigned seed = 1;
-    for (const shared::BlockTruth& truth : {shared::BlockTruth{300.0, 0.3, 0.3, 0.5, 1},
-                                            {800.0, 0.6, 0.4, 0.8, 2},
-                                            {1200.0, 0.5, 0.5, 0.25, 3}}) {
+    constexpr int blocks = 16;
+    int rough = 0, heavy = 0;
+    for (unsigned seed = 1; seed <= blocks; ++seed) {
+        const shared::BlockTruth truth = shared::any_block(seed);
         shared::RobotAtBlock robot(truth);
         robot.rub(1.0);
         robot.push(1.0);
         ASSERT_GT(robot.block().x, 0.02) << "it has not been pushed";
         const ObjectEstimate& told = robot.told();
-        EXPECT_TRUE(told.stiffness.known && told.friction.known && told.mass.known) << seed;
-        EXPECT_NEAR(told.stiffness.value, truth.stiffness, 0.1 * truth.stiffness);
-        EXPECT_NEAR(told.friction.value, truth.friction, 0.1 * truth.friction);
-        EXPECT_NEAR(told.mass.value, truth.mass, 0.1 * truth.mass);
-        ++seed;
+        const auto is_right = [](const TouchValue& value, double is) {
+            return value.known && std::abs(value.value - is) <= 0.1 * is;
+        };
+        EXPECT_TRUE(is_right(told.stiffness, truth.stiffness)) << seed << ": " << told.stiffness.value;
+        rough += is_right(told.friction, truth.friction);
+        heavy += is_right(told.mass, truth.mass);
     }
+    EXPECT_GE(rough, blocks * 3 / 4);
+    EXPECT_GE(heavy, blocks * 3 / 4);
 }
 
 }  // namespace

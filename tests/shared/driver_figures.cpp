@@ -1,6 +1,7 @@
 #include "shared/driver_figures.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -112,7 +113,9 @@ Vec3 way_over_floor(double seconds) {
     return sample_path(path_over_floor(), from_seconds(seconds)).position;
 }
 
-// Both in each millisecond, first the one and then the other in turn: what else the machine does meets both.
+// Both in each millisecond; which is first follows the sequence of Thue and Morse. What else the machine does
+// meets both then, whatever its period: a kernel that wakes every fourth millisecond would else always meet
+// the same one.
 double tick_over_path(Device& device, double seconds, const std::function<void(double)>& move) {
     PathDevice path{path_over_floor()};
     OverFloor by_path(path), by_device(device);
@@ -120,11 +123,12 @@ double tick_over_path(Device& device, double seconds, const std::function<void(d
     SleepTimer timer;
     const AsLoop as_loop;
     const Nanoseconds start = monotonic_now();
-    bool path_first = false;
-    for (Nanoseconds tick = start; tick < start + from_seconds(seconds); tick += ms) {
+    const auto ticks = static_cast<std::uint32_t>(from_seconds(seconds) / ms);
+    for (std::uint32_t i = 0; i < ticks; ++i) {
+        const Nanoseconds tick = start + i * ms;
         move(to_seconds(tick - start));
         timer.sleep_until(tick);
-        path_first = !path_first;
+        const bool path_first = std::popcount(i) % 2 == 0;
         (path_first ? by_path : by_device).tick(clock, tick - start);
         (path_first ? by_device : by_path).tick(clock, tick - start);
     }

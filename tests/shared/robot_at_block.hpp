@@ -3,7 +3,9 @@
 // roughly and late. What the far side tells of the block is read off the link.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "session/robot_side.hpp"
 #include "session/session.hpp"
 #include "shared/endpoints.hpp"
+#include "shared/random_values.hpp"
 #include "shared/rough_eyes.hpp"
 
 namespace tactus::shared {
@@ -25,6 +28,19 @@ struct BlockTruth {
     double mass = 0.5;         // (unit: kilograms)
     unsigned seed = 1;
 };
+
+// One that a robot of 8 N can slide.
+inline BlockTruth any_block(std::uint64_t seed) {
+    constexpr double most_to_slide = 4.0;  // (unit: newtons)
+    RandomValues random(seed);
+    BlockTruth block;
+    block.stiffness = random.magnitude(200.0, 1200.0);
+    block.friction = random.between(0.15, 1.0);
+    block.mass = random.magnitude(0.2, 2.0);
+    block.on_table = random.between(0.15, std::min(0.7, most_to_slide / (9.81 * block.mass)));
+    block.seed = static_cast<unsigned>(seed);
+    return block;
+}
 
 class RobotAtBlock {
 public:
@@ -49,22 +65,28 @@ public:
         }
     }
 
-    // Presses on the block's top, more and less, and rubs to and fro.
+    // Presses straight down on the block's top for a third of the time, and rubs to and fro for the rest:
+    // from lightly on, as what is light and rough is dragged along by more.
     void rub(double seconds) {
         const double top = block().y + half + radius;
         const Vec3 above(block().x, top + 0.002, 0.0);
         go(above, 0.3);
+        const double straight = 0.3 * seconds;
         const int ticks = static_cast<int>(seconds * 1e3);
         for (int i = 0; i < ticks; ++i) {
             const double t = 1e-3 * i;
-            put(above + Vec3(0.012 * std::sin(2.0 * pi * 1.5 * t),
-                             -0.002 - 0.008 * std::min(1.0, t / 0.1) - 0.003 * std::sin(2.0 * pi * 4.0 * t),
-                             0.0));
+            const double rubbed = std::max(0.0, t - straight);
+            const double pressed = 0.006 * (1.0 - std::cos(2.0 * pi * t / straight));
+            const double rubbing =
+                0.001 + 0.005 * rubbed / (seconds - straight) - 0.001 * std::sin(2.0 * pi * 4.0 * rubbed);
+            put(above + Vec3(0.012 * std::sin(2.0 * pi * 1.5 * rubbed),
+                             -0.002 - (t < straight ? pressed : rubbing), 0.0));
         }
         go(above + Vec3(0.0, 0.01, 0.0), 0.2);
     }
 
-    // Pushes its side, faster and slower.
+    // Pushes its side at a steady pace, as steady as a hand is: one that goes slower and faster lets go of
+    // what is light, or stands still with it.
     void push(double seconds) {
         const Vec3 before(block().x - half - radius - 0.002, block().y, 0.0);
         go({before.x, hand_.y, 0.0}, 0.3);
@@ -72,7 +94,7 @@ public:
         const int ticks = static_cast<int>(seconds * 1e3);
         for (int i = 0; i < ticks; ++i) {
             const double t = 1e-3 * i;
-            put(before + Vec3(0.06 * t + 0.002 * (1.0 - std::cos(2.0 * pi * 3.0 * t)), 0.0, 0.0));
+            put(before + Vec3(0.07 * t + 0.0002 * (1.0 - std::cos(2.0 * pi * 5.0 * t)), 0.0, 0.0));
         }
         go(hand_ - Vec3(0.02, 0.0, 0.0), 0.2);
     }

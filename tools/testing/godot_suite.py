@@ -1,6 +1,7 @@
 """The headless tests of tests/godot: godot.FILE.TEST. One Godot per file, so that what it prints has an owner.
 
-Files of RELEASED run once more, as godot.released.FILE.TEST, in a program that is exported for players.
+Files of RELEASED run once more, as godot.released.FILE.TEST, in a program that is exported for players; those of EDITED run
+in the editor, and nowhere else.
 
 A file passes only with its END marker, and a test only without lines of error or leak that it has not announced.
 """
@@ -19,6 +20,7 @@ from testing.results import Result, matching
 FOLDER = cache.clone() / "tests/godot"
 PROJECT = cache.clone() / "demo_project"
 RELEASED = ["first_touch_test", "misuse_test", "random_calls_test", "scripts_test", "turns_test"]
+EDITED = ["editor_test"]
 NEED_EYES = ["scenario5_test", "sensing_test"]
 MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 
@@ -26,6 +28,14 @@ MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 
 [node name="Runner" type="Node"]
 script = ExtResource("runner")
+"""
+EDITOR_PLUGIN = """[plugin]
+
+name="Tests"
+description=""
+author=""
+version=""
+script="editor_plugin.gd"
 """
 # What is freed is filled with this, so that a use after it shows.
 POISONED = os.environ | {"MALLOC_PERTURB_": "165"}
@@ -38,7 +48,9 @@ def run(wanted: str) -> list[Result]:
     for path in sorted(FOLDER.rglob("*_test.gd")):
         names = re.findall(r"^func (test_\w+)", path.read_text(), re.M)
         chosen = matching([f"{_prefix(path)}{name}" for name in names], wanted)
-        if path.stem in NEED_EYES and not any(PROJECT.glob("addons/tactus/bin/libtactus_sensing.*")):
+        if path.stem in EDITED:
+            results += _run_edited(path, chosen) if chosen else []
+        elif path.stem in NEED_EYES and not any(PROJECT.glob("addons/tactus/bin/libtactus_sensing.*")):
             results += [Result(name, skipped="it needs OpenNI2: ./run setup --with-sensing") for name in chosen]
         elif chosen:
             results += _run_file(path, chosen)
@@ -55,11 +67,24 @@ def _run_file(path: Path, chosen: list[str]) -> list[Result]:
     return _run(_prefix(path), command, names)
 
 
-def _run(prefix: str, command: list, names: list[str]) -> list[Result]:
+def _run_edited(path: Path, chosen: list[str]) -> list[Result]:
+    folder = _with_tests(cache.clone() / "build/edited_tests")
+    (folder / "tests/plugin.cfg").write_text(EDITOR_PLUGIN)
+    settings = folder / "project.godot"
+    settings.write_text(settings.read_text().replace('enabled=PackedStringArray(', 'enabled=PackedStringArray("res://tests/plugin.cfg", '))
+    project.import_into(folder)
+    command = [str(godot.command()), "--headless", "--editor", "--path", folder, "--", f"res://tests/{path.name}"]
+    names = [name.removeprefix(_prefix(path)) for name in chosen]
+    # An editor of its own: what the person has set up for theirs is neither used nor changed.
+    own = {f"XDG_{kind}_HOME": str(folder / ".godot" / kind.lower()) for kind in ("CONFIG", "DATA", "CACHE")}
+    return _run(_prefix(path), command, names, POISONED | own)
+
+
+def _run(prefix: str, command: list, names: list[str], environment: dict[str, str] = POISONED) -> list[Result]:
     try:
         done = subprocess.run(
             [*command, *names],
-            env=POISONED,
+            env=environment,
             timeout=TIME_LIMIT,
             text=True,
             stdout=subprocess.PIPE,
@@ -83,16 +108,22 @@ def _run_released(wanted: str) -> list[Result]:
     return results
 
 
-def _export_tests() -> Path:
-    """The demo project with the tests in it, whose main scene runs them."""
-    build.build("template_release", "extension")
-    folder = cache.emptied(cache.clone() / "build/released_tests")
+def _with_tests(folder: Path) -> Path:
+    """The demo project with the tests in it."""
+    cache.emptied(folder)
     shutil.copytree(PROJECT, folder, dirs_exist_ok=True, ignore=shutil.ignore_patterns(".godot"))
     (folder / "tests").mkdir()
     for path in FOLDER.glob("*.gd"):
         # The binding's own tests need an extension of their own.
         if not path.name.startswith("binding") and path.name != "run_tests.gd":
             shutil.copy(path, folder / "tests")
+    return folder
+
+
+def _export_tests() -> Path:
+    """The demo project with the tests in it, whose main scene runs them."""
+    build.build("template_release", "extension")
+    folder = _with_tests(cache.clone() / "build/released_tests")
     (folder / "tests/main.tscn").write_text(MAIN_SCENE)
     settings = folder / "project.godot"
     # A program for players keeps what it prints to itself for a while, and its errors not: here their order matters.

@@ -6,7 +6,10 @@ extends CanvasLayer
 
 const Gallery := preload("res://gallery/gallery.gd")
 const MENU := "res://main.tscn"
-const KEYS := "Mouse, wheel: move the hand   Tab: mouse or path   R: again   H: words   Escape: menu"
+const KEYS := (
+	"Mouse, wheel: hand   Tab: mouse or path   R: again   H: words   F3: plots   F4: trace   "
+	+ "Escape: menu"
+)
 
 ## The one that the person's hands are in.
 @export var world: HapticWorld

@@ -135,22 +135,36 @@ Across across(int axis) {
     return {(axis + 1) % 3, (axis + 2) % 3};
 }
 
+// A place seen along the half-line.
+struct SeenAlong {
+    Lanes i, j;
+};
+
+SeenAlong seen_along(const LanesVec3& place, const Across& axes) {
+    const Lanes* const coordinates[] = {&place.x, &place.y, &place.z};
+    return {*coordinates[axes.i], *coordinates[axes.j]};
+}
+
 // +1 or -1 where the edge passes the point on its far side along i, upwards or downwards along j; else 0. Its
 // lower end counts as on it, its upper end does not: where edges meet, one of them passes.
-int passes(const Vec3& from, const Vec3& to, const Vec3& p, const Across& axes) {
-    const auto [i, j] = axes;
-    const bool from_below = from[j] <= p[j];
-    if (from_below == (to[j] <= p[j])) {
-        return 0;
-    }
-    const Vec3& low = from_below ? from : to;
-    const Vec3& high = from_below ? to : from;
+Lanes passes(const SeenAlong& from, const SeenAlong& to, const SeenAlong& p) {
+    const LaneMask from_below = from.j <= p.j;
+    const LaneMask to_below = to.j <= p.j;
+    const SeenAlong low{select(from_below, from.i, to.i), select(from_below, from.j, to.j)};
+    const SeenAlong high{select(from_below, to.i, from.i), select(from_below, to.j, from.j)};
     // > 0: the point is on the left of the way up.
-    const double left = (high[i] - low[i]) * (p[j] - low[j]) - (p[i] - low[i]) * (high[j] - low[j]);
-    if (!(left > 0.0)) {
-        return 0;
-    }
-    return from_below ? 1 : -1;
+    const Lanes left = (high.i - low.i) * (p.j - low.j) - (p.i - low.i) * (high.j - low.j);
+    const LaneMask passing = (from_below ^ to_below) & (left > splat(0.0));
+    return select(passing, select(from_below, splat(1.0), splat(-1.0)), splat(0.0));
+}
+
+// How each triangle of the pack winds around the half-line's line: -1, 0 or 1.
+Lanes turns_around(const TrianglePack& triangles, const LanesVec3& point, const Across& axes) {
+    const SeenAlong p = seen_along(point, axes);
+    const SeenAlong a = seen_along(triangles.a, axes);
+    const SeenAlong b = seen_along(triangles.b, axes);
+    const SeenAlong c = seen_along(triangles.c, axes);
+    return passes(a, b, p) + passes(b, c, p) + passes(c, a, p);
 }
 
 enum class Where { behind, before, unclear };
@@ -190,57 +204,70 @@ bool is_closed(const TriangleMesh& mesh) {
     return is_balanced(mesh, numbers);
 }
 
-// The boxes are wider than their triangles by rounding, never narrower.
+// The boxes are wider than their triangles by rounding, never narrower. One that is unused holds nothing.
 bool TriangleTree::crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const {
     const auto axes = across(axis);
+    const LanesVec3 exact = splat(point);
     const Vec3 relative = point - origin_;
     const auto slack = static_cast<float>(float_slack(relative) * (1.0 + 1e-6));
-    float at[3];
-    for (int k = 0; k < 3; ++k) {
-        at[k] = static_cast<float>(relative[k]);
+    const auto k = static_cast<std::size_t>(axis);
+    const auto i = static_cast<std::size_t>(axes.i), j = static_cast<std::size_t>(axes.j);
+    FloatLanes least[3], most[3];
+    for (int of = 0; of < 3; ++of) {
+        least[of] = splat_float(static_cast<float>(relative[of]) - slack);
+        most[of] = splat_float(static_cast<float>(relative[of]) + slack);
     }
     std::uint32_t stack[24 * (node_width - 1) + 1];  // see triangle_tree.cpp
     int depth = 0;
     stack[depth++] = 0;
     bool clear = true;
     number = 0;
+    const auto count_in = [&](std::uint32_t index) {
+        work.spend(cost::pack_look);
+        const TrianglePack triangles = pack(index);
+        const Lanes turns = turns_around(triangles, exact, axes);
+        if (!any(turns != splat(0.0))) {
+            return;
+        }
+        const auto ids = triangle_ids(index);
+        for (std::size_t lane_of = 0; lane_of < lane_count; ++lane_of) {
+            if (lane_of > 0 && ids[lane_of] == ids[lane_of - 1]) {
+                break;  // the last triangle fills up the pack
+            }
+            const int turn = static_cast<int>(turns[lane_of]);
+            if (turn == 0) {
+                continue;
+            }
+            const auto [a, b, c] = corners_of(triangles, static_cast<std::uint32_t>(lane_of));
+            const Where where = meets(a, b, c, point, axis, turn);
+            clear = clear && where != Where::unclear;
+            const bool beyond = where == (sign > 0.0 ? Where::before : Where::behind);
+            number += beyond ? turn : 0;
+        }
+    };
     while (depth > 0) {
         const BoxNode& node = nodes_[stack[--depth]];
         if (work.is_gone()) {
             return false;
         }
+        const FloatMask holding = (node.low[i] <= most[i]) & (node.high[i] >= least[i]) &
+                                  (node.low[j] <= most[j]) & (node.high[j] >= least[j]);
+        const FloatMask ahead = sign > 0.0 ? node.high[k] >= least[k] : node.low[k] <= most[k];
+        const unsigned slots = lane_bits(holding & ahead);
         work.spend(cost::box_node);
-        for (int slot = 0; slot < node_width; ++slot) {
-            const auto holds = [&](int k) {
-                return node.low[k][slot] <= at[k] + slack && node.high[k][slot] >= at[k] - slack;
-            };
-            const bool ahead = sign > 0.0 ? node.high[axis][slot] >= at[axis] - slack
-                                          : node.low[axis][slot] <= at[axis] + slack;
-            if (node.child[slot] == BoxNode::unused || !ahead || !holds(axes.i) || !holds(axes.j)) {
-                continue;
+        for (unsigned left = slots; left != 0; left &= left - 1) {
+            const std::uint32_t child = node.child[std::countr_zero(left)];
+            if (child & BoxNode::leaf_bit) {
+                packs_.fetch(child & ~BoxNode::leaf_bit);
+            } else {
+                fetch_early(&nodes_[child], sizeof(BoxNode));
+                stack[depth++] = child;
             }
-            if (!(node.child[slot] & BoxNode::leaf_bit)) {
-                stack[depth++] = node.child[slot];
-                continue;
-            }
-            work.spend(cost::pack_look);
-            const std::uint32_t index = node.child[slot] & ~BoxNode::leaf_bit;
-            const TrianglePack& triangles = pack(index);
-            const auto ids = triangle_ids(index);
-            for (int k = 0; k < lane_count; ++k) {
-                if (k > 0 && ids[static_cast<std::size_t>(k)] == ids[static_cast<std::size_t>(k) - 1]) {
-                    break;  // the last triangle fills up the pack
-                }
-                const Vec3 a = lane(triangles.a, k), b = lane(triangles.b, k), c = lane(triangles.c, k);
-                const int turn =
-                    passes(a, b, point, axes) + passes(b, c, point, axes) + passes(c, a, point, axes);
-                if (turn == 0) {
-                    continue;
-                }
-                const Where where = meets(a, b, c, point, axis, turn);
-                clear = clear && where != Where::unclear;
-                const bool beyond = where == (sign > 0.0 ? Where::before : Where::behind);
-                number += beyond ? turn : 0;
+        }
+        for (unsigned left = slots; left != 0; left &= left - 1) {
+            const std::uint32_t child = node.child[std::countr_zero(left)];
+            if (child & BoxNode::leaf_bit) {
+                count_in(child & ~BoxNode::leaf_bit);
             }
         }
     }

@@ -43,9 +43,9 @@ FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudg
     return found;
 }
 
-NearestTriangle TriangleTree::nearest(const Vec3& point, double far, WorkBudget& work) const {
+NearestTriangle TriangleTree::nearest(const Vec3& point, double far, WorkBudget& work, double enough) const {
     double least;
-    return search(point, far, 1.0, least, work);
+    return search(point, far, 1.0, enough, least, work);
 }
 
 NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
@@ -53,17 +53,16 @@ NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
     return nearest(point, far, unlimited);
 }
 
-double TriangleTree::least_distance(const Vec3& point) const {
+double TriangleTree::least_distance(const Vec3& point, WorkBudget& work) const {
     double least;
-    WorkBudget unlimited(std::numeric_limits<std::int64_t>::max());
-    search(point, 1e30, 0.5, least, unlimited);
+    search(point, 1e30, 0.5, 0.0, least, work);
     return least;
 }
 
 // The nearest triangle among those found when only what may be nearer than `share` of the nearest so far is
-// opened. `least` is a lower bound of all distances.
-NearestTriangle TriangleTree::search(const Vec3& point, double far, double share, double& least,
-                                     WorkBudget& work) const {
+// opened, and none once one is nearer than `enough`. `least` is a lower bound of all distances.
+NearestTriangle TriangleTree::search(const Vec3& point, double far, double share, double enough,
+                                     double& least, WorkBudget& work) const {
     NearestTriangle nearest{far};
     const LanesVec3 exact = splat(point);
     double limit = share * far;
@@ -72,7 +71,7 @@ NearestTriangle TriangleTree::search(const Vec3& point, double far, double share
         const double distance = std::sqrt(smallest(offset_from_triangles(packs_[pack], exact).squared));
         if (distance < nearest.distance) {
             nearest = {distance, pack};
-            limit = share * distance;
+            limit = distance < enough ? 0.0 : share * distance;
         }
     });
     nearest.complete = outside >= limit;

@@ -82,13 +82,13 @@ public:
                             std::span<FoundPack> out) const;
 
     // The nearest triangle, looked for up to the distance `far`. Where the budget ends the search, the answer
-    // is not complete: a nearer one may exist.
-    NearestTriangle nearest(const Vec3& point, double far, WorkBudget& work) const;
+    // is not complete: a nearer one may exist. One nearer than `enough` ends it: no nearer one is looked for.
+    NearestTriangle nearest(const Vec3& point, double far, WorkBudget& work, double enough = 0.0) const;
     NearestTriangle nearest(const Vec3& point, double far) const;
 
     // A lower bound of the distance to the nearest triangle, at least half of it. Cheap from anywhere, where
-    // `nearest` must look at every triangle from the centre of a ball.
-    double least_distance(const Vec3& point) const;
+    // `nearest` must look at every triangle from the centre of a ball; lower still where the budget is gone.
+    double least_distance(const Vec3& point, WorkBudget& work) const;
 
     // Calls visit(pack) for packs that may hold a triangle within `limit` of the point, nearest box first;
     // visit may lower `limit`. Returns a lower bound of the distances of all packs that were not visited:
@@ -125,7 +125,7 @@ private:
     double float_slack(const Vec3& relative) const;
     double point_rounding(const Vec3& relative) const;
     bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
-    NearestTriangle search(const Vec3& point, double far, double share, double& least,
+    NearestTriangle search(const Vec3& point, double far, double share, double enough, double& least,
                            WorkBudget& work) const;
     template <class Keys, class Visit>
     float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;

@@ -190,27 +190,31 @@ double BroadPhase::distance_to_ball(std::uint32_t index, const Vec3& center) con
 }
 
 // A lower bound of the distance between the sphere and the part.
-double BroadPhase::distance_bound(std::uint32_t index, const Vec3& center) const {
+double BroadPhase::distance_bound(std::uint32_t index, const Vec3& center, WorkBudget& work) const {
     const ScenePart& placed = scene_->parts()[index];
     const Vec3 local = to_local(placed.pose, center);
     if (!placed.part->tree()) {
+        work.spend(cost::solid_look);
         return distance_to_solid(placed.part->solid(), local).distance - margin();
     }
     const double to_ball = distance_to_ball(index, center);
-    return to_ball > placed.part->radius ? to_ball : placed.part->tree()->least_distance(local) - margin();
+    return to_ball > placed.part->radius || work.is_gone()
+               ? to_ball
+               : placed.part->tree()->least_distance(local, work) - margin();
 }
 
 // Makes sure that every part within `length` of the sphere is on the near list.
-void BroadPhase::bring_near(double length, const Vec3& center) {
+void BroadPhase::bring_near(double length, const Vec3& center, WorkBudget& work) {
     while (!far_.empty() && far_.front().due <= odometer_ + length) {
         const Far soonest = far_.front();
+        work.spend(cost::part_look);
         std::pop_heap(far_.begin(), far_.end(), &is_due_later);
         far_.pop_back();
         Record& record = records_[soonest.part];
         if (record.stamp != soonest.stamp) {
             continue;
         }
-        const double distance = distance_bound(soonest.part, center);
+        const double distance = distance_bound(soonest.part, center, work);
         if (distance > 4.0 * length) {
             send_far(soonest.part, distance);
             continue;

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/work.hpp"
 #include "core/haptics/tolerances.hpp"
 #include "core/haptics/touch_scene.hpp"
 
@@ -33,8 +34,9 @@ public:
         odometer_at_tick_ += length;
     }
 
-    // Makes sure that every part within `length` of the sphere is in near().
-    void bring_near(double length, const Vec3& center);
+    // Makes sure that every part within `length` of the sphere is in near(). With the work gone others come
+    // along, as near as the balls around them.
+    void bring_near(double length, const Vec3& center, WorkBudget& work);
     std::span<const std::uint32_t> near() const { return near_; }
     // True where no part that is not near can be met within `length`.
     bool far_are_clear(double length) const { return far_.empty() || far_.front().due > odometer_ + length; }
@@ -91,7 +93,7 @@ private:
     static bool is_due_later(const Far& p, const Far& q) { return p.due > q.due; }
     double margin() const { return radius_ + 2.0 * tolerances_.reach + tolerances_.skin; }
     double distance_to_ball(std::uint32_t part, const Vec3& center) const;
-    double distance_bound(std::uint32_t part, const Vec3& center) const;
+    double distance_bound(std::uint32_t part, const Vec3& center, WorkBudget& work) const;
     void check_theorem(const Vec3& center) const;
 
     const TouchScene* scene_ = nullptr;

@@ -28,7 +28,7 @@ bool was_inside(const TouchBody& body, const Change* change, std::uint32_t mask,
     }
     const bool known_before = change->kind == Change::Kind::elsewhere || change->kind == Change::Kind::layer;
     return known_before && (change->layer_from & mask) != 0 &&
-           overlap_with(*body.shape, change->from, point, 0.0, Insides::of_all, work).inside;
+           overlap_with(*body.shape, change->from, point, 0.0, 0.0, Insides::of_all, work).inside;
 }
 
 // `change`: what has happened to the body; null where the sphere is what has changed.
@@ -42,7 +42,8 @@ bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, c
     const bool known = rests_on(sphere, slot) && (!change || change->kind != Change::Kind::came);
     const double room = sphere.radius * (1.0 - (known ? max_overlap_share : touching_share));
     // From where it was a tick ago on it pushes the sphere ahead.
-    const Overlap at = overlap_with(*body.shape, body.previous, sphere.center, room, Insides::of_all, work);
+    const Overlap at =
+        overlap_with(*body.shape, body.previous, sphere.center, room, room, Insides::of_all, work);
     if (at.distance < room) {
         return true;
     }
@@ -96,8 +97,8 @@ bool let_out_of_squeeze(const TouchScene& scene, const TouchingSphere& sphere, P
     for (const int slot : scene.moved_bodies()) {
         const TouchBody& body = scene.body(slot);
         if ((body.layer & sphere.mask) != 0 && !passed.contains(slot) &&
-            overlap_with(*body.shape, body.pose, sphere.center, room, Insides::of_solids, work).distance <
-                room) {
+            overlap_with(*body.shape, body.pose, sphere.center, room, room, Insides::of_solids, work)
+                    .distance < room) {
             every = passed.pass(slot, PassedBecause::squeezes) && every;
         }
     }
@@ -108,7 +109,7 @@ bool is_inside_one_sided(const TouchScene& scene, const Vec3& point, std::uint32
     for (std::size_t slot = 0; slot < scene.slots(); ++slot) {
         const TouchBody& body = scene.body(static_cast<int>(slot));
         if (body.shape && (body.layer & mask) != 0 &&
-            overlap_with(*body.shape, body.pose, point, 0.0, Insides::of_one_sided, work).inside) {
+            overlap_with(*body.shape, body.pose, point, 0.0, 0.0, Insides::of_one_sided, work).inside) {
             return true;
         }
     }

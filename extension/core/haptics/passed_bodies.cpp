@@ -14,10 +14,11 @@ bool asks_for(Insides insides, const TouchPart& part) {
 
 }  // namespace
 
-Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far,
+Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far, double enough,
                      Insides insides, WorkBudget& work) {
     Overlap overlap{far, false, true};
     for (const TouchPart& part : shape.parts) {
+        work.spend(cost::part_look);
         const Vec3 local = to_local(compose(pose, part.pose), center);
         const double to_ball = glm::length(local - part.center) - part.radius;
         if (to_ball >= overlap.distance) {
@@ -31,7 +32,7 @@ Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& cent
             overlap.inside = overlap.inside || distance < 0.0;
             continue;
         }
-        const NearestTriangle nearest = tree->nearest(local, far, work);
+        const NearestTriangle nearest = tree->nearest(local, far, work, enough);
         overlap.distance = std::min(overlap.distance, nearest.distance);
         overlap.known = overlap.known && nearest.complete;
         if (to_ball < 0.0 && !overlap.inside && asks_for(insides, part)) {
@@ -75,8 +76,9 @@ void PassedBodies::update(const TouchScene& scene, const Vec3& center, double ro
                 passed.reason == PassedBecause::broken ? Insides::of_one_sided : Insides::of_all;
             // As it was when the tick began: the way of a body that is held on to again is swept.
             const TouchShape& shape = body.former ? *body.former : *body.shape;
-            const Overlap at = overlap_with(shape, body.previous, center, 2.0 * room, insides, work);
-            passed.entered = passed.entered || at.inside || at.distance < room * (1.0 - 1e-6);
+            const double within = room * (1.0 - 1e-6);
+            const Overlap at = overlap_with(shape, body.previous, center, 2.0 * room, within, insides, work);
+            passed.entered = passed.entered || at.inside || at.distance < within;
             clear = !at.inside && at.known && at.distance >= (passed.entered ? room : 1.5 * room);
         }
         if (clear) {

@@ -22,8 +22,8 @@ enum class PassedBecause : std::uint8_t {
 
 // How a sphere stands to a body.
 struct Overlap {
-    // From the centre to the nearest surface, negative inside a solid; `far` of the question where it is
-    // farther (unit: meters).
+    // From the centre to the nearest surface, or to any that is near enough, negative inside a solid; `far`
+    // of the question where it is farther (unit: meters).
     double distance = 0.0;
     bool inside = false;  // a solid, or a closed mesh
     bool known = true;    // false: the work ran out before that of a mesh was clear
@@ -32,7 +32,8 @@ struct Overlap {
 // `pose`: of the body, in the world. Only the distance is looked for where `closed_meshes` is false, or where
 // only meshes that are touched from one side count and it is not one of them.
 enum class Insides { of_solids, of_one_sided, of_all };
-Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far,
+// Where a surface is nearer than `enough`, no nearer one is looked for (unit: meters).
+Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far, double enough,
                      Insides insides, WorkBudget& work);
 
 class PassedBodies {

@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/geometry/surface.hpp"
-#include "core/geometry/surface_query.hpp"
 
 namespace tactus {
 
@@ -111,7 +110,7 @@ Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double l
 
 Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except) {
     const double length = glm::length(motion);
-    broad_phase_.bring_near(length, center);
+    broad_phase_.bring_near(length, center, work_);
     Hit first;
     for (const std::uint32_t part : broad_phase_.near()) {
         if (!counts(part, first.t * length, except)) {
@@ -153,14 +152,15 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
 }
 
 bool Surroundings::has_room(const Vec3& center, double room) {
-    broad_phase_.bring_near(room, center);
+    broad_phase_.bring_near(room, center, work_);
     return std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) {
         if (broad_phase_.is_clear(part, room)) {
             return true;
         }
         const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
-        const SurfaceHit nearest = nearest_surface(*body.shape, body.pose, center, room, work_);
-        return nearest.complete && nearest.distance >= room;
+        const Overlap at =
+            overlap_with(*body.shape, body.pose, center, room, room, Insides::of_solids, work_);
+        return at.known && at.distance >= room;
     });
 }
 

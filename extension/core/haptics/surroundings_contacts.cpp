@@ -19,7 +19,7 @@ double limit_from(double nearest, double rest, double reach, double limit) {
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
     saw_all_ = true;
-    broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center);
+    broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center, work_);
     double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
         if (!counts(part, beyond, -1)) {
@@ -86,7 +86,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         // What is remembered ends somewhere: in free space before the surface begins.
         const double covered = memory->covered_around(local);
         if (std::min(others, nearest) > covered) {
-            others = std::max(covered, tree.least_distance(local));
+            others = std::max(covered, tree.least_distance(local, work_));
         }
         is_known = limit <= std::max(covered, others);
     }

@@ -72,15 +72,8 @@ std::string FalconDriver::open(const std::atomic<bool>& stop) {
     return error;
 }
 
-// The bus and the ports on the way to it, as the system names it.
-std::string FalconDriver::place_of(usb::Device* device) const {
-    std::array<std::uint8_t, 8> ports{};
-    const int depth = usb_->get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
-    std::string place = "usb" + std::to_string(usb_->get_bus_number(device));
-    for (int port = 0; port < depth; ++port) {
-        place += (port == 0 ? "-" : ".") + std::to_string(ports[static_cast<std::size_t>(port)]);
-    }
-    return place;
+bool is_falcon(const usb::DeviceDescriptor& descriptor) {
+    return descriptor.vendor == vendor && descriptor.product == product;
 }
 
 std::string FalconDriver::open_device() {
@@ -89,9 +82,8 @@ std::string FalconDriver::open_device() {
     std::map<std::string, usb::Device*> falcons;  // by place: systems list them in any order
     for (long i = 0; i < count; ++i) {
         usb::DeviceDescriptor descriptor{};
-        if (usb_->get_device_descriptor(devices[i], &descriptor) == 0 && descriptor.vendor == vendor &&
-            descriptor.product == product) {
-            falcons.emplace(place_of(devices[i]), devices[i]);
+        if (usb_->get_device_descriptor(devices[i], &descriptor) == 0 && is_falcon(descriptor)) {
+            falcons.emplace(usb::place_of(*usb_, devices[i]), devices[i]);
         }
     }
     std::string error, others;

@@ -23,6 +23,8 @@ struct FalconSettings {
     FalconData data;
 };
 
+bool is_falcon(const usb::DeviceDescriptor& descriptor);
+
 class FalconDriver final : public Driver {
 public:
     explicit FalconDriver(FalconSettings settings) : settings_(std::move(settings)), arm_(settings_.data) {}
@@ -53,7 +55,6 @@ private:
         std::atomic<bool> is_taken{false};
     };
 
-    std::string place_of(usb::Device* device) const;
     std::string open_device();
     bool is_over() const { return gone_ || stop_->load(std::memory_order_acquire); }
     std::string start();

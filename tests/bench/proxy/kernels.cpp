@@ -85,7 +85,10 @@ void measure_kernels(const shared::SpanClock& clock, int rounds, shared::Report&
     kernels.measure("pack_sweep",
                     [&](int i) { return sweep_to_triangles(tree.pack(way(i).pack), sphere(i), 1.0).t; });
     kernels.measure("tree_nearest", [&](int i) { return tree.nearest(way(i).start, 2.0 * radius).distance; });
-    kernels.measure("tree_least_distance", [&](int i) { return tree.least_distance(1.5 * way(i).start); });
+    kernels.measure("tree_least_distance", [&](int i) {
+        WorkBudget work(plenty);
+        return tree.least_distance(1.5 * way(i).start, work);
+    });
     kernels.measure("tree_gather", [&](int i) {
         std::array<FoundPack, PackMemory::capacity> packs;
         WorkBudget work(plenty);

@@ -210,11 +210,26 @@ TEST(TriangleTree, LeastDistanceIsALowerBoundAndAtLeastHalf) {
         for (int i = 0; i < 200; ++i) {
             const Vec3 p = extent.center + random.in_ball(3.0 * extent.radius);
             const double nearest = tree.nearest(p, 1e30).distance;
-            const double least = tree.least_distance(p);
+            WorkBudget work(plenty);
+            const double least = tree.least_distance(p, work);
             ASSERT_LE(least, nearest) << sample.name;
             ASSERT_GE(least, 0.5 * nearest - rounding(tree)) << sample.name;
         }
     }
+}
+
+// From the middle of a ball the nearest of all triangles is hard to find; one that is near enough is not.
+TEST(TriangleTree, OneThatIsNearEnoughEndsTheSearch) {
+    const TriangleTree tree = TriangleTree::build(shared::icosphere(6, 1.0));
+    const auto ask = [&](double enough) {
+        WorkBudget work(500);
+        return tree.nearest(Vec3(0.0), 1.1, work, enough);
+    };
+    EXPECT_FALSE(ask(0.0).complete);
+    const NearestTriangle found = ask(1.1);
+    EXPECT_TRUE(found.complete);
+    EXPECT_LT(found.distance, 1.1);
+    EXPECT_TRUE(ask(0.9).distance > 0.9 && !ask(0.9).complete);  // none is that near, and it is not known
 }
 
 Hit sweep(const TriangleTree& tree, const Vec3& start, const Vec3& motion, double radius, double slack,

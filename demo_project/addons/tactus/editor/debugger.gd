@@ -1,0 +1,42 @@
+@tool
+extends EditorDebuggerPlugin
+## Brings to the dock what a scene that the editor has started says (overlay/probe.gd).
+
+var _dock: Control
+
+
+func _init(dock: Control = null) -> void:
+	_dock = dock
+
+
+func _setup_session(session_id: int) -> void:
+	var session := get_session(session_id)
+	session.started.connect(_begin.bind(session_id))
+	session.stopped.connect(_dock.end)
+
+
+func _begin(session_id: int) -> void:
+	_dock.begin()
+	get_session(session_id).send_message("tactus:watch", [_dock.is_looked_at()])
+
+
+## The dock has come into view, or gone out of it.
+func watch(is_watched: bool) -> void:
+	for session: EditorDebuggerSession in get_sessions():
+		if session.is_active():
+			session.send_message("tactus:watch", [is_watched])
+
+
+func _has_capture(prefix: String) -> bool:
+	return prefix == "tactus"
+
+
+func _capture(message: String, data: Array, _session_id: int) -> bool:
+	match message:
+		"tactus:figures":
+			_dock.show_figures(data[0])
+		"tactus:histograms":
+			_dock.show_histograms(data[0])
+		_:
+			return false
+	return true

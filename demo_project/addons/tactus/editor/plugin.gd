@@ -1,0 +1,57 @@
+@tool
+extends EditorPlugin
+## What the editor shows of the extension's nodes: gizmos with handles, and the Tactus dock.
+
+const GIZMOS := [
+	preload("device_gizmos.gd"),
+	preload("pointer_gizmos.gd"),
+	preload("tool_gizmos.gd"),
+	preload("mesh_gizmos.gd"),
+	preload("sensor_gizmos.gd"),
+	preload("world_gizmos.gd"),
+]
+const Dock := preload("dock.tscn")
+const Debugger := preload("debugger.gd")
+## What a scene that the editor starts tells the dock by.
+const PROBE := "TactusProbe"
+
+var _gizmos: Array[EditorNode3DGizmoPlugin] = []
+var _dock: Control
+var _debugger: EditorDebuggerPlugin
+
+
+func _enable_plugin() -> void:
+	var folder: String = (get_script() as Script).resource_path.get_base_dir()
+	add_autoload_singleton(PROBE, folder.path_join("../overlay/probe.gd").simplify_path())
+
+
+func _disable_plugin() -> void:
+	remove_autoload_singleton(PROBE)
+
+
+func _enter_tree() -> void:
+	for script: GDScript in GIZMOS:
+		_gizmos.append(script.new(get_undo_redo()))
+		add_node_3d_gizmo_plugin(_gizmos.back())
+	_dock = Dock.instantiate()
+	_debugger = Debugger.new(_dock)
+	_dock.watched.connect(_debugger.watch)
+	add_control_to_dock(DOCK_SLOT_RIGHT_BL, _dock)
+	add_debugger_plugin(_debugger)
+	EditorInterface.get_inspector().property_edited.connect(_redraw)
+
+
+func _exit_tree() -> void:
+	EditorInterface.get_inspector().property_edited.disconnect(_redraw)
+	remove_debugger_plugin(_debugger)
+	remove_control_from_docks(_dock)
+	_dock.queue_free()
+	for gizmos in _gizmos:
+		remove_node_3d_gizmo_plugin(gizmos)
+	_gizmos.clear()
+
+
+func _redraw(_property: String) -> void:
+	var node := EditorInterface.get_inspector().get_edited_object() as Node3D
+	if node != null:
+		node.update_gizmos()

@@ -1,0 +1,34 @@
+@tool
+extends Control
+## The histogram of a loop's periods, from half of what is wanted to one and a half, logarithmic: single late
+## ticks are seen beside a thousand punctual ones.
+
+const Plot := preload("plot.gd")
+
+var _counts := PackedInt32Array()
+var _period_us := 1000.0
+
+
+func show_counts(counts: PackedInt32Array, period_us: float) -> void:
+	_counts = counts
+	_period_us = period_us
+	queue_redraw()
+
+
+func _draw() -> void:
+	draw_rect(Rect2(Vector2.ZERO, size), Plot.PAPER)
+	var most := 1
+	for count in _counts:
+		most = maxi(most, count)
+	for i in _counts.size():
+		if _counts[i] > 0:
+			var height := size.y * 0.75 * log(1.0 + _counts[i]) / log(1.0 + most)
+			var bar := Rect2(
+				size.x * i / _counts.size(), size.y - height, size.x / _counts.size() - 1.0, height
+			)
+			draw_rect(bar, Plot.COLORS[0])
+	draw_line(Vector2(0.5 * size.x, 0.25 * size.y), Vector2(0.5 * size.x, size.y), Plot.WORDS)
+	var words := "periods   %d … %d µs, of the last second" % [0.5 * _period_us, 1.5 * _period_us]
+	var font := get_theme_default_font()
+	var place := Vector2(6, Plot.FONT_SIZE + 2)
+	draw_string(font, place, words, HORIZONTAL_ALIGNMENT_LEFT, -1, Plot.FONT_SIZE, Plot.WORDS)

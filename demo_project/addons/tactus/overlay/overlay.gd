@@ -1,0 +1,98 @@
+extends CanvasLayer
+## Shows beside any scene what its haptic loop does: plots over time, and in the scene itself forces, contacts
+## and trails. Add this scene to yours. Hidden it costs nothing.
+
+const Figures := preload("figures.gd")
+const Monitors := preload("monitors.gd")
+const EVERY := 0.1  # seconds
+const HISTOGRAM_EVERY := 1.0  # seconds
+
+## Shows and hides it.
+@export var key: Key = KEY_F3
+## Records the stages of every tick for a while, for Perfetto or chrome://tracing.
+@export var trace_key: Key = KEY_F4
+@export_range(0.1, 60.0, 0.1, "suffix:s") var trace_seconds := 5.0
+## Where traces go.
+@export_dir var trace_folder := "user://"
+@export var shown := false:
+	set(value):
+		shown = value
+		_show()
+
+var _figures: Figures
+var _waited := EVERY
+var _histogram_waited := HISTOGRAM_EVERY
+var _recorder: HapticRecorder
+
+
+func _ready() -> void:
+	Monitors.add(get_tree())
+	_show()
+
+
+func _show() -> void:
+	if not is_node_ready():
+		return
+	visible = shown
+	set_process(shown)
+	%Drawing.set_enabled(shown)
+	_figures = Figures.new() if shown else null
+	if not shown:
+		%Panel.clear()
+
+
+func _process(delta: float) -> void:
+	_waited += delta
+	_histogram_waited += delta
+	if _waited < EVERY:
+		return
+	_waited = 0.0
+	%Panel.show_figures(_figures.of(get_tree()))
+	if _histogram_waited >= HISTOGRAM_EVERY:
+		_histogram_waited = 0.0
+		%Panel.show_histograms(_figures.histograms())
+
+
+func _unhandled_key_input(event: InputEvent) -> void:
+	var pressed := event as InputEventKey
+	if pressed == null or not pressed.pressed or pressed.echo:
+		return
+	if pressed.keycode == key:
+		shown = not shown
+	elif pressed.keycode == trace_key:
+		record_trace()
+	else:
+		return
+	get_viewport().set_input_as_handled()
+
+
+## Begins a trace of the first pointer's world; one at a time. Returns the file that it will be in; empty
+## where there is nothing to trace.
+func record_trace() -> String:
+	var pointers := get_tree().root.find_children("*", "ProxyPointer", true, false)
+	if _recorder != null or pointers.is_empty():
+		return ""
+	_recorder = HapticRecorder.new()
+	_recorder.autostart = false
+	_recorder.trace_seconds = trace_seconds
+	var file := "trace_%s.json" % Time.get_datetime_string_from_system().replace(":", "-")
+	_recorder.trace_path = trace_folder.path_join(file)
+	pointers[0].add_sibling(_recorder)
+	_recorder.proxy = _recorder.get_path_to(pointers[0])
+	if not _recorder.start():
+		_end_trace()
+		return ""
+	%Note.text = "Tracing for %.1f s …" % trace_seconds
+	%Note.show()
+	get_tree().create_timer(trace_seconds).timeout.connect(_end_trace)
+	return _recorder.trace_path
+
+
+func _end_trace() -> void:
+	if not is_instance_valid(_recorder):
+		_recorder = null
+		return
+	_recorder.stop()
+	%Note.text = "Trace: %s" % ProjectSettings.globalize_path(_recorder.trace_path)
+	_recorder.queue_free()
+	_recorder = null

@@ -1,0 +1,19 @@
+// A Godot curve as places along it.
+#pragma once
+
+#include <godot_cpp/classes/curve3d.hpp>
+#include <godot_cpp/classes/ref.hpp>
+#include <vector>
+
+#include "core/math/types.hpp"
+
+namespace tactus {
+
+// So near each other that what lies between is as good as straight; no two are one place. Empty where there
+// is no curve of two points.
+std::vector<Vec3> places_along(const godot::Ref<godot::Curve3D>& curve);
+
+// So many of them, evenly along the way; the first and the last are its ends.
+std::vector<Vec3> even_places_along(const godot::Ref<godot::Curve3D>& curve, std::size_t count);
+
+}  // namespace tactus

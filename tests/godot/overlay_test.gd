@@ -1,0 +1,156 @@
+extends "nodes_case.gd"
+## The overlay that any scene can have, Godot's monitors, and what the editor's dock is told.
+
+const Figures := preload("res://addons/tactus/overlay/figures.gd")
+const Monitors := preload("res://addons/tactus/overlay/monitors.gd")
+const PanelScript := preload("res://addons/tactus/overlay/panel.gd")
+const Plot := preload("res://addons/tactus/overlay/plot.gd")
+const Probe := preload("res://addons/tactus/overlay/probe.gd")
+const SOON := 10.0
+
+
+func _scene_in_real_time() -> Node:
+	var scene: Node = (load("res://gallery/static_testbed/static_testbed.tscn") as PackedScene).instantiate()
+	add_child(scene)
+	return scene
+
+
+func _overlay() -> CanvasLayer:
+	var overlay: CanvasLayer = (load("res://addons/tactus/overlay/overlay.tscn") as PackedScene).instantiate()
+	add_child(overlay)
+	return overlay
+
+
+func _drawings(scene: Node) -> Array[Node]:
+	return scene.get_node("HapticWorld").get_children(true).filter(
+		func(child: Node) -> bool:
+			return child is MeshInstance3D and (child as MeshInstance3D).mesh is ImmediateMesh
+	)
+
+
+func _press(code: Key) -> void:
+	var event := InputEventKey.new()
+	event.keycode = code
+	event.pressed = true
+	Input.parse_input_event(event)
+	Input.flush_buffered_events()
+	await frames(2)
+
+
+func test_an_overlay_shows_what_happens_and_hidden_does_nothing() -> void:
+	var scene := _scene_in_real_time()
+	var overlay := _overlay()
+	await frames(3)
+	check(not overlay.visible and not overlay.is_processing(), "it is not hidden at first")
+	check(not overlay.get_node("%Drawing").is_processing(), "it draws while it is hidden")
+	check_equal(_drawings(scene).size(), 0, "drawings")
+	await _press(overlay.key)
+	check(overlay.visible, "its key does not show it")
+	var rate: Control = overlay.get_node("%Panel").get_node("%Rate")
+	var plots := func() -> bool:
+		return rate._values.has("HapticWorld") and rate._values["HapticWorld"].size() > 3
+	check(await until(plots, SOON), "the rate is not plotted: %s" % [rate._values])
+	check(rate._values["HapticWorld"][-1] > 100.0, "ticks a second: %s" % [rate._values])
+	check_equal(_drawings(scene).size(), 1, "drawings")
+	check(overlay.get_node("%Panel").get_node("%Said").text.contains("2 bodies"), "what is said")
+	await _press(overlay.key)
+	await frames(2)
+	check(not overlay.visible and not overlay.is_processing(), "it is not hidden again")
+	check_equal(_drawings(scene).size(), 0, "drawings that are left")
+
+
+func test_a_trace_is_written_by_a_key() -> void:
+	_scene_in_real_time()
+	var overlay := _overlay()
+	overlay.trace_seconds = 0.3
+	await frames(2)
+	var file: String = overlay.record_trace()
+	check(file.ends_with(".json"), "it records into '%s'" % file)
+	check_equal(overlay.record_trace(), "", "a second one at once")
+	check(await until(func() -> bool: return FileAccess.file_exists(file), SOON), "there is no " + file)
+	var ends := func() -> bool: return overlay.get_node("%Note").text.begins_with("Trace:")
+	check(await until(ends, SOON), "it does not end")
+	var events: Array = JSON.parse_string(FileAccess.get_file_as_string(file))
+	check(
+		events.any(func(event: Dictionary) -> bool: return event.name == "move proxy"), "no stage of a tick"
+	)
+	DirAccess.remove_absolute(file)
+
+
+func test_a_trace_of_nothing_is_none() -> void:
+	check_equal(_overlay().record_trace(), "", "file")
+
+
+func test_godots_monitors_have_the_loop() -> void:
+	_scene_in_real_time()
+	Monitors.add(get_tree())
+	Monitors.add(get_tree())
+	Performance.get_custom_monitor("tactus/ticks_per_s")
+	await until(func() -> bool: return false, 0.3)
+	check(Performance.get_custom_monitor("tactus/ticks_per_s") > 100.0, "ticks a second")
+	for name in [
+		"work_p99_us", "period_p99_us", "missed_deadlines", "awake_bodies", "force_n", "round_trip_ms"
+	]:
+		check(Performance.get_custom_monitor("tactus/" + name) >= 0.0, name)
+	Monitors.remove()
+	check(not Performance.has_custom_monitor("tactus/force_n"), "a monitor is left")
+
+
+func test_figures_are_plain_values_of_all_that_is_there() -> void:
+	var scene: Node = (load("res://gallery/delay_lab/delay_lab.tscn") as PackedScene).instantiate()
+	add_child(scene)
+	await frames(3)
+	var figures: Dictionary = Figures.new().of(get_tree())
+	check_equal(figures.worlds.size(), 2, "worlds")
+	check_equal(figures.links.size(), 2, "links")
+	check_equal(figures.devices.size(), 2, "devices")
+	check_equal(bytes_to_var(var_to_bytes(figures)), figures, "what another process gets")
+
+
+func test_histograms_count_each_period_once() -> void:
+	var scene := _scene_in_real_time()
+	var world: HapticWorld = scene.get_node("HapticWorld")
+	check(await until(func() -> bool: return world.get_ticks() > 300, SOON), "it does not tick")
+	var figures := Figures.new()
+	figures.of(get_tree())
+	var first: PackedInt32Array = figures.histograms().values()[0]
+	var counted := 0
+	for count in first:
+		check(count >= 0, "a count below 0: %s" % first)
+		counted += count
+	check(counted > 250, "periods: %d" % counted)
+	await frames(2)
+	var later := 0
+	for count in figures.histograms().values()[0]:
+		later += count
+	check(later >= 0 and later < counted, "periods since: %d" % later)
+
+
+func test_counts_lie_below_the_ends_of_bins() -> void:
+	var distribution := {
+		"period_us": PackedFloat64Array([900.0, 1000.0, 2000.0]), "share": PackedFloat64Array([0.1, 0.9, 1.0])
+	}
+	var below: PackedInt32Array = Figures.counts_below(distribution, 1000.0, 100)
+	check_equal(below[0], 0, "up to 525 µs")
+	check_equal(below[16], 10, "up to 925 µs")
+	check_equal(below[20], 90, "up to 1025 µs")
+	check_equal(below[-1], 100, "all")
+
+
+func test_nodes_of_one_name_are_told_apart() -> void:
+	var paths := ["Lab/Here/Bed/World", "Lab/There/Bed/World", "Lab/There/Bed/Sky"]
+	check_equal(PanelScript.short_name(paths[0], paths), "Here World", "the first")
+	check_equal(PanelScript.short_name(paths[1], paths), "There World", "the second")
+	check_equal(PanelScript.short_name(paths[2], paths), "Sky", "one that is alone")
+
+
+func test_a_plots_scale_fits() -> void:
+	for pair: Array in [[0.0, 1.0], [0.3, 0.5], [1.0, 1.0], [1.1, 2.0], [30.0, 50.0], [700.0, 1000.0]]:
+		check_near(Plot.top_for(pair[0]), pair[1], 1e-9, "top for %s" % pair[0])
+
+
+func test_the_probe_leaves_a_program_that_no_editor_watches() -> void:
+	var probe: Node = Probe.new()
+	add_child(probe)
+	await frames(2)
+	check(not is_instance_valid(probe), "it is still there")
