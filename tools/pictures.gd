@@ -21,6 +21,7 @@ const SECONDS := {
 	"pinch": 4.5,
 	"hinge_door": 3.0,
 	"deforming_mesh": 4.0,
+	"soft": 1.6,
 	"peg_in_hole": 2.6,
 	"two_operators": 2.4,
 	"delay_lab": 4.0,

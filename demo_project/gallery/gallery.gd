@@ -28,6 +28,11 @@ const SCENES := {
 		"Volumes",
 		"A maze and a lump out of samples, as a scanner has them: go in and feel its walls from within."
 	],
+	"soft":
+	[
+		"Things that give",
+		"Press the sponge, the ball and the cloth: each yields, pushes back and takes its shape again."
+	],
 	"deforming_mesh":
 	["A skin that moves", "Lay a finger on the skin: its wave lifts it and lets it down again."],
 	"dynamic_testbed":

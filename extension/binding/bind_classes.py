@@ -39,9 +39,10 @@ VARIANT_TYPES = {
     "bool": "BOOL", "int": "INT", "float": "FLOAT", "String": "STRING", "StringName": "STRING_NAME",
     "NodePath": "NODE_PATH", "Vector3": "VECTOR3", "Vector3i": "VECTOR3I", "Transform3D": "TRANSFORM3D", "Dictionary": "DICTIONARY",
     "Array": "ARRAY", "PackedStringArray": "PACKED_STRING_ARRAY", "PackedVector3Array": "PACKED_VECTOR3_ARRAY",
+    "PackedInt32Array": "PACKED_INT32_ARRAY", "AABB": "AABB",
     "PackedFloat32Array": "PACKED_FLOAT32_ARRAY", "PackedFloat64Array": "PACKED_FLOAT64_ARRAY",
 }  # fmt: skip
-RESOURCES = {"Curve3D", "HapticField", "HapticGuide", "HapticMaterial", "HapticPath", "NetworkConditions", "TeleopTuning", "Mesh", "Texture2D"}
+RESOURCES = {"Curve3D", "HapticField", "HapticGuide", "HapticMaterial", "HapticPath", "NetworkConditions", "TeleopTuning", "Material", "Mesh", "Texture2D"}
 
 OWN_ATTRIBUTES = {
     "class": ["header", "includes", "changed"],

@@ -7,6 +7,7 @@
 #include <godot_cpp/classes/static_body3d.hpp>
 
 #include "nodes/haptic_mesh.hpp"
+#include "nodes/haptic_soft_body.hpp"
 
 namespace tactus {
 
@@ -87,12 +88,21 @@ BodyForm read_form(CollisionObject3D& body) {
     if (const HapticMesh* mesh = haptic_mesh_of(body)) {
         take(mesh->read(scaling), mesh, form, form.touched);
     }
+    if (const HapticSoftBody* soft = haptic_soft_body_of(body)) {
+        const String problem = soft->problem();
+        if (problem.is_empty()) {
+            form.soft = soft->plan(scaling);
+        } else {
+            form.problems.push_back("'" + from_godot(String(soft->get_name())) + "': " + from_godot(problem));
+        }
+    }
     if (Object::cast_to<RigidBody3D>(&body) != nullptr && body.has_method("_integrate_forces")) {
         form.problems.push_back(
             "its script has _integrate_forces(), which is not called while a HapticWorld moves the body: use "
             "_process() and HapticWorld.apply_force()");
     }
-    form.touchable = !form.shapes.empty() || !form.meshes.empty() || !form.touched.empty();
+    form.touchable =
+        !form.shapes.empty() || !form.meshes.empty() || !form.touched.empty() || form.soft != nullptr;
     if (!form.touchable && form.problems.empty()) {
         form.problems.push_back("it has no shape: give it a CollisionShape3D or a HapticMesh as a child");
     }

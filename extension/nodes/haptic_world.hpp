@@ -71,6 +71,7 @@ public:
     static HapticWorld* of(const godot::Node* node);
     // The nearest one above, whether it runs or not.
     static HapticWorld* above(const godot::Node* node);
+    double tick_seconds() const { return 1.0 / tick_rate_; }
     // It becomes a side of a teleoperation, or none, or another one: it starts anew.
     void link_changed() { world_changed(); }
     godot::Vector3 get_gravity() const { return gravity_; }

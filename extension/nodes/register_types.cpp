@@ -14,6 +14,7 @@
 #include "nodes/haptic_path.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_replay.hpp"
+#include "nodes/haptic_soft_body.hpp"
 #include "nodes/haptic_tool.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
@@ -37,6 +38,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticField);
     GDREGISTER_CLASS(HapticGuide);
     GDREGISTER_CLASS(HapticMesh);
+    GDREGISTER_CLASS(HapticSoftBody);
     GDREGISTER_CLASS(HapticDevice);
     GDREGISTER_CLASS(ProxyPointer);
     GDREGISTER_CLASS(HapticTool);

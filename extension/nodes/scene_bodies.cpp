@@ -4,6 +4,7 @@
 
 #include "nodes/godot_joint.hpp"
 #include "nodes/haptic_mesh.hpp"
+#include "nodes/haptic_soft_body.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
 
@@ -54,7 +55,7 @@ void SceneBodies::synchronise(MirrorContext context) {
     if (std::exchange(tree_changed_, false)) {
         find(context.session);
     }
-    context.mesh_changes = HapticMesh::changes();
+    context.mesh_changes = HapticMesh::changes() + HapticSoftBody::changes();
     mirrors_.synchronise(context);
 }
 

@@ -313,6 +313,10 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
     if (!body.error.empty()) {
         return {no_handle, std::move(body.error)};
     }
+    const double tick = to_seconds(impl_->settings.period);
+    if (body.soft && std::abs(body.soft->body.model().seconds - tick) > 1e-6 * tick) {
+        return {no_handle, "the body that gives was made for ticks of another length: make it anew"};
+    }
     impl_->make_second(body);
     const SessionHandle handle = impl_->take_from(impl_->bodies);
     if (handle == no_handle) {

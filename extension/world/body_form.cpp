@@ -11,6 +11,9 @@ namespace tactus {
 
 namespace {
 
+// To cut a volume into cells and factor its matrix takes as long as a tree over about so many triangles.
+constexpr std::size_t costs_of_softness = 100'000;
+
 std::size_t triangle_count(const Shape& shape) {
     if (const auto* field = std::get_if<HeightFieldShape>(&shape)) {
         return 2 * std::size_t{field->columns} * field->rows;
@@ -108,7 +111,7 @@ void put_into(BodyDescription& description, const BodyMakings& makings) {
 
 bool same_form(const BodyForm& a, const BodyForm& b) {
     return a.problems == b.problems && same_shapes(a.shapes, b.shapes) && same_meshes(a.meshes, b.meshes) &&
-           same_meshes(a.touched, b.touched);
+           same_meshes(a.touched, b.touched) && a.soft == b.soft;
 }
 
 std::string problem_of(const MeshDraft& draft) {
@@ -138,10 +141,41 @@ std::size_t triangle_count(const BodyForm& form) {
             count += draft.source->triangle_count();
         }
     }
-    return count;
+    return form.soft != nullptr ? count + costs_of_softness : count;
 }
 
+namespace {
+
+// What gives is touched by its surface alone; to others, over a link, it is a mesh.
+BuiltBody build_soft_body(const BodyPlan& plan, const ParallelRunner& run) {
+    BuiltBody result;
+    result.problems = plan.form.problems;
+    const SoftPlan::Built soft = plan.form.soft->built();
+    result.buildable = soft.model != nullptr;
+    if (!result.buildable) {
+        result.problems.push_back(soft.error);
+        return result;
+    }
+    BodyAddition addition;
+    addition.description.shapes = {
+        {MeshShape{std::make_shared<const TriangleMesh>(soft.model->surface), 0.0, soft.model->closed}, {}}};
+    addition.touch = soft_touch_shape(*soft.model, run);
+    addition.soft = soft.model;
+    addition.soft_view = soft.view;
+    put_into(addition, plan.values);
+    put_into(addition.description, plan.makings);
+    addition.description.pose = plan.place.pose;
+    result.body = Session::prepare_body(addition, run);
+    result.addition = std::move(addition);
+    return result;
+}
+
+}  // namespace
+
 BuiltBody build_body(const BodyPlan& plan, const ParallelRunner& run) {
+    if (plan.form.soft != nullptr) {
+        return build_soft_body(plan, run);
+    }
     BuiltBody result;
     result.problems = plan.form.problems;
     const std::vector<BuiltDraft> colliding = build_drafts(plan.form.meshes, run, result.problems);

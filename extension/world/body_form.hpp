@@ -9,6 +9,7 @@
 
 #include "session/session.hpp"
 #include "world/body_values.hpp"
+#include "world/soft_plan.hpp"
 #include "world/triangle_source.hpp"
 
 namespace tactus {
@@ -27,6 +28,7 @@ struct BodyForm {
     std::vector<PlacedShape> shapes;    // that collide; touched, too, where nothing else is
     std::vector<MeshDraft> meshes;      // likewise
     std::vector<MeshDraft> touched;     // instead of these
+    std::shared_ptr<SoftPlan> soft;     // instead of all; null: it does not give
     std::vector<std::string> problems;  // of single shapes; the rest of the body can still be touched
     bool touchable = false;             // false: nothing is left to touch, the problems say why
 };

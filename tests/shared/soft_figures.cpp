@@ -255,7 +255,7 @@ PressTrace trace_press(double stiffness, int iterations) {
     Vec3 hand = body.surface_point(triangle, weights);
     PressTrace trace;
     const SpanClock clock;
-    for (int i = 0; i < 2100; ++i) {
+    for (int i = 0; i < 1100; ++i) {
         const Vec3 motion(0.0, i < 100 ? -1e-4 : 0.0, 0.0);
         const SoftPush push{triangle, weights, 500.0 * (hand - body.surface_point(triangle, weights)),
                             500.0,    0.0,     motion * 1e3,
@@ -274,16 +274,21 @@ PressTrace trace_press(double stiffness, int iterations) {
 
 }  // namespace
 
-SoftAccuracy soft_accuracy(double stiffness, int iterations) {
-    const PressTrace right = trace_press(stiffness, 64);
-    PressTrace trace = trace_press(stiffness, iterations);
-    double sum = 0.0, largest = 0.0;
-    for (std::size_t i = 0; i < right.forces.size(); ++i) {
-        sum += (trace.forces[i] - right.forces[i]) * (trace.forces[i] - right.forces[i]);
-        largest = std::max(largest, right.forces[i]);
+std::vector<SoftAccuracy> soft_accuracy(double stiffness, std::span<const int> iterations) {
+    const PressTrace right = trace_press(stiffness, 32);
+    std::vector<SoftAccuracy> all;
+    for (const int count : iterations) {
+        PressTrace trace = trace_press(stiffness, count);
+        double sum = 0.0, largest = 0.0;
+        for (std::size_t i = 0; i < right.forces.size(); ++i) {
+            sum += (trace.forces[i] - right.forces[i]) * (trace.forces[i] - right.forces[i]);
+            largest = std::max(largest, right.forces[i]);
+        }
+        all.push_back({100.0 * std::sqrt(sum / static_cast<double>(right.forces.size())) / largest,
+                       100.0 * std::abs(trace.held - right.held) / right.held,
+                       quantile(trace.microseconds, 0.5)});
     }
-    return {100.0 * std::sqrt(sum / static_cast<double>(right.forces.size())) / largest,
-            100.0 * std::abs(trace.held - right.held) / right.held, quantile(trace.microseconds, 0.5)};
+    return all;
 }
 
 }  // namespace tactus::shared

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/geometry/triangle_mesh.hpp"
@@ -43,7 +44,7 @@ struct SoftAccuracy {
     double static_error_percent = 0.0;  // once it is held still
     double step_microseconds = 0.0;     // median
 };
-// The force of a press at 0.1 m/s beside that of 64 iterations.
-SoftAccuracy soft_accuracy(double stiffness, int iterations);
+// The force of a press at 0.1 m/s with so many iterations each, beside that of 32.
+std::vector<SoftAccuracy> soft_accuracy(double stiffness, std::span<const int> iterations);
 
 }  // namespace tactus::shared

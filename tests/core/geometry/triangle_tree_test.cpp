@@ -362,6 +362,27 @@ TEST(TriangleTree, RefitAnswersForTheMovedTriangles) {
     }
 }
 
+// Again and again, from single precision on, whatever its turned boxes were before.
+TEST(TriangleTree, ATreeThatFollowsAnswersForTheMovedTriangles) {
+    RandomValues random(46);
+    TriangleMesh mesh = shared::terrain(12, 2.0, 0.0);
+    TriangleTree tree = TriangleTree::build(mesh);
+    for (int turn = 1; turn <= 3; ++turn) {
+        for (Vec3& v : mesh.vertices) {
+            v += Vec3(0.1 * std::sin(3.0 * v.z), 0.2 * std::sin(4.0 * v.x + turn), 0.1);
+        }
+        tree.follow(mesh);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 p = random.in_ball(2.0);
+            ASSERT_NEAR(tree.nearest(p, 1e30).distance, static_cast<double>(shared::slow_distance(p, mesh)),
+                        1e-13);
+        }
+        for (const Vec3& v : mesh.vertices) {
+            ASSERT_LE(glm::length(v - tree.center()), tree.radius() * (1.0 + 1e-15));
+        }
+    }
+}
+
 TEST(TriangleTree, BallHoldsEveryTriangleAlsoAfterRefit) {
     TriangleMesh mesh = shared::soup(300, 1.0, 9);
     TriangleTree tree = TriangleTree::build(mesh);

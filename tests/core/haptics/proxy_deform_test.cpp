@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/haptics/surface_way.hpp"
 #include "shared/deforms.hpp"
 #include "shared/meshes.hpp"
 #include "shared/touch_rig.hpp"
@@ -32,12 +33,13 @@ protected:
         former_ = form_;
         form_ = shared::refitted(*form_, mesh);
         rig_.scene.begin_tick();
-        EXPECT_TRUE(rig_.scene.deform(body_, *form_));
+        EXPECT_TRUE(gives_ ? rig_.scene.give(body_, *form_) : rig_.scene.deform(body_, *form_));
         return rig_.proxy.move(rig_.scene, hand);
     }
 
     TouchRig rig_{radius};
     int body_ = -1;
+    bool gives_ = false;  // else it takes another form
     std::shared_ptr<const TouchShape> form_, former_;
 };
 
@@ -50,6 +52,31 @@ TEST_F(ProxyDeform, ASheetThatRisesTenRadiiTakesItAlong) {
     EXPECT_EQ(tick.status & (proxy_squeezed | proxy_letting_out), 0u);
     EXPECT_TRUE(tick.status & proxy_touching);
     EXPECT_NEAR(deform(lifted(sheet, 0.1), {0.013, 0.2, 0.007}).position.y, 0.2, 1e-12);
+}
+
+TEST_F(ProxyDeform, WhatGivesChangesNothingByAJump) {
+    const TriangleMesh sheet = shared::terrain(20, 2.0, 0.0);
+    start(sheet);
+    const Vec3 hand(0.013, 0.03, 0.007);
+    rig_.draw({0.013, 0.2, 0.007}, hand, 100);
+    gives_ = true;
+    for (int i = 1; i <= 10; ++i) {
+        const ProxyTick tick = deform(lifted(sheet, -1e-4 * i), hand);
+        EXPECT_FALSE(tick.jumped) << i;
+        ASSERT_EQ(rig_.proxy.touching().size(), 1u);
+        const Vec3 way = way_of_surface(rig_.scene, rig_.proxy.touching()[0]);
+        EXPECT_LT(glm::distance(way, Vec3(0.0, -1e-4, 0.0)), 1e-12);
+    }
+    gives_ = false;
+    EXPECT_TRUE(deform(lifted(sheet, -2e-3), hand).jumped);
+}
+
+TEST_F(ProxyDeform, WhatIsNoRefitDoesNotGive) {
+    start(shared::terrain(20, 2.0, 0.0));
+    const std::shared_ptr<const TouchShape> other = shared::touch_of(shared::terrain(20, 2.0, 0.0));
+    rig_.scene.begin_tick();
+    EXPECT_FALSE(rig_.scene.give(body_, *other));
+    EXPECT_EQ(rig_.scene.body(body_).shape, form_.get());
 }
 
 // Pushed off one wall after the other, it would stand between them in the limit only, after far more work

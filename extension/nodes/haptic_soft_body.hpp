@@ -1,0 +1,73 @@
+#pragma once
+
+#include <godot_cpp/classes/collision_object3d.hpp>
+#include <godot_cpp/classes/material.hpp>
+#include <godot_cpp/classes/mesh.hpp>
+#include <godot_cpp/classes/mesh_instance3d.hpp>
+#include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/core/binder_common.hpp>
+#include <godot_cpp/variant/aabb.hpp>
+#include <godot_cpp/variant/packed_int32_array.hpp>
+#include <godot_cpp/variant/packed_vector3_array.hpp>
+#include <memory>
+#include <string>
+
+#include "nodes/properties.hpp"
+#include "world/soft_plan.hpp"
+
+namespace tactus {
+
+// As a child of a body: its mesh gives under what touches it, as a volume or as a sheet, and is drawn so.
+class HapticSoftBody : public godot::Node3D {
+    GDCLASS(HapticSoftBody, godot::Node3D)
+
+public:
+    enum Form : int64_t { FORM_VOLUME = 0, FORM_SHEET = 1 };
+
+    TACTUS_PROPERTIES(HapticSoftBody)
+
+    godot::String get_problem() const;
+    godot::PackedVector3Array get_surface() const;
+    int get_element_count() const;
+
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // Why nobody touches it, whatever it is made of; empty where somebody can.
+    godot::String problem() const;
+    // The body's own scale is what `body_scale` says. Whether it can be built shows when it is.
+    std::shared_ptr<SoftPlan> plan(const SceneFrame& body_scale) const;
+
+    // Rises whenever one comes, goes, moves in its body or is to be built anew.
+    static std::uint64_t changes();
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+
+private:
+    SoftDescription described() const;
+    SceneFrame scale_of_body() const;
+    void form_changed();
+    void look_changed();
+    void show();
+
+    godot::Ref<godot::Mesh> mesh_;
+    godot::PackedVector3Array points_;
+    godot::PackedInt32Array tetrahedra_;
+    Form form_ = FORM_VOLUME;
+    int cells_ = 8;
+    SoftMaterial material_;
+    godot::AABB held_;
+    godot::PackedInt32Array held_vertices_;
+    godot::Ref<godot::Material> look_;
+    mutable std::shared_ptr<SoftPlan> plan_;  // null: another one is to be made when somebody asks
+    std::shared_ptr<SoftView> shown_;         // that is drawn
+    godot::MeshInstance3D* picture_ = nullptr;
+};
+
+// Of the body; null where it does not give.
+HapticSoftBody* haptic_soft_body_of(const godot::CollisionObject3D& body);
+
+}  // namespace tactus
+
+VARIANT_ENUM_CAST(tactus::HapticSoftBody::Form);
