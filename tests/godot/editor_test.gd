@@ -113,6 +113,20 @@ func test_a_fingertips_radius_is_dragged_and_undone() -> void:
 	check_near(tip.radius, 0.01, 1e-9, "radius undone")
 
 
+func test_what_a_soft_body_is_held_by_is_dragged_by_its_faces() -> void:
+	var soft := HapticSoftBody.new()
+	soft.held = AABB(Vector3(-0.1, -0.1, -0.1), Vector3(0.2, 0.05, 0.2))
+	var root := await _edit([_named(soft, "Soft")])
+	soft = root.get_node("HapticWorld/Soft")
+	check(_gizmo(soft).get_plugin().grips(soft).size() == 6, "a handle for each face")
+	_drag(soft, 2, Vector3(0, 0.02, 0))
+	check_near(soft.held.end.y, 0.02, 1e-6, "its upper face")
+	_drag(soft, 3, Vector3(0, 0.5, 0))
+	check_near(soft.held.size.y, 0.001, 1e-6, "its lower face stays below")
+	_undo(soft)
+	check_near(soft.held.position.y, -0.1, 1e-6, "undone")
+
+
 func test_a_workspace_is_made_larger_by_its_faces() -> void:
 	var device := HapticDevice.new()
 	device.driver = HapticDevice.DRIVER_FALCON
