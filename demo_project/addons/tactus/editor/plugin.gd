@@ -7,6 +7,7 @@ const GIZMOS := [
 	preload("pointer_gizmos.gd"),
 	preload("tool_gizmos.gd"),
 	preload("mesh_gizmos.gd"),
+	preload("soft_gizmos.gd"),
 	preload("sensor_gizmos.gd"),
 	preload("world_gizmos.gd"),
 ]
