@@ -13,7 +13,7 @@ from pathlib import Path
 from project import FOLDER
 from setup import cache, display, godot
 
-MOVING = ["static_testbed", "mesh_library", "soft_body", "stack", "pinch", "hinge_door", "peg_in_hole", "delay_lab"]
+MOVING = ["static_testbed", "mesh_library", "soft", "stack", "pinch", "hinge_door", "peg_in_hole"]
 FRAME_MS = 83
 
 
