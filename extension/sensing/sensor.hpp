@@ -9,12 +9,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/ports/depth_sensing.hpp"
 #include "sensing/image/camera_clock.hpp"
 #include "sensing/image/depth_image.hpp"
+#include "sensing/lasting_thread.hpp"
 #include "sensing/observer.hpp"
 #include "sensing/openni/camera.hpp"
 
@@ -79,7 +79,7 @@ private:
     Picture seen_, spare_;
     Nanoseconds last_frame_ = 0, last_fade_ = 0;
 
-    std::thread thread_;
+    LastingThread thread_;
 };
 
 }  // namespace tactus

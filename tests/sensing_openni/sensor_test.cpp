@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <functional>
+#include <thread>
+#include <vector>
 
 #include "platform/clock.hpp"
 #include "scene.hpp"
@@ -95,6 +98,34 @@ TEST(Sensor, SeesACloudWhereTheTableIs) {
     // In front of the camera.
     for (const glm::vec3& point : sight.cloud) {
         ASSERT_LT(point.z, -0.3f);
+    }
+}
+
+// Their stacks are given back to the system, and with them those of threads that have ended before.
+void end_many_threads() {
+    std::vector<std::thread> threads(16);
+    std::atomic<bool> ends{false};
+    for (std::thread& thread : threads) {
+        thread = std::thread([&] { ends.wait(false); });
+    }
+    ends = true;
+    ends.notify_all();
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+}
+
+// OpenNI2 asks after all who have ever waited for an image (see lasting_thread.hpp).
+TEST(Sensor, OneAfterTheOtherSees) {
+    Scene scene;
+    scene.show(7);
+    const std::string uri = scene.uri();
+    for (int i = 0; i < 4; ++i) {
+        OwnedSensor eyes = sensor_of(scene);
+        eyes->open({uri.c_str()});
+        ASSERT_TRUE(until(*eyes, [](const Sight& sight) { return sight.state == SensorState::seeing; }));
+        eyes.reset();
+        end_many_threads();
     }
 }
 
