@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
+import entry
 import replay
 from measuring import bundles
 from setup import cache
@@ -61,10 +62,4 @@ def _leaves_virtual_time(experiment: ModuleType, options: dict[str, str]) -> boo
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except (RuntimeError, ValueError) as error:
-        print(error, file=sys.stderr)
-        sys.exit(1)
-    except KeyboardInterrupt:
-        sys.exit(130)
+    entry.leave(main)

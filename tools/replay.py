@@ -10,6 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import entry
 from project import FOLDER
 from setup import godot
 
@@ -42,10 +43,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except (RuntimeError, ValueError) as error:
-        print(error, file=sys.stderr)
-        sys.exit(1)
-    except KeyboardInterrupt:
-        sys.exit(130)
+    entry.leave(main)

@@ -113,31 +113,21 @@ func _menu() -> Control:
 	return menu
 
 
-func _press(code: Key) -> void:
-	var event := InputEventKey.new()
-	event.keycode = code
-	event.physical_keycode = code
-	event.pressed = true
-	Input.parse_input_event(event)
-	Input.flush_buffered_events()
-	await frames(2)
-
-
 func test_keys_change_hands_hide_words_begin_again_and_go_back() -> void:
 	var menu := _menu()
 	menu.open(Gallery.path_of("static_testbed"))
 	var scene: Node = menu._scene
 	var device: HapticDevice = scene.get_node("HapticWorld/HapticDevice")
-	await _press(KEY_TAB)
+	await press_key(KEY_TAB)
 	check_equal(device.driver, HapticDevice.DRIVER_PATH, "driver after Tab")
-	await _press(KEY_TAB)
+	await press_key(KEY_TAB)
 	check_equal(device.driver, HapticDevice.DRIVER_MOUSE, "driver after Tab again")
 	var placard: CanvasLayer = scene.get_node("Placard")
-	await _press(KEY_H)
+	await press_key(KEY_H)
 	check(not placard.visible, "the words are still there")
-	await _press(KEY_R)
+	await press_key(KEY_R)
 	check(not is_instance_valid(scene) and menu._scene != null, "it did not begin again")
-	await _press(KEY_ESCAPE)
+	await press_key(KEY_ESCAPE)
 	check(menu._scene == null and menu.get_node("%Menu").visible, "it did not go back")
 
 
@@ -156,15 +146,9 @@ func test_two_fingers_close_on_the_box() -> void:
 		await frames(1)
 	var before: float = gap.call()
 	check_near(before, 2.0 * scene.get_node("Fingers").OPENED, 1e-3, "gap")
-	var space := InputEventKey.new()
-	space.physical_keycode = KEY_SPACE
-	space.pressed = true
-	Input.parse_input_event(space)
-	Input.flush_buffered_events()
+	send_key(KEY_SPACE, true)
 	var closes := func() -> bool:
 		Stepping.advance(worlds, 0.01)
 		return gap.call() < 2.0 * scene.get_node("Fingers").CLOSED + 1e-3
 	check(await until(closes, SOON), "they stay %s m apart" % gap.call())
-	space.pressed = false
-	Input.parse_input_event(space)
-	Input.flush_buffered_events()
+	send_key(KEY_SPACE, false)

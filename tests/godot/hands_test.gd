@@ -10,15 +10,6 @@ func _device(world: HapticWorld, driver: HapticDevice.Driver) -> HapticDevice:
 	return device
 
 
-func _key(code: Key, pressed: bool) -> void:
-	var event := InputEventKey.new()
-	event.physical_keycode = code
-	event.keycode = code
-	event.pressed = pressed
-	Input.parse_input_event(event)
-	Input.flush_buffered_events()
-
-
 func _stick(axis: JoyAxis, value: float) -> void:
 	var event := InputEventJoypadMotion.new()
 	event.axis = axis
@@ -45,17 +36,17 @@ func test_keys_move_the_hand_as_the_camera_sees_it() -> void:
 	device.steering_reach = 0.1
 	await _play(world, 2)
 	check_near(device.get_hand_position(), Vector3.ZERO, 1e-9, "before a key is pressed")
-	_key(KEY_RIGHT, true)
+	send_key(KEY_RIGHT, true)
 	await _play(world, 60)
-	_key(KEY_RIGHT, false)
+	send_key(KEY_RIGHT, false)
 	# The camera looks along -x: right is -z. At the end of its reach it goes no farther.
 	check_near(device.get_hand_position(), Vector3(0, 0, -0.1), 1e-4, "to the right")
 	await _play(world, 10)
 	check_near(device.get_hand_position(), Vector3(0, 0, -0.1), 1e-4, "let go")
-	_key(KEY_SPACE, true)
+	send_key(KEY_SPACE, true)
 	await _play(world, 2)
 	check_equal(device.get_buttons(), 1, "space")
-	_key(KEY_SPACE, false)
+	send_key(KEY_SPACE, false)
 
 
 func test_a_stick_is_a_place_where_that_is_asked_for() -> void:

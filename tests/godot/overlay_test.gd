@@ -28,15 +28,6 @@ func _drawings(scene: Node) -> Array[Node]:
 	)
 
 
-func _press(code: Key) -> void:
-	var event := InputEventKey.new()
-	event.keycode = code
-	event.pressed = true
-	Input.parse_input_event(event)
-	Input.flush_buffered_events()
-	await frames(2)
-
-
 func test_an_overlay_shows_what_happens_and_hidden_does_nothing() -> void:
 	var scene := _scene_in_real_time()
 	var overlay := _overlay()
@@ -44,7 +35,7 @@ func test_an_overlay_shows_what_happens_and_hidden_does_nothing() -> void:
 	check(not overlay.visible and not overlay.is_processing(), "it is not hidden at first")
 	check(not overlay.get_node("%Drawing").is_processing(), "it draws while it is hidden")
 	check_equal(_drawings(scene).size(), 0, "drawings")
-	await _press(overlay.key)
+	await press_key(overlay.key)
 	check(overlay.visible, "its key does not show it")
 	var rate: Control = overlay.get_node("%Panel").get_node("%Rate")
 	var plots := func() -> bool:
@@ -53,7 +44,7 @@ func test_an_overlay_shows_what_happens_and_hidden_does_nothing() -> void:
 	check(rate._values["HapticWorld"][-1] > 100.0, "ticks a second: %s" % [rate._values])
 	check_equal(_drawings(scene).size(), 1, "drawings")
 	check(overlay.get_node("%Panel").get_node("%Said").text.contains("2 bodies"), "what is said")
-	await _press(overlay.key)
+	await press_key(overlay.key)
 	await frames(2)
 	check(not overlay.visible and not overlay.is_processing(), "it is not hidden again")
 	check_equal(_drawings(scene).size(), 0, "drawings that are left")

@@ -35,6 +35,22 @@ func frames(count: int) -> void:
 		await get_tree().process_frame
 
 
+## A key goes down or comes up, wherever it lies on the keyboard.
+func send_key(code: Key, pressed: bool) -> void:
+	var event := InputEventKey.new()
+	event.physical_keycode = code
+	event.keycode = code
+	event.pressed = pressed
+	Input.parse_input_event(event)
+	Input.flush_buffered_events()
+
+
+## A key goes down, and has been seen.
+func press_key(code: Key) -> void:
+	send_key(code, true)
+	await frames(2)
+
+
 ## Waits until the condition holds, at most for so long; says whether it did.
 func until(condition: Callable, seconds: float) -> bool:
 	var deadline := Time.get_ticks_msec() + int(seconds * 1000.0)
