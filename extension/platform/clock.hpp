@@ -12,4 +12,7 @@ Nanoseconds monotonic_now();
 // Since the epoch, as this machine's clock is set.
 Nanoseconds wall_clock_now();
 
+// Processor time that the calling thread has taken.
+Nanoseconds thread_time();
+
 }  // namespace tactus

@@ -22,4 +22,8 @@ Nanoseconds wall_clock_now() {
     return read_clock(CLOCK_REALTIME);
 }
 
+Nanoseconds thread_time() {
+    return read_clock(CLOCK_THREAD_CPUTIME_ID);
+}
+
 }  // namespace tactus

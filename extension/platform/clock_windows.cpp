@@ -6,6 +6,11 @@ namespace tactus {
 
 namespace {
 
+// In steps of 100 ns.
+std::int64_t steps_of(const FILETIME& time) {
+    return static_cast<std::int64_t>(time.dwHighDateTime) << 32 | time.dwLowDateTime;
+}
+
 // Constant from the start of the system on.
 std::int64_t counts_per_second() {
     LARGE_INTEGER frequency;
@@ -28,8 +33,13 @@ Nanoseconds wall_clock_now() {
     constexpr std::int64_t epoch = 116'444'736'000'000'000;  // 1970 in 100 ns since 1601
     FILETIME time;
     GetSystemTimePreciseAsFileTime(&time);
-    const std::int64_t steps = static_cast<std::int64_t>(time.dwHighDateTime) << 32 | time.dwLowDateTime;
-    return (steps - epoch) * 100;
+    return (steps_of(time) - epoch) * 100;
+}
+
+Nanoseconds thread_time() {
+    FILETIME created, ended, kernel, user;
+    GetThreadTimes(GetCurrentThread(), &created, &ended, &kernel, &user);
+    return 100 * (steps_of(kernel) + steps_of(user));
 }
 
 }  // namespace tactus

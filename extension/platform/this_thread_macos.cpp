@@ -13,4 +13,6 @@ void work_in_background() {
     pthread_set_qos_class_self_np(QOS_CLASS_UTILITY, 0);
 }
 
+void keep_off_last_processor(bool) {}
+
 }  // namespace tactus

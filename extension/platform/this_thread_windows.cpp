@@ -2,6 +2,8 @@
 
 #include <windows.h>
 
+#include <bit>
+
 #include "platform/wide_text_windows.hpp"
 
 namespace tactus {
@@ -18,6 +20,15 @@ void name_this_thread(const char* name) {
 
 void work_in_background() {
     SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_BELOW_NORMAL);
+}
+
+void keep_off_last_processor(bool keeps_off) {
+    DWORD_PTR processors = 0, of_system = 0;
+    if (GetProcessAffinityMask(GetCurrentProcess(), &processors, &of_system) == 0) {
+        return;
+    }
+    const DWORD_PTR others = processors & ~std::bit_floor(processors);
+    SetThreadAffinityMask(GetCurrentThread(), keeps_off && others != 0 ? others : processors);
 }
 
 }  // namespace tactus

@@ -201,7 +201,10 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
     const Nanoseconds seen_at = camera_->has_our_clock() ? static_cast<Nanoseconds>(image.time_us) * 1000
                                                          : clock_.taken_at(image.time_us, arrived) -
                                                                from_seconds(now_.settings.camera_delay);
-    if (const std::string wrong = observer_.look(image, now_.settings, seen_); !wrong.empty()) {
+    beside_loop_.begin_burst();
+    const std::string wrong = observer_.look(image, now_.settings, seen_);
+    beside_loop_.end_burst();
+    if (!wrong.empty()) {
         ++seen_.sight.dropped;
         say(SensorState::waiting, wrong);
         publish(false);

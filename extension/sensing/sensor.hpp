@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/ports/depth_sensing.hpp"
+#include "platform/beside_loop.hpp"
 #include "sensing/image/camera_clock.hpp"
 #include "sensing/image/depth_image.hpp"
 #include "sensing/lasting_thread.hpp"
@@ -74,6 +75,7 @@ private:
     Wanted now_;
     std::unique_ptr<Camera> camera_;
     Observer observer_;
+    BesideLoop beside_loop_;
     CameraClock clock_;
     DepthImage image_;
     Picture seen_, spare_;

@@ -29,7 +29,7 @@ public:
     }
 
     TrianglePack operator[](std::size_t index) const {
-        return single_ ? widened(single_[index]) : exact_[index];
+        return single_ ? widened(single_[index]) : copied(exact_[index]);
     }
     TriangleCorners corners(std::size_t index, std::uint32_t lane) const {
         return single_ ? corners_of(single_[index], lane) : corners_of(exact_[index], lane);
@@ -56,6 +56,11 @@ private:
         SingleCorner a, b, c;
     };
 
+    // By lanes: copied as a whole it went byte by byte (`rep movs`), a seventh of the time of a sweep.
+    static LanesVec3 copied(const LanesVec3& corner) { return {corner.x, corner.y, corner.z}; }
+    static TrianglePack copied(const TrianglePack& pack) {
+        return {copied(pack.a), copied(pack.b), copied(pack.c)};
+    }
     static LanesVec3 widened(const SingleCorner& corner) {
         return {__builtin_convertvector(corner.x, Lanes), __builtin_convertvector(corner.y, Lanes),
                 __builtin_convertvector(corner.z, Lanes)};
