@@ -297,6 +297,7 @@ void HapticWorld::_process(double seconds) {
     }
     report_status(seconds);
     run->show();
+    run->ask_effects();
 }
 
 int64_t HapticWorld::advance(double seconds) {
@@ -317,6 +318,7 @@ int64_t HapticWorld::advance(double seconds) {
     const int64_t ticks = run->running().advance(seconds);
     report_status(seconds);
     run->show();
+    run->ask_effects();
     deliver_signals();  // last: what they call may free this node
     return ticks;
 }

@@ -6,6 +6,7 @@
 #include "nodes/body_watch.hpp"
 #include "nodes/depth_sensor.hpp"
 #include "nodes/haptic_device.hpp"
+#include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_field.hpp"
 #include "nodes/haptic_guide.hpp"
@@ -45,6 +46,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticRecorder);
     GDREGISTER_CLASS(HapticReplay);
     GDREGISTER_CLASS(HapticFeedback);
+    GDREGISTER_CLASS(HapticEffect);
     GDREGISTER_CLASS(NetworkConditions);
     GDREGISTER_CLASS(TeleopTuning);
     GDREGISTER_CLASS(MMTLink);

@@ -106,9 +106,9 @@ using InputCall =
                  command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
                  command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
                  command::SetGravity, call::AddDevice, command::SetWorkspace, command::RemoveDevice,
-                 call::AddProxy, command::SetProxy, command::RemoveProxy, call::AddTool, command::SetTool,
-                 command::RemoveTool, call::Record, call::EndRecording, call::Attach, call::Announce,
-                 call::Epoch, call::WriteRows, call::RowsWritten, call::AddSoftBody>;
+                 call::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy, call::AddTool,
+                 command::SetTool, command::RemoveTool, call::Record, call::EndRecording, call::Attach,
+                 call::Announce, call::Epoch, call::WriteRows, call::RowsWritten, call::AddSoftBody>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -241,6 +241,8 @@ inline constexpr int members<HandGuide> = 5;
 template <>
 inline constexpr int members<ProxyDescription> = 6;
 template <>
+inline constexpr int members<FieldMoment> = 5;
+template <>
 inline constexpr int members<ToolSettings> = 5;
 template <>
 inline constexpr int members<ToolUse> = 4;
@@ -342,6 +344,8 @@ template <>
 inline constexpr int members<command::RemoveDevice> = 1;
 template <>
 inline constexpr int members<command::SetProxy> = 2;
+template <>
+inline constexpr int members<command::SetField> = 2;
 template <>
 inline constexpr int members<command::RemoveProxy> = 1;
 template <>

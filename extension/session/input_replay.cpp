@@ -392,6 +392,9 @@ void InputReplay::carry_out(const command::RemoveDevice& c) {
 void InputReplay::carry_out(const command::SetProxy& c) {
     session_->set_proxy(c.handle, c.description);
 }
+void InputReplay::carry_out(const command::SetField& c) {
+    session_->set_hand_field(c.handle, c.moment);
+}
 void InputReplay::carry_out(const command::RemoveProxy& c) {
     session_->remove_proxy(c.handle);
 }

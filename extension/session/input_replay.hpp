@@ -90,6 +90,7 @@ private:
     void carry_out(const command::SetWorkspace& c);
     void carry_out(const command::RemoveDevice& c);
     void carry_out(const command::SetProxy& c);
+    void carry_out(const command::SetField& c);
     void carry_out(const command::RemoveProxy& c);
     void carry_out(const command::SetTool& c);
     void carry_out(const command::RemoveTool& c);
