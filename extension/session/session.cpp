@@ -315,7 +315,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
         return {no_handle, std::move(body.error)};
     }
     const double tick = to_seconds(impl_->settings.period);
-    if (body.soft && std::abs(body.soft->body.model().seconds - tick) > 1e-6 * tick) {
+    if (body.soft && std::abs(body.soft->body.model().design.seconds - tick) > 1e-6 * tick) {
         return {no_handle, "the body that gives was made for ticks of another length: make it anew"};
     }
     impl_->make_second(body);
@@ -325,9 +325,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
                                std::to_string(impl_->settings.max_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    if (impl_->recorder && body.soft) {
-        impl_->note(call::AddSoftBody{handle});
-    } else if (impl_->recorder) {
+    if (impl_->recorder) {
         impl_->note(call::AddBody{handle, call::Form::of(body), former});
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),

@@ -508,6 +508,13 @@ std::uint64_t SessionLoop::outcome() const {
         hash.add(state.linear_velocity);
         hash.add(state.angular_velocity);
     }
+    for (const SessionHandle handle : giving_) {
+        const SoftBody& giving = bodies_[handle].soft->body;
+        hash.add(std::uint64_t{giving.is_asleep()});
+        for (const Lanes& place : giving.is_asleep() ? std::span<const Lanes>() : giving.places()) {
+            hash.add(Vec3(place[0], place[1], place[2]));
+        }
+    }
     return hash.value();
 }
 
