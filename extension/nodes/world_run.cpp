@@ -276,11 +276,12 @@ void WorldRun::ask_effects() {
         complaints_.say(*effect, effect->problem());
         const SessionHandle proxy = hands_->handle_of(effect->proxy_node());
         const ProxyState* const state = tactus::state_of(snapshot.proxies, snapshot.proxy_count, proxy);
-        const auto moment = state != nullptr ? effect->look({state->hand, state->hand_velocity},
-                                                            to_seconds(snapshot.time))
-                                             : std::nullopt;
+        const auto moment = state != nullptr
+                                ? effect->look({state->hand, state->hand_velocity}, to_seconds(snapshot.time))
+                                : std::nullopt;
         if (moment) {
-            FieldMoment& sum = fields.try_emplace(proxy, FieldMoment{moment->place, moment->velocity}).first->second;
+            FieldMoment& sum =
+                fields.try_emplace(proxy, FieldMoment{moment->place, moment->velocity}).first->second;
             sum.force += moment->force;
             sum.by_place += moment->by_place;
             sum.by_velocity += moment->by_velocity;

@@ -487,7 +487,7 @@ void Session::set_proxy(SessionHandle proxy, const ProxyDescription& description
 }
 
 void Session::set_hand_field(SessionHandle proxy, const FieldMoment& moment) {
-    constexpr double strongest = 1e6;   // (unit: newtons)
+    constexpr double strongest = 1e6;  // (unit: newtons)
     constexpr double steepest = 1e12;  // (units: newtons per meter, newton seconds per meter)
     const auto is_within = [](const Vec3& v, double most) { return glm::length(v) <= most; };
     const auto is_slope = [&](const Mat3& slope) {

@@ -257,8 +257,8 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
-    slot.effects.besides = led.force + field_force +
-                           gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
+    slot.effects.besides =
+        led.force + field_force + gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
     slot.step.stiffness += led.stiffness + field.stiffness;
@@ -470,7 +470,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.wanted.stiffness,
                                                slot.used.stiffness,
                                                {seconds_, slot.capabilities.delay},
-                                               slot.capabilities.radius};
+                                               slot.capabilities.radius,
+                                               slot.safety.work()};
         }
     }
     snapshots_.publish();

@@ -159,6 +159,7 @@ struct DeviceState {
     double stiffness_used = 0.0;
     LoopLag lag;          // of the device, for which that holds
     double radius = 0.0;  // of its workspace, in its own frame (unit: meters); 0: it has none
+    double work = 0.0;    // on the hand since it came (unit: joules); below zero: taken from it
 };
 
 // Everything Godot shows of one tick. Bodies: those that can move, each with where it is now.

@@ -281,13 +281,15 @@ SoftDraftResult draft_tetrahedra(const SoftDesign& design) {
         Tetrahedron named{};
         for (std::size_t c = 0; c < 4; ++c) {
             if (t[c] >= vertices.size()) {
-                return {{}, "a corner of a tetrahedron is no vertex: give numbers below " +
-                                     std::to_string(vertices.size())};
+                return {{},
+                        "a corner of a tetrahedron is no vertex: give numbers below " +
+                            std::to_string(vertices.size())};
             }
             const Vec3& place = vertices[t[c]];
             if (!(std::abs(place.x) <= 1e4 && std::abs(place.y) <= 1e4 && std::abs(place.z) <= 1e4)) {
-                return {{}, "vertex " + std::to_string(t[c]) +
-                                     " of the tetrahedra is no place within 10 km: correct it"};
+                return {{},
+                        "vertex " + std::to_string(t[c]) +
+                            " of the tetrahedra is no place within 10 km: correct it"};
             }
             if (node_of[t[c]] == 0xffff'ffffu) {
                 node_of[t[c]] = static_cast<std::uint32_t>(draft.nodes.size());
@@ -305,9 +307,10 @@ SoftDraftResult draft_tetrahedra(const SoftDesign& design) {
                                          glm::distance(draft.nodes[t[0]], draft.nodes[t[3]])});
         const double volume = tetrahedron_volume(draft.nodes, t);
         if (!(volume > 1e-6 * longest * longest * longest)) {
-            return {{}, "tetrahedron " + std::to_string(i) +
-                                 (volume < 0.0 ? " is turned inside out: swap two of its corners"
-                                               : " is flat: move one of its corners or leave it out")};
+            return {{},
+                    "tetrahedron " + std::to_string(i) +
+                        (volume < 0.0 ? " is turned inside out: swap two of its corners"
+                                      : " is flat: move one of its corners or leave it out")};
         }
         for (const std::uint32_t corner : t) {
             draft.mass[corner] += 0.25 * design.material.density * volume;
