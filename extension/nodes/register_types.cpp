@@ -20,6 +20,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/network_conditions.hpp"
+#include "nodes/project_settings.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/teleop_tuning.hpp"
@@ -33,6 +34,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     if (level != godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         return;
     }
+    declare_project_settings();
     GDREGISTER_INTERNAL_CLASS(BodyWatch);
     GDREGISTER_CLASS(HapticMaterial);
     GDREGISTER_CLASS(HapticPath);
