@@ -24,7 +24,9 @@ FieldMoment spring(double stiffness, const Vec3& hand) {
 TEST(SessionField, IsFeltByTheHandBesideWhatItTouches) {
     SessionRig rig;
     rig.add(ground());
-    rig.device.position = {0.0, 0.005, 0.0};
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.tick();
+    rig.draw({0.0, 0.005, 0.0}, 50);
     for (int i = 0; i < 200; ++i) {
         if (i % 16 == 0) {
             FieldMoment moment = even({2.0, 0.0, 0.0});
