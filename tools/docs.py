@@ -17,7 +17,7 @@ from setup import cache
 CONTENTS = {
     "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera"],
     "Research": ["tutorials/own_experiment", "experiments", "bundles", "teleoperation"],
-    "Extend": ["tutorials/own_driver", "wire_format"],
+    "Extend": ["tutorials/own_force_effect", "tutorials/own_driver", "wire_format"],
     "Reference": ["classes/index"],
     "How it works": ["proxy", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress"],
     "Changes": ["changes"],

@@ -21,6 +21,11 @@ const SCENES := {
 		"Touch the blocks and lift off: the orange ones hold the fingertip back, the right one harder."
 	],
 	"guide": ["A guide", "Nothing is there but the yellow line: come near it, and it leads the hand along."],
+	"force_effect":
+	[
+		"Your own force",
+		"A script lets water flow round a post: hold still in it, cross it, or be carried along."
+	],
 	"mesh_library":
 	["Meshes", "Run along rims, through holes and over edges: every triangle is felt as it is drawn."],
 	"field":

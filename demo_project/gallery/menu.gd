@@ -6,8 +6,10 @@ extends Control
 
 const Gallery := preload("res://gallery/gallery.gd")
 const Card := preload("res://gallery/card.tscn")
+const LAUNCHER := "res://launcher/launcher.tscn"
 
 var _scene: Node
+var _launcher: Control
 
 @onready var _cards: Container = %Cards
 
@@ -19,6 +21,7 @@ func _ready() -> void:
 		return
 	for scene_name: String in Gallery.SCENES:
 		_add_card(scene_name)
+	%Launch.pressed.connect(open_launcher)
 	_choose(0)
 	if not asked.is_empty() and not Gallery.name_of(asked[0]).is_empty():
 		open(asked[0])
@@ -53,6 +56,22 @@ func open(path: String) -> void:
 	_scene.get_node("Placard").by_hand = true
 	%Menu.visible = false
 	add_child(_scene)
+
+
+func open_launcher() -> void:
+	close()
+	_launcher = (load(LAUNCHER) as PackedScene).instantiate()
+	_launcher.left.connect(_close_launcher)
+	_launcher.has_way_back = true
+	%Menu.visible = false
+	add_child(_launcher)
+
+
+func _close_launcher() -> void:
+	_launcher.queue_free()
+	_launcher = null
+	%Menu.visible = true
+	%Launch.grab_focus()
 
 
 func close() -> void:

@@ -1,6 +1,9 @@
 extends Control
 ## Picks what is played, starts it, shows it and saves it as a bundle that can be played again.
 
+## The person wants back to where this was opened from; never while something is played.
+signal left
+
 const Launch := preload("res://launcher/launch.gd")
 const Run := preload("res://launcher/run.gd")
 const Replay := preload("res://experiments/replay.gd")
@@ -32,6 +35,8 @@ const ROWS := [
 const OF_A_NETWORK := ["side", "remote_address", "local_port", "remote_port", "key_file"]
 const OF_TWO_MACHINES := ["remote_address", "key_file"]
 
+## Whether there is anything to go back to.
+var has_way_back := false
 var _launch := Launch.new()
 var _run: Run
 var _rows := {}
@@ -47,6 +52,8 @@ func _ready() -> void:
 	%Start.pressed.connect(_start)
 	%Stop.pressed.connect(func() -> void: _run.stop())
 	%Again.pressed.connect(_play_again)
+	%Back.pressed.connect(left.emit)
+	%Back.visible = has_way_back
 	_show_state(false)
 	_chosen()
 	%Start.grab_focus()
@@ -128,6 +135,12 @@ func _chosen() -> void:
 			part.visible = shown[choice]
 	_said.text = _launch.problem()
 	%Start.disabled = not _said.text.is_empty()
+
+
+func _unhandled_key_input(event: InputEvent) -> void:
+	if has_way_back and _run == null and event.is_action_pressed(&"ui_cancel"):
+		get_viewport().set_input_as_handled()
+		left.emit()
 
 
 func _show_state(plays: bool) -> void:

@@ -1,5 +1,6 @@
 #include "nodes/haptic_device.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/input.hpp>
@@ -13,6 +14,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/project_settings.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
@@ -211,7 +213,7 @@ Workspace HapticDevice::workspace() const {
     const SceneFrame frame = frame_of(get_global_transform());
     return {pose_of(frame),
             mean_scale(frame),
-            force_limit_,
+            std::min(force_limit_, project_force_limit()),
             clutch_,
             static_cast<std::uint32_t>(dead_man_buttons_),
             force_scale_,

@@ -48,6 +48,7 @@ public:
     bool is_device_connected() const { return state_.connected; }
     godot::Vector3 get_hand_position() const { return to_godot(state_.position); }
     godot::Vector3 get_hand_velocity() const { return to_godot(state_.velocity); }
+    double get_energy() const { return state_.work; }
     godot::Quaternion get_hand_rotation() const { return to_godot(state_.rotation); }
     godot::Vector3 get_force() const { return to_godot(state_.force); }
     godot::Vector3 get_torque() const { return to_godot(state_.torque); }

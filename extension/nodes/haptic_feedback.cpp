@@ -7,8 +7,8 @@
 #include <godot_cpp/classes/xr_controller3d.hpp>
 
 #include "nodes/conversions.hpp"
-#include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/proxy_choice.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
@@ -39,28 +39,11 @@ HapticFeedback::HapticFeedback()
     : ring_(std::make_shared<TickRing>(ring_capacity)), feedback_(static_cast<double>(sound_rate)) {}
 
 const ProxyPointer* HapticFeedback::proxy_node() const {
-    if (!is_inside_tree() || !proxy_.is_empty()) {
-        return node_at<ProxyPointer>(*this, proxy_);
-    }
-    for (const Node* above = get_parent(); above != nullptr; above = above->get_parent()) {
-        if (const auto* proxy = Object::cast_to<ProxyPointer>(above)) {
-            return proxy;
-        }
-    }
-    for (const ProxyPointer* proxy : Roll<ProxyPointer>::all()) {
-        if (HapticWorld::above(proxy) == HapticWorld::above(this)) {
-            return proxy;
-        }
-    }
-    return nullptr;
+    return chosen_proxy(*this, proxy_);
 }
 
 String HapticFeedback::problem() const {
-    if (proxy_node() != nullptr) {
-        return String();
-    }
-    return proxy_.is_empty() ? String("there is no ProxyPointer in its world: add one")
-                             : wrong_path("proxy", proxy_, "a ProxyPointer") + ", or leave it empty";
+    return problem_of_proxy(*this, proxy_);
 }
 
 String HapticFeedback::get_state_text() const {

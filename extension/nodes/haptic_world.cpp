@@ -11,6 +11,7 @@
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
+#include "nodes/project_settings.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
@@ -172,8 +173,9 @@ std::unique_ptr<InputRecording> HapticWorld::record_inputs(const SessionSettings
 TickLoopSettings HapticWorld::loop_settings() const {
     TickLoopSettings settings;
     settings.period = nanoseconds_per_second / tick_rate_;
-    settings.realtime.fifo_priority = realtime_priority_;
-    settings.realtime.lock_memory = lock_memory_;
+    const bool is_wanted = project_wants_real_time();
+    settings.realtime.fifo_priority = is_wanted ? realtime_priority_ : 0;
+    settings.realtime.lock_memory = is_wanted && lock_memory_;
     settings.realtime.cpu = processor_;
     return settings;
 }
@@ -297,6 +299,7 @@ void HapticWorld::_process(double seconds) {
     }
     report_status(seconds);
     run->show();
+    run->ask_effects();
 }
 
 int64_t HapticWorld::advance(double seconds) {
@@ -317,6 +320,7 @@ int64_t HapticWorld::advance(double seconds) {
     const int64_t ticks = run->running().advance(seconds);
     report_status(seconds);
     run->show();
+    run->ask_effects();
     deliver_signals();  // last: what they call may free this node
     return ticks;
 }

@@ -55,6 +55,7 @@ public:
     void apply_force(Body* body, const godot::Vector3& force, const godot::Vector3& position);
     void apply_torque(Body* body, const godot::Vector3& torque);
     // What is there to touch: of all bodies of this world whose layers are in the mask.
+    godot::Array get_tree_boxes(const godot::Vector3& point, double radius, int64_t most) const;
     godot::Dictionary get_nearest_surface(const godot::Vector3& point, double max_distance,
                                           int64_t mask) const;
     godot::Dictionary intersect_ray(const godot::Vector3& from, const godot::Vector3& to, int64_t mask) const;

@@ -1,5 +1,6 @@
 // What scripts do to the bodies of a world: Godot's own physics, which RigidBody3D's methods speak to, does
 // not move them.
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
@@ -109,6 +110,21 @@ Dictionary HapticWorld::get_nearest_surface(const Vector3& point, double max_dis
         return Dictionary();
     }
     return dictionary_of(nearest_of(touchable(mask), from_godot(point), max_distance), run_->bodies());
+}
+
+Array HapticWorld::get_tree_boxes(const Vector3& point, double radius, int64_t most) const {
+    Array boxes;
+    if (!can_ask("get_tree_boxes", point, radius)) {
+        return boxes;
+    }
+    const std::size_t room = static_cast<std::size_t>(std::clamp<int64_t>(most, 1, 65'536));
+    for (const PlacedTreeBox& placed : tree_boxes(touchable(-1), from_godot(point), radius, room)) {
+        const Vec3 middle = 0.5 * (placed.box.low + placed.box.high);
+        const Basis sides =
+            Basis(to_godot(placed.pose.rotation)).scaled_local(to_godot(placed.box.high - placed.box.low));
+        boxes.push_back(Transform3D(sides, to_godot(to_parent(placed.pose, middle))));
+    }
+    return boxes;
 }
 
 Dictionary HapticWorld::intersect_ray(const Vector3& from, const Vector3& to, int64_t mask) const {

@@ -6,6 +6,7 @@
 #include "nodes/body_watch.hpp"
 #include "nodes/depth_sensor.hpp"
 #include "nodes/haptic_device.hpp"
+#include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_field.hpp"
 #include "nodes/haptic_guide.hpp"
@@ -19,6 +20,7 @@
 #include "nodes/haptic_world.hpp"
 #include "nodes/mmt_link.hpp"
 #include "nodes/network_conditions.hpp"
+#include "nodes/project_settings.hpp"
 #include "nodes/proxy_pointer.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/teleop_tuning.hpp"
@@ -32,6 +34,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     if (level != godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
         return;
     }
+    declare_project_settings();
     GDREGISTER_INTERNAL_CLASS(BodyWatch);
     GDREGISTER_CLASS(HapticMaterial);
     GDREGISTER_CLASS(HapticPath);
@@ -45,6 +48,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     GDREGISTER_CLASS(HapticRecorder);
     GDREGISTER_CLASS(HapticReplay);
     GDREGISTER_CLASS(HapticFeedback);
+    GDREGISTER_CLASS(HapticEffect);
     GDREGISTER_CLASS(NetworkConditions);
     GDREGISTER_CLASS(TeleopTuning);
     GDREGISTER_CLASS(MMTLink);

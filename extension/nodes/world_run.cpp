@@ -1,9 +1,11 @@
 #include "nodes/world_run.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/haptics/touch_values.hpp"
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_feedback.hpp"
 #include "nodes/haptic_recorder.hpp"
 #include "nodes/haptic_world.hpp"
@@ -249,6 +251,46 @@ void WorldRun::show_bodies(const SessionSnapshot& snapshot) {
     view().begin_to_show();
     for (std::size_t i = 0; i < snapshot.body_count && !is_over(); ++i) {
         view().show(snapshot.bodies[i], snapshot.tick);
+    }
+}
+
+// Where a script may free any of them, and the world. What several say of one hand adds up.
+void WorldRun::ask_effects() {
+    if (Roll<HapticEffect>::all().empty() || is_over()) {
+        return;
+    }
+    const Busy busy(is_busy_);
+    std::vector<std::uint64_t> ids;
+    for (const HapticEffect* effect : Roll<HapticEffect>::all()) {
+        if (HapticWorld::of(effect) == &world_) {
+            ids.push_back(effect->get_instance_id());
+        }
+    }
+    std::map<SessionHandle, FieldMoment> fields;
+    const SessionSnapshot& snapshot = session().snapshot();
+    for (const std::uint64_t id : ids) {
+        auto* const effect = node_of_id<HapticEffect>(id);
+        if (effect == nullptr || is_over()) {
+            continue;
+        }
+        complaints_.say(*effect, effect->problem());
+        const SessionHandle proxy = hands_->handle_of(effect->proxy_node());
+        const ProxyState* const state = tactus::state_of(snapshot.proxies, snapshot.proxy_count, proxy);
+        const auto moment = state != nullptr
+                                ? effect->look({state->hand, state->hand_velocity}, to_seconds(snapshot.time))
+                                : std::nullopt;
+        if (moment) {
+            FieldMoment& sum =
+                fields.try_emplace(proxy, FieldMoment{moment->place, moment->velocity}).first->second;
+            sum.force += moment->force;
+            sum.by_place += moment->by_place;
+            sum.by_velocity += moment->by_velocity;
+        }
+    }
+    for (const auto& [proxy, moment] : fields) {
+        if (!is_over()) {
+            session().set_hand_field(proxy, moment);
+        }
     }
 }
 

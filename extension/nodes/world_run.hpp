@@ -48,6 +48,8 @@ public:
     void synchronise(double seconds);
     // Shows in the scene tree what the loop has done.
     void show();
+    // Lets scripts say what forces are on the hands. Last: they may do anything, and end all this.
+    void ask_effects();
 
     // A node has come; one is about to go.
     void scene_changed(const godot::Node& node) { view().scene_changed(node); }

@@ -39,6 +39,7 @@ void CarriedPointer::touch(SessionLoop& loop, const SessionLoop::ProxySlot& pres
     slot_.hand = pressing.hand + offset_;
     slot_.hand_velocity = pressing.hand_velocity;
     slot_.force_before = slot_.force;
+    slot_.field = pressing.field;
     if (pressing.parts.contact_count > 0) {
         slot_.proxy->set_sliding(pressing.sliding);
     }

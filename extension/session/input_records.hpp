@@ -20,7 +20,8 @@ namespace tactus {
 // By the owner, where a command is not plain values.
 namespace call {
 
-// What a body is made of, but for what it is touched by: that is made of the same shapes again.
+// What a body is made of, but for what it is touched by: that is made of the same shapes again, and one that
+// gives of the same design.
 struct Form {
     BodyDescription description;
     std::vector<PlacedShape> touch_shapes;
@@ -29,10 +30,16 @@ struct Form {
     // Of its trees, one for each part. One whose number has been there is that tree, refitted: made anew it
     // would touch alike, but not to the last bit.
     std::vector<std::uint64_t> lineages;
+    std::shared_ptr<const SoftDesign> soft;  // null: it does not give
 
     static Form of(const ReadyBody& body) {
         const BodyAddition& source = body.source;
-        Form form{source.description, source.touch_shapes, source.touch_material, source.texture, {}};
+        Form form{
+            source.description, source.touch_shapes, source.touch_material, source.texture, {}, nullptr};
+        if (source.soft) {
+            form.soft = {source.soft, &source.soft->design};
+            return form;
+        }
         for (const TouchPart& part : body.touch->parts) {
             form.lineages.push_back(part.tree() != nullptr ? part.tree()->lineage() : 0);
         }
@@ -46,10 +53,6 @@ struct AddBody {
     SessionHandle handle = no_handle;
     Form form;
     FormerBody former;
-};
-// What a body that gives is made of is not recorded: so far it can be played.
-struct AddSoftBody {
-    SessionHandle handle = no_handle;
 };
 struct DeformBody {
     SessionHandle handle = no_handle;
@@ -106,9 +109,9 @@ using InputCall =
                  command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
                  command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
                  command::SetGravity, call::AddDevice, command::SetWorkspace, command::RemoveDevice,
-                 call::AddProxy, command::SetProxy, command::RemoveProxy, call::AddTool, command::SetTool,
-                 command::RemoveTool, call::Record, call::EndRecording, call::Attach, call::Announce,
-                 call::Epoch, call::WriteRows, call::RowsWritten, call::AddSoftBody>;
+                 call::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy, call::AddTool,
+                 command::SetTool, command::RemoveTool, call::Record, call::EndRecording, call::Attach,
+                 call::Announce, call::Epoch, call::WriteRows, call::RowsWritten>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -241,6 +244,8 @@ inline constexpr int members<HandGuide> = 5;
 template <>
 inline constexpr int members<ProxyDescription> = 6;
 template <>
+inline constexpr int members<FieldMoment> = 5;
+template <>
 inline constexpr int members<ToolSettings> = 5;
 template <>
 inline constexpr int members<ToolUse> = 4;
@@ -303,7 +308,13 @@ inline constexpr int members<DiscoveryAcknowledgement> = 3;
 template <>
 inline constexpr int members<PreparedDiscovery> = 3;
 template <>
-inline constexpr int members<call::Form> = 5;
+inline constexpr int members<SoftMaterial> = 7;
+template <>
+inline constexpr int members<HeldParts> = 3;
+template <>
+inline constexpr int members<SoftDesign> = 8;
+template <>
+inline constexpr int members<call::Form> = 6;
 template <>
 inline constexpr int members<command::RemoveBody> = 1;
 template <>
@@ -343,6 +354,8 @@ inline constexpr int members<command::RemoveDevice> = 1;
 template <>
 inline constexpr int members<command::SetProxy> = 2;
 template <>
+inline constexpr int members<command::SetField> = 2;
+template <>
 inline constexpr int members<command::RemoveProxy> = 1;
 template <>
 inline constexpr int members<command::SetTool> = 2;
@@ -352,8 +365,6 @@ template <>
 inline constexpr int members<call::AddBody> = 3;
 template <>
 inline constexpr int members<call::DeformBody> = 2;
-template <>
-inline constexpr int members<call::AddSoftBody> = 1;
 template <>
 inline constexpr int members<call::AddDevice> = 2;
 template <>
@@ -408,6 +419,10 @@ inline constexpr int members<heard::Done> = 1;
 template <>
 struct LastOf<Motion> {
     static constexpr Motion value = Motion::Dynamic;
+};
+template <>
+struct LastOf<SoftDesign::Form> {
+    static constexpr SoftDesign::Form value = SoftDesign::Form::tetrahedra;
 };
 template <>
 struct LastOf<JointKind> {

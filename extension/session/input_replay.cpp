@@ -216,26 +216,42 @@ void InputReplay::take_tree(std::uint64_t lineage, const PlacedShape& placed, To
     before = {shape->mesh, std::get<std::shared_ptr<const TriangleTree>>(part.surface)};
 }
 
-ReadyBody InputReplay::prepared(const call::Form& form) {
+// Null where there is none, or it makes no sense.
+std::shared_ptr<const TouchShape> InputReplay::touched(const call::Form& form) {
     const std::vector<PlacedShape>& shapes = form.touched();
-    check(std::ranges::all_of(form.description.shapes, is_there) && std::ranges::all_of(shapes, is_there) &&
-          form.lineages.size() == shapes.size());
+    check(std::ranges::all_of(shapes, is_there) && form.lineages.size() == shapes.size());
     if (is_over_) {
-        return {};
+        return nullptr;
     }
     const TouchShapeResult made = make_touch_shape(shapes);
     check(made.shape != nullptr);
     if (is_over_) {
-        return {};
+        return nullptr;
     }
     auto touch = std::make_shared<TouchShape>(*made.shape);
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         take_tree(form.lineages[i], shapes[i], touch->parts[i]);
     }
+    return touch;
+}
+
+ReadyBody InputReplay::prepared(const call::Form& form) {
+    check(std::ranges::all_of(form.description.shapes, is_there));
+    if (is_over_) {
+        return {};
+    }
     BodyAddition addition;
+    if (form.soft != nullptr) {
+        addition.soft = make_soft(*form.soft).model;
+        check(addition.soft != nullptr);
+    } else {
+        addition.touch = touched(form);
+    }
+    if (is_over_) {
+        return {};
+    }
     addition.description = form.description;
     addition.touch_shapes = form.touch_shapes;
-    addition.touch = std::move(touch);
     addition.touch_material = form.touch_material;
     addition.texture = form.texture;
     return Session::prepare_body(addition);
@@ -247,10 +263,6 @@ void InputReplay::carry_out(const call::AddBody& c) {
         session_->use_handle(c.handle);
         check(session_->add_body(std::move(body), c.former).handle == c.handle);
     }
-}
-
-void InputReplay::carry_out(const call::AddSoftBody&) {
-    give_up("a body that gives comes then, and what that is made of is not recorded");
 }
 
 void InputReplay::carry_out(const call::DeformBody& c) {
@@ -391,6 +403,9 @@ void InputReplay::carry_out(const command::RemoveDevice& c) {
 }
 void InputReplay::carry_out(const command::SetProxy& c) {
     session_->set_proxy(c.handle, c.description);
+}
+void InputReplay::carry_out(const command::SetField& c) {
+    session_->set_hand_field(c.handle, c.moment);
 }
 void InputReplay::carry_out(const command::RemoveProxy& c) {
     session_->remove_proxy(c.handle);

@@ -58,7 +58,6 @@ private:
     void check(bool sound);
 
     void carry_out(const call::AddBody& c);
-    void carry_out(const call::AddSoftBody&);
     void carry_out(const call::DeformBody& c);
     void carry_out(const call::AddDevice& c);
     void carry_out(const call::AddProxy& c);
@@ -90,6 +89,7 @@ private:
     void carry_out(const command::SetWorkspace& c);
     void carry_out(const command::RemoveDevice& c);
     void carry_out(const command::SetProxy& c);
+    void carry_out(const command::SetField& c);
     void carry_out(const command::RemoveProxy& c);
     void carry_out(const command::SetTool& c);
     void carry_out(const command::RemoveTool& c);
@@ -110,6 +110,7 @@ private:
     void hear(const heard::Done& h);
     End* end_of(std::uint32_t link);
 
+    std::shared_ptr<const TouchShape> touched(const call::Form& form);
     ReadyBody prepared(const call::Form& form);
     void take_tree(std::uint64_t lineage, const PlacedShape& placed, TouchPart& part);
 

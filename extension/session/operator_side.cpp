@@ -51,7 +51,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     receive(loop, now);
     take_over_found(loop);
-    statistics_.cost = {};
+    statistics_.spent += std::exchange(statistics_.cost, {});
     targets_.clear();
     corrected_ = false;
     if (settings().traditional) {

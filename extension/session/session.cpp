@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <glm/geometric.hpp>
 
 #include "physics/limits.hpp"
 #include "realtime/spsc_ring.hpp"
@@ -314,7 +315,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
         return {no_handle, std::move(body.error)};
     }
     const double tick = to_seconds(impl_->settings.period);
-    if (body.soft && std::abs(body.soft->body.model().seconds - tick) > 1e-6 * tick) {
+    if (body.soft && std::abs(body.soft->body.model().design.seconds - tick) > 1e-6 * tick) {
         return {no_handle, "the body that gives was made for ticks of another length: make it anew"};
     }
     impl_->make_second(body);
@@ -324,9 +325,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
                                std::to_string(impl_->settings.max_bodies) +
                                " bodies: raise the limit or remove some"};
     }
-    if (impl_->recorder && body.soft) {
-        impl_->note(call::AddSoftBody{handle});
-    } else if (impl_->recorder) {
+    if (impl_->recorder) {
         impl_->note(call::AddBody{handle, call::Form::of(body), former});
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
@@ -484,6 +483,21 @@ AddResult Session::add_proxy(const ProxyDescription& description) {
 void Session::set_proxy(SessionHandle proxy, const ProxyDescription& description) {
     if (impl_->proxies.in_use(proxy) && check_proxy(description).empty()) {
         impl_->send(command::SetProxy{proxy, description});
+    }
+}
+
+void Session::set_hand_field(SessionHandle proxy, const FieldMoment& moment) {
+    constexpr double strongest = 1e6;  // (unit: newtons)
+    constexpr double steepest = 1e12;  // (units: newtons per meter, newton seconds per meter)
+    const auto is_within = [](const Vec3& v, double most) { return glm::length(v) <= most; };
+    const auto is_slope = [&](const Mat3& slope) {
+        return is_within(slope[0], steepest) && is_within(slope[1], steepest) &&
+               is_within(slope[2], steepest);
+    };
+    if (impl_->proxies.in_use(proxy) && limits::is_place(moment.place) &&
+        is_within(moment.velocity, limits::fastest) && is_within(moment.force, strongest) &&
+        is_slope(moment.by_place) && is_slope(moment.by_velocity)) {
+        impl_->send(command::SetField{proxy, moment});
     }
 }
 

@@ -124,6 +124,9 @@ public:
     AddResult add_proxy(const ProxyDescription& description);
     void set_proxy(SessionHandle proxy, const ProxyDescription& description);
     void remove_proxy(SessionHandle proxy);
+    // A force on the proxy's hand, as its owner has just computed it; to be said again and again
+    // (hand_field.hpp). A number that is none, or a force beyond 10^6 N, is not taken.
+    void set_hand_field(SessionHandle proxy, const FieldMoment& moment);
 
     // The shape is made by make_tool_shape.
     AddResult add_tool(std::shared_ptr<const ToolShape> shape, const ToolUse& use);

@@ -420,6 +420,11 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
     return false;
 }
 
+bool SessionLoop::carry_out(command::SetField& c, Retired&) {
+    proxies_[c.handle].field.set(c.moment);
+    return false;
+}
+
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
     retired = {
         Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr, nullptr};

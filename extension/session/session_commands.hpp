@@ -119,6 +119,10 @@ struct SetProxy {
     SessionHandle handle;
     ProxyDescription description;
 };
+struct SetField {
+    SessionHandle handle;
+    FieldMoment moment;
+};
 struct RemoveProxy {
     SessionHandle handle;
 };
@@ -154,8 +158,8 @@ using Command = std::variant<
     command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
     command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
     command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy,
-    command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool, command::Record,
-    command::EndRecording, command::Attach>;
+    command::SetField, command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool,
+    command::Record, command::EndRecording, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

@@ -242,22 +242,27 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
     const LoopLag lag{seconds_, device.capabilities.delay};
     const Lead led = lead(slot, lag, damping);
-    const double left = damping - damping_needed(led.stiffness, lag);
+    const double unled = damping - damping_needed(led.stiffness, lag);
+    // Like a guide, a field has half of what is left, and walls have the rest.
+    const HandMotion motion{slot.hand, slot.hand_velocity};
+    const Wall field = safe_wall(lag, 0.5 * unled, slot.field.begin_tick(now));
+    const Vec3 field_force = slot.field.force(motion, field);
+    const double left = unled - damping_needed(field.stiffness, lag) - field.damping;
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
                           {lag, left, slot.description.finger.stiffness});
     slot.pressed = force.total;
     note_walls(slot, device);
     break_surfaces(slot, force);
-    add_surface_effects(scene_, slot.proxy->touching(), {slot.hand, slot.hand_velocity}, now, seconds_,
-                        slot.effects, force);
+    add_surface_effects(scene_, slot.proxy->touching(), motion, now, seconds_, slot.effects, force);
     if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
     slot.effects.besides =
-        led.force + gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
+        led.force + field_force + gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
-    slot.step.stiffness += led.stiffness;
+    slot.step.stiffness += led.stiffness + field.stiffness;
+    slot.step.damping += field.damping;
     slot.jumped = tick.jumped || led.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     hold_against_turning(slot);
@@ -369,6 +374,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     ProxyState& state = slot.state;
     state.position = tick.position;
     state.hand = slot.hand;
+    state.hand_velocity = slot.hand_velocity;
     state.force = slot.force;
     state.residual = tick.residual;
     state.status = tick.status;
@@ -464,7 +470,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.wanted.stiffness,
                                                slot.used.stiffness,
                                                {seconds_, slot.capabilities.delay},
-                                               slot.capabilities.radius};
+                                               slot.capabilities.radius,
+                                               slot.safety.work()};
         }
     }
     snapshots_.publish();
@@ -501,6 +508,13 @@ std::uint64_t SessionLoop::outcome() const {
         hash.add(state.pose.rotation);
         hash.add(state.linear_velocity);
         hash.add(state.angular_velocity);
+    }
+    for (const SessionHandle handle : giving_) {
+        const SoftBody& giving = bodies_[handle].soft->body;
+        hash.add(std::uint64_t{giving.is_asleep()});
+        for (const Lanes& place : giving.is_asleep() ? std::span<const Lanes>() : giving.places()) {
+            hash.add(Vec3(place[0], place[1], place[2]));
+        }
     }
     return hash.value();
 }

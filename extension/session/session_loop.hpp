@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/haptics/fading_force.hpp"
+#include "core/haptics/hand_field.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "physics/physics_world.hpp"
@@ -74,6 +75,7 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
+        HandField field;             // that its owner computes, see Session::set_hand_field
         bool guide_changed = false;  // since the last tick
         TorsionList torsion;         // one each of `parts`; none where the finger is a point
         bool rested = false;         // since the last tick
@@ -212,6 +214,7 @@ private:
     bool carry_out(command::RemoveDevice& c, Retired& retired);
     bool carry_out(command::AddProxy& c, Retired&);
     bool carry_out(command::SetProxy& c, Retired&);
+    bool carry_out(command::SetField& c, Retired&);
     bool carry_out(command::RemoveProxy& c, Retired& retired);
     bool carry_out(command::AddTool& c, Retired&);
     bool carry_out(command::SetTool& c, Retired&);

@@ -60,7 +60,7 @@ bool SessionLoop::place_obstacles(const Body& giving) {
         moved = moved || now.position != other.pose.position || now.rotation != other.pose.rotation;
         soft.obstacles[i] = {&part.solid(), compose(into, compose(now, part.pose)),
                              compose(into, compose(other.pose, part.pose)),
-                             soft.body.model().material.friction,
+                             soft.body.model().design.material.friction,
                              owner.motion == Motion::Dynamic ? 1.0 / physics_.mass(owner.id) : 0.0};
     }
     return moved;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/haptics/force_law.hpp"
+#include "core/haptics/hand_field.hpp"
 #include "core/haptics/hand_guide.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/math/pose.hpp"
@@ -115,6 +116,7 @@ struct ProxyState {
     SessionHandle handle = no_handle;
     Vec3 position{0.0};        // of the proxy, in the world (unit: meters)
     Vec3 hand{0.0};            // HIP, in the world (unit: meters)
+    Vec3 hand_velocity{0.0};   // likewise (unit: meters per second)
     Vec3 force{0.0};           // on the hand, in the world (unit: newtons)
     double residual = 0.0;     // see ProxyTick
     std::uint32_t status = 0;  // ProxyStatus
@@ -157,6 +159,7 @@ struct DeviceState {
     double stiffness_used = 0.0;
     LoopLag lag;          // of the device, for which that holds
     double radius = 0.0;  // of its workspace, in its own frame (unit: meters); 0: it has none
+    double work = 0.0;    // on the hand since it came (unit: joules); below zero: taken from it
 };
 
 // Everything Godot shows of one tick. Bodies: those that can move, each with where it is now.

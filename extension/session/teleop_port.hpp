@@ -83,6 +83,7 @@ struct TeleopStatistics {
     std::uint64_t replays = 0;          // that were begun
     double round_trip = 0.0;            // from a sample to what answers it (unit: seconds)
     CorrectionCost cost;                // of the last tick
+    CorrectionCost spent;               // the sum over all ticks before
     double largest_force_step = 0.0;    // (unit: newtons)
     double offset = 0.0;                // how far the pointers are carried (unit: meters)
     std::array<FeltFigures, max_proxies> pointers;

@@ -64,4 +64,23 @@ std::vector<std::size_t> within(const std::vector<QueriedBody>& bodies, const Ve
     return found;
 }
 
+std::vector<PlacedTreeBox> tree_boxes(const std::vector<QueriedBody>& bodies, const Vec3& point,
+                                      double radius, std::size_t most) {
+    std::vector<PlacedTreeBox> found;
+    for (const QueriedBody& body : bodies) {
+        for (const TouchPart& part : body.touch->parts) {
+            if (part.tree() == nullptr || found.size() >= most) {
+                continue;
+            }
+            const Pose pose = compose(body.pose, part.pose);
+            std::vector<TreeBox> boxes;
+            TreeBoxes::around(*part.tree(), to_local(pose, point), radius, most - found.size(), boxes);
+            for (const TreeBox& box : boxes) {
+                found.push_back({box, pose});
+            }
+        }
+    }
+    return found;
+}
+
 }  // namespace tactus

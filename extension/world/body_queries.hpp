@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/geometry/tree_boxes.hpp"
 
 namespace tactus {
 
@@ -27,5 +28,14 @@ BodyPoint first_on_way(const std::vector<QueriedBody>& bodies, const Vec3& from,
 
 // Indices of those that a ball meets.
 std::vector<std::size_t> within(const std::vector<QueriedBody>& bodies, const Vec3& center, double radius);
+
+// Boxes of the trees of those that have some, see TreeBoxes::around; each with the place of its mesh in the
+// world. `most` of all together.
+struct PlacedTreeBox {
+    TreeBox box;
+    Pose pose;
+};
+std::vector<PlacedTreeBox> tree_boxes(const std::vector<QueriedBody>& bodies, const Vec3& point,
+                                      double radius, std::size_t most);
 
 }  // namespace tactus

@@ -131,6 +131,19 @@ func test_keys_change_hands_hide_words_begin_again_and_go_back() -> void:
 	check(menu._scene == null and menu.get_node("%Menu").visible, "it did not go back")
 
 
+func test_the_menu_opens_the_launcher_and_comes_back() -> void:
+	var menu := _menu()
+	(menu.get_node("%Launch") as Button).pressed.emit()
+	check(menu._launcher != null and not menu.get_node("%Menu").visible, "the launcher is not there")
+	check((menu._launcher.get_node("%Back") as Button).visible, "there is no way back")
+	await press_key(KEY_ESCAPE)
+	check(menu._launcher == null and menu.get_node("%Menu").visible, "Escape does not lead back")
+	check((menu.get_node("%Launch") as Button).has_focus(), "its button has lost the focus")
+	menu.open_launcher()
+	(menu._launcher.get_node("%Back") as Button).pressed.emit()
+	check(menu._launcher == null, "its own button does not lead back")
+
+
 ## By hand the fingers follow the mouse's place, and close while the space bar is held.
 func test_two_fingers_close_on_the_box() -> void:
 	var scene := (load(Gallery.path_of("pinch")) as PackedScene).instantiate()

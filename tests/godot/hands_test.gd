@@ -173,6 +173,27 @@ func test_the_workspace_is_drawn_where_that_is_asked_for() -> void:
 
 
 ## A hand that goes 5 mm into the floor at 0.2 m/s.
+func test_the_projects_limit_holds_for_every_device() -> void:
+	const LIMIT := "tactus/safety/force_limit"
+	check_equal(ProjectSettings.get_setting(LIMIT), 0.0, "the setting at first")
+	var world := add_world()
+	add_floor(world, 1000.0)
+	var proxy := add_hand(world, path(Vector3(0, 0.02, 0), Vector3(0, 0.005, 0), 0.2))
+	var device: HapticDevice = world.get_node("Device")
+	world.advance(0.5)
+	check_near(device.get_force().length(), 5.0, 0.01, "force without a limit of the project")
+	ProjectSettings.set_setting(LIMIT, 1.5)
+	for _i in 10:
+		world.advance(0.1)
+	check_near(device.get_force().length(), 1.5, 0.01, "force within it")
+	device.force_limit = 0.5
+	for _i in 10:
+		world.advance(0.1)
+	check_near(device.get_force().length(), 0.5, 0.01, "force within the device's own")
+	ProjectSettings.set_setting(LIMIT, 0.0)
+	check(proxy.is_touching(), "it does not touch")
+
+
 func _tapping_world(floor_stiffness: float) -> HapticFeedback:
 	var world := add_world()
 	add_floor(world, floor_stiffness)

@@ -140,6 +140,72 @@ func test_a_plots_scale_fits() -> void:
 		check_near(Plot.top_for(pair[0]), pair[1], 1e-9, "top for %s" % pair[0])
 
 
+## Below zero, too: what a hand does at a spring is taken from it.
+func test_energy_is_plotted() -> void:
+	var scene := _scene_in_real_time()
+	var overlay := _overlay()
+	overlay.shown = true
+	var device: HapticDevice = scene.find_children("*", "HapticDevice", true, false)[0]
+	check(await until(func() -> bool: return device.get_energy() < -1e-4, SOON), "the hand has done no work")
+	var energy: Control = overlay.get_node("%Panel").get_node("%Energy")
+	var plotted := func() -> bool: return energy._values.get("HapticDevice", [0.0])[-1] < 0.0
+	check(await until(plotted, SOON), "the energy is not plotted: %s" % [energy._values])
+
+
+func _lines(scene: Node) -> int:
+	var picture: MeshInstance3D = _drawings(scene)[0]
+	var mesh := picture.mesh as ImmediateMesh
+	return 0 if mesh.get_surface_count() == 0 else mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX].size()
+
+
+func test_boxes_of_trees_are_drawn_by_a_key() -> void:
+	var scene: Node = (load("res://gallery/mesh_library/mesh_library.tscn") as PackedScene).instantiate()
+	add_child(scene)
+	var overlay := _overlay()
+	overlay.shown = true
+	var world: HapticWorld = scene.get_node("HapticWorld")
+	var pointer: ProxyPointer = world.find_children("*", "ProxyPointer", true, false)[0]
+	var is_near := func() -> bool:
+		return world.get_tree_boxes(pointer.global_position, overlay.get_node("%Drawing").NEAR).size() > 4
+	check(await until(is_near, 3.0 * SOON), "the hand does not come near a mesh")
+	var before := _lines(scene)
+	await press_key(overlay.boxes_key)
+	await frames(2)
+	check(_lines(scene) >= before + 4 * 24 - 64, "no boxes: %d, then %d" % [before, _lines(scene)])
+	await press_key(overlay.boxes_key)
+	await frames(2)
+	check(not overlay.get_node("%Drawing").draws_boxes, "they do not go again")
+
+
+## Corrections are counted, so that what lies between two frames is plotted as well.
+func test_what_corrections_cost_is_plotted_per_second() -> void:
+	var overlay := _overlay()
+	var panel: Control = overlay.get_node("%Panel")
+	var link := {
+		"text": "",
+		"round_trip_ms": 1.0,
+		"packets_per_s": 100.0,
+		"lost_percent": 0.0,
+		"corrections": 5,
+		"moved_mm": 2.0,
+		"jnds": 10.0,
+		"tank_mj": 3.0,
+		"hidden_mj": -1.0
+	}
+	var figures := {
+		"time": 1.0, "worlds": {}, "links": {"A/Link": link}, "devices": {}, "pointers": {}, "sensors": {}
+	}
+	panel.show_figures(figures)
+	figures.time = 1.5
+	link.moved_mm = 5.0
+	link.jnds = 60.0
+	panel.show_figures(figures)
+	check(panel.get_node("%Moved").visible and panel.get_node("%Noticed").visible, "their plots are hidden")
+	check_near(panel.get_node("%Moved")._values["Link"][-1], 6.0, 1e-9, "mm/s")
+	check_near(panel.get_node("%Noticed")._values["Link"][-1], 100.0, 1e-9, "steps a second")
+	check_near(panel.get_node("%Energy")._values["Link hidden"][-1], -1.0, 1e-9, "mJ")
+
+
 func test_the_probe_leaves_a_program_that_no_editor_watches() -> void:
 	var probe: Node = Probe.new()
 	add_child(probe)

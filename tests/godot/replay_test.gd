@@ -119,3 +119,27 @@ func test_a_folder_that_cannot_be_made_is_said_and_the_world_runs() -> void:
 	add_child(world)
 	world.advance(0.01)
 	check_equal(world.get_ticks(), 10, "ticks")
+
+
+class Spring:
+	extends HapticEffect
+
+	func _get_force(hand: Vector3, velocity: Vector3, time: float) -> Vector3:
+		return -100.0 * hand - 2.0 * velocity + Vector3.UP * sin(20.0 * time)
+
+
+func test_a_replay_feels_what_a_script_has_said_without_it() -> void:
+	var world := _add_recorded_world("effect")
+	add_child(world)
+	add_floor(world)
+	var proxy := add_hand(world, path(Vector3(-0.05, 0.03, 0), Vector3(0.05, -0.005, 0)))
+	_record(world, "effect")
+	var effect := Spring.new()
+	effect.budget_ms = 1000.0
+	proxy.add_child(effect)
+	for _i in 100:
+		world.advance(0.01)
+	check(proxy.get_force().length() > 3.0, "it was not felt: %s N" % proxy.get_force())
+	remove_child(world)
+	world.free()
+	_check_same("effect", 1000)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 
 #include "linked_places.hpp"
 #include "recorded_inputs.hpp"
@@ -257,20 +258,132 @@ TEST(InputReplay, SoDoesOneWhoseTreesAreRefitted) {
     });
 }
 
-TEST(InputReplay, ABodyThatGivesEndsItAndItSaysSo) {
+// --- what gives
+
+const HeldParts foot{Vec3(-1.0), Vec3(1.0, -0.039, 1.0), {}};
+
+SoftDesign sponge() {
+    SoftDesign design;
+    design.surface = shared::grid_box(Vec3(0.04), 4);
+    design.cells = 4;
+    design.held = foot;
+    return design;
+}
+
+SoftDesign cloth() {
+    SoftDesign design;
+    design.form = SoftDesign::Form::sheet;
+    design.surface = shared::terrain(12, 0.1, 0.0);
+    design.material.density = 300.0;
+    design.held.vertices = {0, 12};
+    return design;
+}
+
+SoftDesign tetrahedron() {
+    SoftDesign design;
+    design.form = SoftDesign::Form::tetrahedra;
+    design.points = {Vec3(0.0), {0.05, 0.0, 0.0}, {0.0, 0.05, 0.0}, {0.0, 0.0, 0.05}};
+    design.tetrahedra = {{0, 1, 2, 3}};
+    return design;
+}
+
+TEST(InputReplay, BodiesThatGiveAreTheSameAgain) {
     RecordedInputs inputs;
     SessionRig rig({}, &inputs.recorder);
-    rig.ticks(20);
-    inputs.drain();
-    BodyAddition block;
-    block.soft = make_soft_volume(shared::box(Vec3(0.04)), 3, {}, {}, 1e-3).model;
-    ASSERT_NE(block.soft, nullptr);
-    rig.add(block);
-    rig.ticks(20);
+    rig.add(ground());
+    rig.add(body(BoxShape{Vec3(0.02)}, {0.0, 0.2, 0.0}, Motion::Dynamic, 0.1));  // falls on the sponge
+    double x = 0.0;
+    for (const SoftDesign& design : {sponge(), cloth(), tetrahedron()}) {
+        BodyAddition soft;
+        soft.description.pose.position = {x, 0.05, 0.0};
+        soft.touch_material = {500.0, 0.0, 0.5, 0.5};
+        const SoftModelResult made = make_soft(design);
+        ASSERT_EQ(made.error, "");
+        soft.soft = made.model;
+        rig.add(soft);
+        x += 0.15;
+    }
+    rig.session.settle();
+    int touching = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        rig.device.position = {0.15 * (i / 700) + 0.01, 0.09 - 0.05 * std::sin(0.0045 * (i % 700)), 0.01};
+        rig.tick();
+        touching += glm::length(rig.device.force) > 0.0;
+        if (i % 16 == 0) {
+            rig.session.collect();
+            inputs.drain();
+        }
+    }
+    inputs.end();
+    EXPECT_GT(touching, 100);
+    const InputReplay::Report first = inputs.play();
+    expect_whole(first, 2'000);
+    EXPECT_EQ(inputs.play().outcome, first.outcome);
+}
+
+// A stiffness that is another in its twelfth digit is seen at once.
+TEST(InputReplay, AnotherBodyThatGivesIsNotTheSame) {
+    RecordedInputs inputs;
+    SessionRig rig({}, &inputs.recorder);
+    BodyAddition soft;
+    soft.soft = make_soft(sponge()).model;
+    SoftDesign other = sponge();
+    other.material.stiffness *= 1.0 + 1e-12;
+    auto told = std::make_shared<SoftModel>(*soft.soft);
+    told->design = other;
+    soft.soft = told;
+    rig.add(soft);
+    rig.device.position = {0.0, 0.06, 0.0};
+    rig.draw({0.0, 0.03, 0.0}, 100);
     inputs.end();
     const InputReplay::Report report = inputs.play();
-    EXPECT_EQ(report.ticks, 20u);
-    EXPECT_NE(report.problem.find("gives"), std::string::npos);
+    EXPECT_EQ(report.ticks, 100u);
+    EXPECT_GT(report.first_different, 0u);
+}
+
+TEST(InputReplay, ADesignOfABodyThatGivesWhichMakesNoSenseEndsIt) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr std::uint32_t nowhere = 0xffff'ffffu;
+    std::vector<SoftDesign> spoilt;
+    const auto spoil = [&](const SoftDesign& design, auto&& how) {
+        spoilt.push_back(design);
+        how(spoilt.back());
+    };
+    for (const SoftDesign& design : {sponge(), cloth()}) {
+        spoil(design, [](SoftDesign& d) { d.surface.triangles[3][1] = nowhere; });
+        spoil(design, [](SoftDesign& d) { d.surface.vertices[2].y = nan; });
+        spoil(design, [](SoftDesign& d) { d.surface = {}; });
+        spoil(design, [](SoftDesign& d) { d.seconds = 0.0; });
+        spoil(design, [](SoftDesign& d) { d.material.stiffness = nan; });
+        spoil(design, [](SoftDesign& d) { d.form = SoftDesign::Form::tetrahedra; });
+    }
+    spoil(sponge(), [](SoftDesign& d) { d.cells = 1 << 30; });
+    spoil(sponge(), [](SoftDesign& d) { d.cells = 0; });
+    spoil(tetrahedron(), [](SoftDesign& d) { d.tetrahedra[0][2] = nowhere; });
+    spoil(tetrahedron(), [](SoftDesign& d) { d.points[1].z = nan; });
+    for (const SoftDesign& design : spoilt) {
+        RecordedInputs inputs;
+        SessionRig rig({}, &inputs.recorder);
+        rig.ticks(5);
+        inputs.drain();
+        call::Form form;
+        form.soft = std::make_shared<const SoftDesign>(design);
+        inputs.recorder.note(call::AddBody{7, form, {}});
+        rig.ticks(5);
+        inputs.end();
+        const InputReplay::Report report = inputs.play();
+        EXPECT_EQ(report.ticks, 5u);
+        EXPECT_NE(report.problem.find("makes no sense"), std::string::npos) << report.problem;
+    }
+}
+
+// A vertex that is held and is none is held by nobody.
+TEST(InputReplay, AHeldVertexThatIsNoneHoldsNothing) {
+    SoftDesign design = cloth();
+    design.held.vertices = {0xffff'ffffu};
+    const SoftModelResult made = make_soft(design);
+    ASSERT_NE(made.model, nullptr);
+    EXPECT_TRUE(made.model->is_free());
 }
 
 // --- over a link

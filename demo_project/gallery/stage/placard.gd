@@ -7,7 +7,7 @@ extends CanvasLayer
 const Gallery := preload("res://gallery/gallery.gd")
 const MENU := "res://main.tscn"
 const KEYS := (
-	"Mouse, wheel: hand   Tab: mouse or path   R: again   H: words   F3: plots   F4: trace   "
+	"Mouse, wheel: hand   Tab: mouse or path   R: again   H: words   F3: plots   F4: trace   F5: boxes   "
 	+ "Escape: menu"
 )
 

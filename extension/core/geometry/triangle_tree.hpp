@@ -159,6 +159,7 @@ private:
     std::uint64_t lineage_ = 0;  // another one for each build
 
     friend class DeformSweep;
+    friend class TreeBoxes;
 };
 
 // A queue of nodes, least key first. What does not fit is left out, and its key remembered.

@@ -51,6 +51,9 @@ SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& s
     safe.state = state_of(settings, sample);
     const bool was_known = known_;
     known_ = safe.state != HandState::disconnected && safe.state != HandState::no_number;
+    if (was_known && known_ && safe.state != HandState::jumped) {
+        work_ += glm::dot(given_, sample.position - position_);
+    }
     position_ = known_ ? sample.position : position_;
     const Quat before = std::exchange(rotation_, sample.rotation);
     if (safe.state != HandState::working) {
@@ -83,6 +86,7 @@ SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& s
                              sample.own_change, cut);
     safe.limited |= cut ? hand_limited_force : 0u;
     passivity_.given(safe.force);
+    given_ = safe.force;
     if (settings.max_torque > 0.0) {
         const Vec3 turned = was_known ? turn_vector(sample.rotation * glm::conjugate(before)) : Vec3(0.0);
         safe.torque = torque_of(settings, sample, share, turned / sample.seconds, safe.limited);
@@ -105,6 +109,7 @@ void HandSafety::rest() {
     exit_.rest();
     torque_exit_.rest();
     passivity_.reset();
+    given_ = Vec3(0.0);
     ramped_ = 0.0;
     known_ = false;
 }

@@ -80,6 +80,9 @@ public:
     void rest();
 
     double energy() const { return passivity_.energy(); }
+    // That its forces have done on the hand so far (unit: joules); below zero: taken from it. A force is held
+    // for a tick, so this is exact.
+    double work() const { return work_; }
 
 private:
     HandState state_of(const SafetySettings& settings, const SafetySample& sample) const;
@@ -91,6 +94,8 @@ private:
     double ramped_ = 0.0;  // since the hand was last given nothing (unit: seconds)
     bool known_ = false;   // position_ is where the hand was one tick ago
     Vec3 position_{0.0};
+    Vec3 given_{0.0};  // in the last tick
+    double work_ = 0.0;
     Quat rotation_{1.0, 0.0, 0.0, 0.0};
 };
 

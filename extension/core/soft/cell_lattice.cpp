@@ -164,11 +164,12 @@ private:
 
 }  // namespace
 
-CellDraft fill_with_cells(const TriangleMesh& surface, int cells, double density) {
+SoftDraftResult draft_volume(const SoftDesign& design) {
+    const TriangleMesh& surface = design.surface;
     if (std::string error = check_mesh(surface); !error.empty()) {
         return {{}, std::move(error)};
     }
-    if (cells < 1 || cells > max_cells) {
+    if (design.cells < 1 || design.cells > max_cells) {
         return {{}, "its number of cells is not between 1 and 64: set it so"};
     }
     if (!is_closed(surface)) {
@@ -176,11 +177,11 @@ CellDraft fill_with_cells(const TriangleMesh& surface, int cells, double density
                 "its mesh is open and has no inside: close its holes and turn all its triangles alike, or "
                 "make it a sheet"};
     }
-    CellLattice lattice(surface, cells);
+    CellLattice lattice(surface, design.cells);
     if (lattice.is_flat()) {
         return {{}, "its mesh has no volume: give it some thickness, or make it a sheet"};
     }
-    return {lattice.fill(density), {}};
+    return {lattice.fill(design.material.density), {}};
 }
 
 }  // namespace tactus

@@ -134,7 +134,7 @@ void SoftBody::begin_contacts(std::span<const SoftPush> pushes) {
     contact_count_ = 0;
     for (const SoftPush& push : pushes.first(std::min(pushes.size(), max_pushes))) {
         Contact& contact = contacts_[contact_count_++];
-        const double seconds = model_->seconds;
+        const double seconds = model_->design.seconds;
         contact.stiffness = push.stiffness + push.damping / seconds;
         contact.sticks = push.sticks;
         contact.direction = push.force / std::max(glm::length(push.force), 1e-300);
@@ -259,8 +259,8 @@ void SoftBody::press_contacts() {
 // One step towards where G is least. Elastic forces are taken ahead of x' by what damping sees, tau v'.
 void SoftBody::iterate() {
     const SoftModel& model = *model_;
-    const double inverse_square = 1.0 / (model.seconds * model.seconds);
-    const Lanes ahead = splat(model.material.damping / model.seconds);
+    const double inverse_square = 1.0 / (model.design.seconds * model.design.seconds);
+    const Lanes ahead = splat(model.design.material.damping / model.design.seconds);
     for (std::size_t n = 0; n < next_.size(); ++n) {
         seen_[n] = multiply_add(next_[n] - place_[n], ahead, next_[n]);
         right_[n] = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
@@ -312,7 +312,7 @@ void SoftBody::keep_out(SoftObstacle& obstacle) {
                 next_[node] += row_of(back * (anchor.weight[k] / (model.mass[node] * give)));
             }
         }
-        const Vec3 impulse = back * (-1.0 / (give * model.seconds));
+        const Vec3 impulse = back * (-1.0 / (give * model.design.seconds));
         obstacle.impulse += impulse;
         obstacle.turn += glm::cross(vector_of(place) - obstacle.pose.position, impulse);
     }
@@ -322,8 +322,8 @@ void SoftBody::keep_out(SoftObstacle& obstacle) {
 bool SoftBody::finish() {
     const SoftModel& model = *model_;
     const double farthest = 1e3 * model.size + 1e3;
-    const double rate = 1.0 / model.seconds;
-    const double kept = std::max(0.0, 1.0 - model.material.drag * model.seconds);
+    const double rate = 1.0 / model.design.seconds;
+    const double kept = std::max(0.0, 1.0 - model.design.material.drag * model.design.seconds);
     double quickest = 0.0;
     bool sound = true;
     for (std::size_t n = 0; n < next_.size(); ++n) {
@@ -332,7 +332,7 @@ bool SoftBody::finish() {
         velocity *= speed > fastest ? fastest / speed : 1.0;
         sound = sound && std::isfinite(speed) && glm::length(vector_of(next_[n])) <= farthest;
         quickest = std::max(quickest, speed);
-        place_[n] = speed > fastest ? place_[n] + row_of(velocity * model.seconds) : next_[n];
+        place_[n] = speed > fastest ? place_[n] + row_of(velocity * model.design.seconds) : next_[n];
         velocity_[n] = row_of(velocity * kept);
     }
     still_ticks_ = quickest > still_speed || contact_count_ > 0 ? 0 : still_ticks_ + 1;
@@ -347,8 +347,8 @@ std::uint32_t SoftBody::step(const Vec3& gravity, std::span<const SoftPush> push
     if (is_asleep()) {
         return 0;
     }
-    const Lanes seconds = splat(model_->seconds);
-    const Lanes fall = row_of(gravity * (model_->seconds * model_->seconds));
+    const Lanes seconds = splat(model_->design.seconds);
+    const Lanes fall = row_of(gravity * (model_->design.seconds * model_->design.seconds));
     for (std::size_t n = 0; n < next_.size(); ++n) {
         next_[n] = model_->held[n] != 0 ? place_[n] : multiply_add(velocity_[n], seconds, place_[n]);
         inertial_[n] = next_[n] + fall;

@@ -21,20 +21,15 @@ struct SoftDraft {
     TriangleMesh surface;
 };
 
-// What is wrong with the material or the time of a step; else empty.
-std::string check_soft_material(const SoftMaterial& material, double seconds);
-
 double tetrahedron_volume(std::span<const Vec3> nodes, const Tetrahedron& corners);
 
-// Brings the nodes into order, fills the groups and factors the matrix.
-SoftModelResult assemble(SoftDraft&& draft, const SoftMaterial& material, const HeldParts& held,
-                         double seconds);
-
-// The cells of a lattice that a closed surface fills or cuts. An error says what is wrong with the surface.
-struct CellDraft {
+// Of a design of their form, whose material is sound.
+struct SoftDraftResult {
     SoftDraft draft;
-    std::string error;
+    std::string error;  // what is wrong with the mesh and what to do; else empty
 };
-CellDraft fill_with_cells(const TriangleMesh& surface, int cells, double density);
+SoftDraftResult draft_volume(const SoftDesign& design);
+SoftDraftResult draft_sheet(const SoftDesign& design);
+SoftDraftResult draft_tetrahedra(const SoftDesign& design);
 
 }  // namespace tactus

@@ -35,13 +35,12 @@ Gradients gradients_of(std::span<const Vec3> nodes, const Tetrahedron& t) {
 
 class Assembly {
 public:
-    Assembly(SoftDraft&& draft, const SoftMaterial& material, const HeldParts& held, double seconds)
+    Assembly(SoftDraft&& draft, SoftDesign&& design)
         : draft_(std::move(draft)), model_(std::make_shared<SoftModel>()) {
-        model_->material = material;
-        model_->seconds = seconds;
+        model_->design = std::move(design);
         model_->element_count = draft_.tetrahedra.size() + draft_.springs.size();
         renumber();
-        hold(held);
+        hold(model_->design.held);
     }
 
     SoftModelResult result() {
@@ -130,7 +129,7 @@ private:
 
     // What is held has a row of its own: its way is nought.
     void add_masses() {
-        const double inverse_square = 1.0 / (model_->seconds * model_->seconds);
+        const double inverse_square = 1.0 / (model_->design.seconds * model_->design.seconds);
         for (std::uint32_t i = 0; i < model_->rest.size(); ++i) {
             const bool held = model_->held[i] != 0;
             entries_.push_back({i, i, held ? 1.0 : model_->mass[i] * inverse_square});
@@ -138,10 +137,10 @@ private:
     }
 
     // Of the elastic matrix, with what damping adds to it.
-    double with_damping() const { return 1.0 + model_->material.damping / model_->seconds; }
+    double with_damping() const { return 1.0 + model_->design.material.damping / model_->design.seconds; }
 
     void add_tetrahedra() {
-        const SoftMaterial& m = model_->material;
+        const SoftMaterial& m = model_->design.material;
         const double shear = m.stiffness / (1.0 + m.poisson_ratio);  // 2 mu
         const double bulk = shear * m.poisson_ratio / (1.0 - 2.0 * m.poisson_ratio);
         const std::size_t count = draft_.tetrahedra.size();
@@ -209,6 +208,28 @@ bool is_within(double value, double low, double high) {
     return value >= low && value <= high;
 }
 
+// What is wrong with the material or the time of a step; else empty.
+std::string check_soft_material(const SoftMaterial& m, double seconds) {
+    if (!is_within(m.stiffness, 1e2, 1e7)) {
+        return "its stiffness is not between 100 Pa and 10 MPa: set it so";
+    }
+    if (!is_within(m.poisson_ratio, 0.0, 0.45)) {
+        return "its Poisson's ratio is not between 0 and 0.45: set it so";
+    }
+    if (!is_within(m.density, 1.0, 3e4)) {
+        return "its density is not between 1 and 30,000 kg/m³: set it so";
+    }
+    if (!is_within(m.thickness, 1e-5, 0.1)) {
+        return "its thickness is not between 0.01 mm and 0.1 m: set it so";
+    }
+    if (!is_within(m.damping, 0.0, 1.0) || !is_within(m.drag, 0.0, 1000.0) ||
+        !is_within(m.friction, 0.0, 10.0)) {
+        return "its damping is not between 0 and 1 s, its drag not between 0 and 1000 1/s, or its friction "
+               "not between 0 and 10: set all three so";
+    }
+    return is_within(seconds, 1e-5, 0.1) ? "" : "the time of a tick is not between 0.01 ms and 0.1 s";
+}
+
 // The outer sides: faces of one tetrahedron alone, seen counter-clockwise from outside.
 std::vector<std::array<std::uint32_t, 3>> outer_faces(std::span<const Tetrahedron> tetrahedra) {
     constexpr std::array<std::array<std::size_t, 3>, 4> faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
@@ -244,76 +265,31 @@ bool SoftModel::is_free() const {
     return std::ranges::all_of(held, [](std::uint8_t h) { return h == 0; });
 }
 
-std::string check_soft_material(const SoftMaterial& m, double seconds) {
-    if (!is_within(m.stiffness, 1e2, 1e7)) {
-        return "its stiffness is not between 100 Pa and 10 MPa: set it so";
-    }
-    if (!is_within(m.poisson_ratio, 0.0, 0.45)) {
-        return "its Poisson's ratio is not between 0 and 0.45: set it so";
-    }
-    if (!is_within(m.density, 1.0, 3e4)) {
-        return "its density is not between 1 and 30,000 kg/m³: set it so";
-    }
-    if (!is_within(m.thickness, 1e-5, 0.1)) {
-        return "its thickness is not between 0.01 mm and 0.1 m: set it so";
-    }
-    if (!is_within(m.damping, 0.0, 1.0) || !is_within(m.drag, 0.0, 1000.0) ||
-        !is_within(m.friction, 0.0, 10.0)) {
-        return "its damping is not between 0 and 1 s, its drag not between 0 and 1000 1/s, or its friction "
-               "not between 0 and 10: set all three so";
-    }
-    return is_within(seconds, 1e-5, 0.1) ? "" : "the time of a tick is not between 0.01 ms and 0.1 s";
-}
-
 double tetrahedron_volume(std::span<const Vec3> nodes, const Tetrahedron& t) {
     const Vec3& o = nodes[t[0]];
     return glm::dot(nodes[t[1]] - o, glm::cross(nodes[t[2]] - o, nodes[t[3]] - o)) / 6.0;
 }
 
-SoftModelResult assemble(SoftDraft&& draft, const SoftMaterial& material, const HeldParts& held,
-                         double seconds) {
-    if (draft.nodes.size() > max_soft_nodes ||
-        draft.tetrahedra.size() + draft.springs.size() > max_soft_elements) {
-        return {nullptr,
-                "it has more than 4,096 nodes or 12,000 elements, for which a tick has no time: give "
-                "it fewer cells or vertices"};
-    }
-    return Assembly(std::move(draft), material, held, seconds).result();
-}
-
-SoftModelResult make_soft_volume(const TriangleMesh& surface, int cells, const SoftMaterial& material,
-                                 const HeldParts& held, double seconds) {
-    if (std::string error = check_soft_material(material, seconds); !error.empty()) {
-        return {nullptr, std::move(error)};
-    }
-    CellDraft filled = fill_with_cells(surface, cells, material.density);
-    if (!filled.error.empty()) {
-        return {nullptr, std::move(filled.error)};
-    }
-    return assemble(std::move(filled.draft), material, held, seconds);
-}
-
-SoftModelResult make_soft_tetrahedra(std::span<const Vec3> vertices, std::span<const Tetrahedron> tetrahedra,
-                                     const SoftMaterial& material, const HeldParts& held, double seconds) {
-    if (std::string error = check_soft_material(material, seconds); !error.empty()) {
-        return {nullptr, std::move(error)};
-    }
-    if (tetrahedra.empty()) {
-        return {nullptr, "it has no tetrahedra: give it at least one"};
+SoftDraftResult draft_tetrahedra(const SoftDesign& design) {
+    const std::vector<Vec3>& vertices = design.points;
+    if (design.tetrahedra.empty()) {
+        return {{}, "it has no tetrahedra: give it at least one"};
     }
     SoftDraft draft;
     std::vector<std::uint32_t> node_of(vertices.size(), 0xffff'ffffu);  // vertices without use are left out
-    for (const Tetrahedron& t : tetrahedra) {
+    for (const Tetrahedron& t : design.tetrahedra) {
         Tetrahedron named{};
         for (std::size_t c = 0; c < 4; ++c) {
             if (t[c] >= vertices.size()) {
-                return {nullptr, "a corner of a tetrahedron is no vertex: give numbers below " +
-                                     std::to_string(vertices.size())};
+                return {{},
+                        "a corner of a tetrahedron is no vertex: give numbers below " +
+                            std::to_string(vertices.size())};
             }
             const Vec3& place = vertices[t[c]];
             if (!(std::abs(place.x) <= 1e4 && std::abs(place.y) <= 1e4 && std::abs(place.z) <= 1e4)) {
-                return {nullptr, "vertex " + std::to_string(t[c]) +
-                                     " of the tetrahedra is no place within 10 km: correct it"};
+                return {{},
+                        "vertex " + std::to_string(t[c]) +
+                            " of the tetrahedra is no place within 10 km: correct it"};
             }
             if (node_of[t[c]] == 0xffff'ffffu) {
                 node_of[t[c]] = static_cast<std::uint32_t>(draft.nodes.size());
@@ -331,12 +307,13 @@ SoftModelResult make_soft_tetrahedra(std::span<const Vec3> vertices, std::span<c
                                          glm::distance(draft.nodes[t[0]], draft.nodes[t[3]])});
         const double volume = tetrahedron_volume(draft.nodes, t);
         if (!(volume > 1e-6 * longest * longest * longest)) {
-            return {nullptr, "tetrahedron " + std::to_string(i) +
-                                 (volume < 0.0 ? " is turned inside out: swap two of its corners"
-                                               : " is flat: move one of its corners or leave it out")};
+            return {{},
+                    "tetrahedron " + std::to_string(i) +
+                        (volume < 0.0 ? " is turned inside out: swap two of its corners"
+                                      : " is flat: move one of its corners or leave it out")};
         }
         for (const std::uint32_t corner : t) {
-            draft.mass[corner] += 0.25 * material.density * volume;
+            draft.mass[corner] += 0.25 * design.material.density * volume;
         }
     }
     draft.filled.assign(draft.tetrahedra.size(), 1.0);
@@ -344,7 +321,49 @@ SoftModelResult make_soft_tetrahedra(std::span<const Vec3> vertices, std::span<c
     for (std::uint32_t i = 0; i < draft.nodes.size(); ++i) {
         draft.anchors.push_back({{i, i, i, i}, {1.0, 0.0, 0.0, 0.0}});
     }
-    return assemble(std::move(draft), material, held, seconds);
+    return {std::move(draft), {}};
+}
+
+SoftModelResult make_soft(SoftDesign design) {
+    if (std::string error = check_soft_material(design.material, design.seconds); !error.empty()) {
+        return {nullptr, std::move(error)};
+    }
+    SoftDraftResult made = design.form == SoftDesign::Form::volume  ? draft_volume(design)
+                           : design.form == SoftDesign::Form::sheet ? draft_sheet(design)
+                                                                    : draft_tetrahedra(design);
+    if (!made.error.empty()) {
+        return {nullptr, std::move(made.error)};
+    }
+    const SoftDraft& draft = made.draft;
+    if (draft.nodes.size() > max_soft_nodes ||
+        draft.tetrahedra.size() + draft.springs.size() > max_soft_elements) {
+        return {nullptr,
+                "it has more than 4,096 nodes or 12,000 elements, for which a tick has no time: give "
+                "it fewer cells or vertices"};
+    }
+    return Assembly(std::move(made.draft), std::move(design)).result();
+}
+
+SoftModelResult make_soft_volume(const TriangleMesh& surface, int cells, const SoftMaterial& material,
+                                 const HeldParts& held, double seconds) {
+    return make_soft({SoftDesign::Form::volume, surface, cells, {}, {}, material, held, seconds});
+}
+
+SoftModelResult make_soft_tetrahedra(std::span<const Vec3> vertices, std::span<const Tetrahedron> tetrahedra,
+                                     const SoftMaterial& material, const HeldParts& held, double seconds) {
+    return make_soft({SoftDesign::Form::tetrahedra,
+                      {},
+                      0,
+                      {vertices.begin(), vertices.end()},
+                      {tetrahedra.begin(), tetrahedra.end()},
+                      material,
+                      held,
+                      seconds});
+}
+
+SoftModelResult make_soft_sheet(const TriangleMesh& surface, const SoftMaterial& material,
+                                const HeldParts& held, double seconds) {
+    return make_soft({SoftDesign::Form::sheet, surface, 0, {}, {}, material, held, seconds});
 }
 
 }  // namespace tactus

@@ -43,6 +43,28 @@ struct HeldParts {
     }
 };
 
+// Four corners of a tetrahedron, with (x1 - x0) . ((x2 - x0) x (x3 - x0)) > 0.
+using Tetrahedron = std::array<std::uint32_t, 4>;
+
+// What a model is made from. The same makes the same one, to the last bit.
+struct SoftDesign {
+    enum class Form : std::uint8_t {
+        volume,      // cut into cells of about the `cells`th part of its longest side, those into six
+                     // tetrahedra each; cells that the surface cuts count by their share of the volume
+        sheet,       // cloth, or any other: it stretches along its edges and bends across them
+        tetrahedra,  // that are given; touched where no two of them meet
+    };
+
+    Form form = Form::volume;
+    TriangleMesh surface;  // of a volume or a sheet
+    int cells = 8;
+    std::vector<Vec3> points;             // corners of the tetrahedra
+    std::vector<Tetrahedron> tetrahedra;  // that are given
+    SoftMaterial material;
+    HeldParts held;
+    double seconds = 1e-3;  // of a step
+};
+
 // A point that hangs on four nodes, or on fewer with weights of 0. The weights add up to 1.
 struct SoftAnchor {
     std::array<std::uint32_t, 4> node{};
@@ -77,10 +99,9 @@ struct SoftModel {
     TriangleMesh surface;             // at rest
     std::size_t element_count = 0;    // tetrahedra and springs
     bool closed = false;              // the surface bounds a volume
-    SoftMaterial material;
-    double seconds = 1e-3;  // of a step
     SparseFactor factor;
     double size = 0.0;  // diagonal of the box around it (unit: meters)
+    SoftDesign design;
 
     double total_mass() const;
     bool is_free() const;  // held nowhere
@@ -96,18 +117,12 @@ struct SoftModelResult {
     std::string error;                       // what is wrong and what to do
 };
 
-// A volume, cut into cells of about the `cells`th part of its longest side, those into six tetrahedra each.
-// Cells that the surface cuts count by their share of the volume.
+SoftModelResult make_soft(SoftDesign design);
+
 SoftModelResult make_soft_volume(const TriangleMesh& surface, int cells, const SoftMaterial& material,
                                  const HeldParts& held, double seconds);
-
-// Tetrahedra that are given, each with (x1 - x0) . ((x2 - x0) x (x3 - x0)) > 0; touched where no two of them
-// meet.
-using Tetrahedron = std::array<std::uint32_t, 4>;
 SoftModelResult make_soft_tetrahedra(std::span<const Vec3> vertices, std::span<const Tetrahedron> tetrahedra,
                                      const SoftMaterial& material, const HeldParts& held, double seconds);
-
-// Cloth, or any other sheet: it stretches along its edges and bends across them.
 SoftModelResult make_soft_sheet(const TriangleMesh& surface, const SoftMaterial& material,
                                 const HeldParts& held, double seconds);
 

@@ -65,12 +65,11 @@ SoftDraft::Spring bend(const SoftDraft& draft, const Edge& edge, const Sides& si
 
 }  // namespace
 
-SoftModelResult make_soft_sheet(const TriangleMesh& surface, const SoftMaterial& material,
-                                const HeldParts& held, double seconds) {
-    std::string error = check_soft_material(material, seconds);
-    error = error.empty() ? check_mesh(surface) : error;
-    if (!error.empty()) {
-        return {nullptr, std::move(error)};
+SoftDraftResult draft_sheet(const SoftDesign& design) {
+    const TriangleMesh& surface = design.surface;
+    const SoftMaterial& material = design.material;
+    if (std::string error = check_mesh(surface); !error.empty()) {
+        return {{}, std::move(error)};
     }
     SoftDraft draft;
     draft.surface = surface;
@@ -128,7 +127,7 @@ SoftModelResult make_soft_sheet(const TriangleMesh& surface, const SoftMaterial&
         const std::uint32_t node = node_of[first[i]] == 0xffff'ffffu ? 0 : node_of[first[i]];
         draft.anchors.push_back({{node, node, node, node}, {1.0, 0.0, 0.0, 0.0}});
     }
-    return assemble(std::move(draft), material, held, seconds);
+    return {std::move(draft), {}};
 }
 
 }  // namespace tactus

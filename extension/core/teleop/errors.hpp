@@ -88,6 +88,14 @@ struct CorrectionCost {
     double force_step = 0.0;  // correction_force_step (unit: newtons)
     double faded = 0.0;       // change of the felt force by fading (unit: newtons)
     double jnd_share = 0.0;   // force_step + faded over the just-noticeable change (dimensionless)
+
+    CorrectionCost& operator+=(const CorrectionCost& other) {
+        moved += other.moved;
+        force_step += other.force_step;
+        faded += other.faded;
+        jnd_share += other.jnd_share;
+        return *this;
+    }
 };
 
 // Sum, mean, root mean square and largest of a series, one value at a time.

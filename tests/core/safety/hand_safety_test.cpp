@@ -49,6 +49,28 @@ TEST(HandSafety, TheForceGrowsFromNothingAfterEveryPause) {
     grows();
 }
 
+// A force acts from its tick on: the first has gone nowhere yet.
+TEST(HandSafety, ItsWorkIsThatOfTheForcesThatWereGiven) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.max_force = 3.0;
+    settings.max_speed = 10.0;
+    SafetySample sample = pushed(5.0);
+    for (int tick = 0; tick <= 10; ++tick) {
+        sample.position = {0.0, 0.001 * tick, 0.002 * tick};
+        safety.pass(settings, sample);
+    }
+    EXPECT_NEAR(safety.work(), 3.0 * 0.01, 1e-12);
+    sample.position.y = 5.0;  // a jump is no way of a hand
+    safety.pass(settings, sample);
+    EXPECT_NEAR(safety.work(), 3.0 * 0.01, 1e-12);
+    sample.enabled = false;
+    safety.pass(settings, sample);
+    sample.position.y = 5.001;
+    safety.pass(settings, sample);
+    EXPECT_NEAR(safety.work(), 3.0 * 0.01, 1e-12) << "nothing is given";
+}
+
 TEST(HandSafety, ATorqueLeavesWithinItsOwnLimits) {
     HandSafety safety;
     SafetySettings settings;

@@ -1,6 +1,7 @@
 extends Node
-## Draws in the scene itself what the hands feel: forces, contacts and their planes, trails; and where a
-## link's far side is in this program, the true places of the bodies about those of the model.
+## Draws in the scene itself what the hands feel: forces, contacts and their planes, trails, on demand the
+## boxes that triangles are looked for in; and where a link's far side is in this program, the true places of
+## the bodies about those of the model.
 
 const FORCE_SCALE := 0.02  # metres a newton
 const PLANE := 0.015  # half a side of what is drawn of a contact's plane, metres
@@ -9,6 +10,13 @@ const FORCE_COLOR := Color(1.0, 0.85, 0.2)
 const CONTACT_COLOR := Color(0.4, 1.0, 0.5)
 const TRAIL_COLOR := Color(0.4, 0.75, 1.0)
 const TRUTH_COLOR := Color(1.0, 0.4, 0.7)
+const NEAR := 0.02  # boxes of trees that are no farther from a hand, metres
+const BOX_COLOR := Color(0.55, 0.6, 0.7, 0.35)
+const LEAF_COLOR := Color(1.0, 0.95, 0.6, 0.8)
+const BOX := AABB(Vector3(-0.5, -0.5, -0.5), Vector3.ONE)
+
+## Whether the boxes are drawn.
+var draws_boxes := false
 
 var _pictures := {}  # by a world's id
 var _trails := {}  # by a pointer's id: PackedVector3Array
@@ -34,6 +42,8 @@ func _draw_world(world: HapticWorld) -> void:
 	for pointer: Node3D in world.find_children("*", "Node3D", true, false):
 		if pointer is ProxyPointer or pointer is HapticTool:
 			_draw_pointer(pointer, lines)
+			if draws_boxes and pointer.is_present():
+				_draw_boxes(world, pointer.global_position, lines)
 	for link: MMTLink in world.find_children("*", "MMTLink", true, false):
 		_draw_truth(world, link, lines)
 	lines.fill(_picture(world).mesh)
@@ -52,6 +62,14 @@ func _draw_pointer(pointer: Node3D, lines: Lines) -> void:
 	lines.add_arrow(at, pointer.get_force() * FORCE_SCALE, FORCE_COLOR)
 	for contact: Dictionary in pointer.get_contacts():
 		lines.add_plane(contact.point, contact.normal, PLANE, CONTACT_COLOR)
+
+
+## The smallest shine: those hold the triangles.
+func _draw_boxes(world: HapticWorld, at: Vector3, lines: Lines) -> void:
+	var boxes := world.get_tree_boxes(at, NEAR)
+	for i in boxes.size():
+		var place: Transform3D = boxes[i]
+		lines.add_box(BOX, place, BOX_COLOR.lerp(LEAF_COLOR, float(i) / boxes.size()))
 
 
 ## What is there, about what the model has.
@@ -76,6 +94,7 @@ func _picture(world: HapticWorld) -> MeshInstance3D:
 	look.shading_mode = BaseMaterial3D.SHADING_MODE_UNSHADED
 	look.vertex_color_use_as_albedo = true
 	look.no_depth_test = true
+	look.transparency = BaseMaterial3D.TRANSPARENCY_ALPHA
 	var picture := MeshInstance3D.new()
 	picture.mesh = ImmediateMesh.new()
 	picture.material_override = look

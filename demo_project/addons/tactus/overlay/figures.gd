@@ -66,13 +66,19 @@ func _of_link(link: MMTLink) -> Dictionary:
 		"lost_percent": 100.0 * statistics.packets_lost_there,
 		"packets_per_s": statistics.packets_received_per_s,
 		"corrections": statistics.get("corrections", 0),
-		"moved_mm": 1e3 * statistics.get("correction_moved_m", 0.0),
-		"jnd_share": statistics.get("correction_jnd_share", 0.0),
+		"moved_mm": 1e3 * statistics.get("corrections_moved_m", 0.0),
+		"jnds": statistics.get("corrections_jnds", 0.0),
+		"tank_mj": 1e3 * statistics.get("energy_tank_j", 0.0),
+		"hidden_mj": 1e3 * statistics.get("energy_hidden_j", 0.0),
 	}
 
 
 func _of_device(device: HapticDevice) -> Dictionary:
-	return {"text": device.get_state_text(), "force_n": device.get_force().length()}
+	return {
+		"text": device.get_state_text(),
+		"force_n": device.get_force().length(),
+		"energy_mj": 1e3 * device.get_energy(),
+	}
 
 
 func _of_pointer(pointer: ProxyPointer) -> Dictionary:

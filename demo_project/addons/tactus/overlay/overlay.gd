@@ -11,6 +11,8 @@ const HISTOGRAM_EVERY := 1.0  # seconds
 @export var key: Key = KEY_F3
 ## Records the stages of every tick for a while, for Perfetto or chrome://tracing.
 @export var trace_key: Key = KEY_F4
+## Draws the boxes of the trees that triangles are looked for in around the hands, and no more.
+@export var boxes_key: Key = KEY_F5
 @export_range(0.1, 60.0, 0.1, "suffix:s") var trace_seconds := 5.0
 ## Where traces go.
 @export_dir var trace_folder := "user://"
@@ -61,6 +63,8 @@ func _unhandled_key_input(event: InputEvent) -> void:
 		shown = not shown
 	elif pressed.keycode == trace_key:
 		record_trace()
+	elif pressed.keycode == boxes_key and shown:
+		%Drawing.draws_boxes = not %Drawing.draws_boxes
 	else:
 		return
 	get_viewport().set_input_as_handled()

@@ -3,7 +3,7 @@ extends VBoxContainer
 ## Plots of the figures that Figures gives, and what devices, links and cameras say. Whoever has the figures
 ## shows them: the overlay of a running scene, or the editor's dock.
 
-var _ticks := {}  # by world: [time, ticks] as of the last figures
+var _counted := {}  # by what is counted: [time, count] as of the last figures
 var _period_us := {}
 
 
@@ -14,13 +14,13 @@ func show_figures(figures: Dictionary) -> void:
 		_period_us[world] = figures.worlds[world].period_us
 	for pointer: String in figures.pointers:
 		%Force.add(short_name(pointer, figures.pointers.keys()), time, figures.pointers[pointer].force_n)
-	var is_linked: bool = figures.links.values().any(_hears)
-	%Link.visible = %Link.visible or is_linked
-	%Correction.visible = %Link.visible
+	for device: String in figures.devices:
+		%Energy.add(short_name(device, figures.devices.keys()), time, figures.devices[device].energy_mj)
+	%Link.visible = %Link.visible or figures.links.values().any(_hears)
+	%Moved.visible = %Moved.visible or figures.links.values().any(_corrects)
+	%Noticed.visible = %Moved.visible
 	for link: String in figures.links:
-		var called := short_name(link, figures.links.keys())
-		%Link.add(called, time, figures.links[link].round_trip_ms)
-		%Correction.add(called, time, figures.links[link].moved_mm)
+		_show_link(short_name(link, figures.links.keys()), time, figures.links[link])
 	%Said.text = _said(figures)
 
 
@@ -28,12 +28,32 @@ func _hears(link: Dictionary) -> bool:
 	return link.packets_per_s > 0.0
 
 
+func _corrects(link: Dictionary) -> bool:
+	return link.corrections > 0
+
+
 func _show_world(world: String, time: float, figures: Dictionary) -> void:
-	if _ticks.has(world) and time > _ticks[world][0]:
-		%Rate.add(world, time, maxf(0.0, (figures.ticks - _ticks[world][1]) / (time - _ticks[world][0])))
-	_ticks[world] = [time, figures.ticks]
+	_add_rate(%Rate, world, time, figures.ticks)
 	%Work.add(world + " p50", time, figures.work_p50_us)
 	%Work.add(world + " p99", time, figures.work_p99_us)
+
+
+## Over a link: what is corrected, what of that could be noticed, and what hiding it lives on.
+func _show_link(link: String, time: float, figures: Dictionary) -> void:
+	%Link.add(link, time, figures.round_trip_ms)
+	if _corrects(figures):
+		_add_rate(%Moved, link, time, figures.moved_mm)
+		_add_rate(%Noticed, link, time, figures.jnds)
+		%Energy.add(link + " tank", time, figures.tank_mj)
+		%Energy.add(link + " hidden", time, figures.hidden_mj)
+
+
+## How much more there is in a second of what only grows; a count that has begun anew starts again.
+func _add_rate(plot: Control, curve: String, time: float, count: float) -> void:
+	var key := [plot, curve]
+	if _counted.has(key) and time > _counted[key][0]:
+		plot.add(curve, time, maxf(0.0, (count - _counted[key][1]) / (time - _counted[key][0])))
+	_counted[key] = [time, count]
 
 
 ## The first world's.
@@ -44,11 +64,11 @@ func show_histograms(histograms: Dictionary) -> void:
 
 
 func clear() -> void:
-	_ticks.clear()
-	for plot: Control in [%Rate, %Work, %Force, %Link, %Correction]:
+	_counted.clear()
+	for plot: Control in [%Rate, %Work, %Force, %Energy, %Link, %Moved, %Noticed]:
 		plot.clear()
-	%Link.hide()
-	%Correction.hide()
+	for plot: Control in [%Link, %Moved, %Noticed]:
+		plot.hide()
 	%Said.text = ""
 
 

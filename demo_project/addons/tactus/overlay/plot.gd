@@ -53,32 +53,39 @@ static func top_for(largest: float) -> float:
 func _draw() -> void:
 	draw_rect(Rect2(Vector2.ZERO, size), PAPER)
 	var largest := at_least
+	var least := 0.0
 	var now := 0.0
 	for curve: String in _values:
 		for value: float in _values[curve]:
 			largest = maxf(largest, value)
+			least = minf(least, value)
 		now = maxf(now, _times[curve][-1])
 	var top := top_for(largest)
+	var bottom := -top_for(-least) if least < 0.0 else 0.0
 	var font := get_theme_default_font()
 	for i: int in [1, 2, 3]:
 		draw_line(Vector2(0, size.y * i / 4), Vector2(size.x, size.y * i / 4), GRID)
-	var head := "%s   0 … %s %s" % [title, String.num(top, 3), unit]
+	if bottom < 0.0:
+		var zero := size.y * top / (top - bottom)
+		draw_line(Vector2(0, zero), Vector2(size.x, zero), WORDS)
+	var head := "%s   %s … %s %s" % [title, String.num(bottom, 3), String.num(top, 3), unit]
 	draw_string(font, Vector2(6, FONT_SIZE + 2), head, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE, WORDS)
 	var place := Vector2(6, 2 * FONT_SIZE + 5)
 	var index := 0
 	for curve: String in _values:
 		var color := COLORS[index % COLORS.size()]
-		_draw_curve(curve, now, top, color)
+		_draw_curve(curve, now, Vector2(bottom, top), color)
 		var legend := "%s %s" % [curve, String.num(_values[curve][-1], 2)]
 		draw_string(font, place, legend, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE, color)
 		place.x += font.get_string_size(legend, HORIZONTAL_ALIGNMENT_LEFT, -1, FONT_SIZE).x + 14
 		index += 1
 
 
-func _draw_curve(curve: String, now: float, top: float, color: Color) -> void:
+func _draw_curve(curve: String, now: float, scale_ends: Vector2, color: Color) -> void:
 	var points := PackedVector2Array()
 	for i: int in _values[curve].size():
 		var x: float = size.x * (1.0 - (now - _times[curve][i]) / seconds)
-		points.append(Vector2(x, size.y * (1.0 - clampf(_values[curve][i] / top, 0.0, 1.0))))
+		var up := inverse_lerp(scale_ends.x, scale_ends.y, _values[curve][i])
+		points.append(Vector2(x, size.y * (1.0 - clampf(up, 0.0, 1.0))))
 	if points.size() > 1:
 		draw_polyline(points, color, 1.5, true)

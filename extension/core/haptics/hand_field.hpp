@@ -1,0 +1,66 @@
+// A force on the hand that is computed elsewhere, a few dozen times a second, and felt at every tick.
+//
+// Each time it is told as it is about one place and one velocity: the force there, and how it changes with
+// either. In between the hand feels
+//
+//     F + A (x - x0) + B (v - v0),
+//
+// wherever it has gone to by now, and from one time to the next the one goes over into the other. So a spring
+// and a thick fluid answer within a tick, and not a frame late, which would let them swing. Of a computation
+// that has fallen silent nothing is felt soon.
+#pragma once
+
+#include "core/haptics/surface_effects.hpp"
+#include "core/math/types.hpp"
+#include "core/safety/stiffness_limit.hpp"
+
+namespace tactus {
+
+struct FieldMoment {
+    Vec3 place{0.0};        // x0, in the world (unit: meters)
+    Vec3 velocity{0.0};     // v0, likewise (unit: meters per second)
+    Vec3 force{0.0};        // F, of both (unit: newtons)
+    Mat3 by_place{0.0};     // A (unit: newtons per meter)
+    Mat3 by_velocity{0.0};  // B (unit: newton seconds per meter)
+};
+
+class HandField {
+public:
+    // No farther from its place and its velocity is it believed how the force changes (units: meters, meters
+    // per second).
+    static constexpr double reach = 0.02;
+    static constexpr double speed_reach = 0.5;
+    // Silent for so long it begins to fade, and is gone after as long again.
+    static constexpr Nanoseconds lives = 100'000'000;
+
+    // From the next tick on.
+    void set(const FieldMoment& moment) { next_ = moment, is_new_ = true; }
+
+    // A tick begins, at a time that does not fall: what stiffness and damping it has at most. Nothing where
+    // nothing is felt of it.
+    Wall begin_tick(Nanoseconds now);
+
+    // On that hand in this tick (unit: newtons). It is made as weak as `safe`.
+    Vec3 force(const HandMotion& hand, const Wall& safe);
+
+private:
+    // As fast as a screen can be, and as slow.
+    static constexpr Nanoseconds shortest_over = 2'000'000;
+    static constexpr Nanoseconds longest_over = 50'000'000;
+
+    void take(Nanoseconds now);
+    void weigh(Nanoseconds now);
+    Vec3 felt(const HandMotion& hand) const;
+
+    FieldMoment before_, last_, next_;
+    bool is_new_ = false;    // next_
+    Nanoseconds since_ = 0;  // last_ goes over from before_ since then,
+    Nanoseconds over_ = 0;   // within this; 0: there has never been one
+
+    // In this tick: the weights of both, which add up to what is left of it,
+    double of_before_ = 0.0, of_last_ = 0.0;
+    Wall steepest_;
+    double stiff_share_ = 1.0, damped_share_ = 1.0;  // and what is safe of A and B
+};
+
+}  // namespace tactus

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <godot_cpp/classes/node.hpp>
+#include <godot_cpp/variant/node_path.hpp>
+#include <optional>
+
+#include "core/haptics/hand_field.hpp"
+#include "nodes/properties.hpp"
+
+namespace tactus {
+
+class ProxyPointer;
+
+// A force on the hand that a script computes, once a frame: the haptic thread never calls a script.
+class HapticEffect : public godot::Node {
+    GDCLASS(HapticEffect, godot::Node)
+
+public:
+    TACTUS_PROPERTIES(HapticEffect)
+
+    godot::String get_state_text() const;
+    double get_time_ms() const { return 1e3 * to_seconds(taken_); }
+
+    godot::PackedStringArray _get_configuration_warnings() const override;
+
+    // --- for the world that it is in
+
+    const ProxyPointer* proxy_node() const;
+    godot::String problem() const;  // empty where there is none
+    // What the script says of that hand, at this time of the world (unit: seconds); nothing where it is off,
+    // or has been switched off by this. The script may free whatever it likes but this node.
+    std::optional<FieldMoment> look(const HandMotion& hand, double time);
+
+protected:
+    static void _bind_methods();
+    void _notification(int what);
+
+private:
+    void enabled_changed();
+    bool ask(const HandMotion& hand, double time, Vec3& force);
+    void watch_time();
+    void switch_off(const godot::String& why);
+
+    godot::NodePath proxy_;
+    godot::String method_ = "_get_force";
+    double budget_ms_ = 1.0;
+    bool enabled_ = true;
+
+    godot::String why_off_;  // by itself; empty: it is not
+    Nanoseconds taken_ = 0;  // by the script, for one frame
+    int late_ = 0;           // frames in a row
+};
+
+}  // namespace tactus

@@ -1,0 +1,139 @@
+// A force that is told now and then, as the hand feels it in between.
+#include "core/haptics/hand_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds tick = 1'000'000;
+constexpr Nanoseconds frame = 16 * tick;
+constexpr Wall any{1e9, 1e9};
+
+// As it is told of a spring to the origin in a fluid, by who looks at it where the hand is.
+FieldMoment moment_of(double stiffness, double damping, const HandMotion& hand) {
+    return {hand.position, hand.velocity, -stiffness * hand.position - damping * hand.velocity,
+            Mat3(-stiffness), Mat3(-damping)};
+}
+
+FieldMoment even(const Vec3& force) {
+    FieldMoment moment;
+    moment.force = force;
+    return moment;
+}
+
+Vec3 felt(HandField& field, const HandMotion& hand, Nanoseconds now, const Wall& safe = any) {
+    field.begin_tick(now);
+    return field.force(hand, safe);
+}
+
+TEST(HandField, NothingIsFeltOfWhatHasNeverBeenTold) {
+    HandField field;
+    EXPECT_EQ(field.begin_tick(5 * tick).stiffness, 0.0);
+    EXPECT_EQ(field.force({{1.0, 2.0, 3.0}, {}}, any), Vec3(0.0));
+}
+
+TEST(HandField, ItBeginsWithoutAJumpAndIsWholeSoon) {
+    HandField field;
+    field.set(even({0.0, 4.0, 0.0}));
+    Vec3 before(0.0), now(0.0);
+    for (int i = 1; i <= 60; ++i) {
+        now = felt(field, {}, i * tick);
+        EXPECT_LE(glm::length(now - before), 0.1) << i;
+        before = now;
+    }
+    EXPECT_DOUBLE_EQ(now.y, 4.0);
+}
+
+TEST(HandField, BetweenTwoFramesASpringInAFluidIsFeltAsTheHandGoes) {
+    HandField field;
+    double worst = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        const double t = 1e-3 * i;
+        const HandMotion hand{0.03 * Vec3(std::sin(5.0 * t), std::cos(7.0 * t), 0.0),
+                              0.03 * Vec3(5.0 * std::cos(5.0 * t), -7.0 * std::sin(7.0 * t), 0.0)};
+        if (i % 16 == 0) {
+            field.set(moment_of(200.0, 3.0, hand));
+        }
+        const Vec3 now = felt(field, hand, i * tick);
+        if (i > 100) {
+            worst = std::max(worst, glm::length(now + 200.0 * hand.position + 3.0 * hand.velocity));
+        }
+    }
+    EXPECT_LT(worst, 1e-9) << "of 6 N";
+    const Wall steepest = field.begin_tick(2000 * tick);
+    EXPECT_NEAR(steepest.stiffness, 200.0 * std::sqrt(3.0), 1e-9);
+    EXPECT_NEAR(steepest.damping, 3.0 * std::sqrt(3.0), 1e-9);
+}
+
+// A drag that is felt a frame late swings up where it is strong for the mass it brakes: b delay / m > pi / 2.
+TEST(HandField, AThickFluidBrakesALightHandAndDoesNotSwing) {
+    constexpr double mass = 0.1, damping = 20.0, seconds = 1e-3;
+    HandField field;
+    HandMotion hand{{}, {0.5, 0.0, 0.0}};
+    for (int i = 0; i < 500; ++i) {
+        if (i % 16 == 0) {
+            field.set(moment_of(0.0, damping, hand));
+        }
+        hand.velocity += felt(field, hand, i * tick) * (seconds / mass);
+        hand.position += hand.velocity * seconds;
+        ASSERT_GE(hand.velocity.x, 0.0) << i;
+        ASSERT_LE(hand.velocity.x, 0.5) << i;
+    }
+    EXPECT_LT(hand.velocity.x, 1e-6);
+}
+
+TEST(HandField, FromOneMomentToTheNextItGoesOverEvenly) {
+    HandField field;
+    double largest = 0.0;
+    Vec3 before(0.0);
+    for (int i = 0; i < 1000; ++i) {
+        if (i % 16 == 0) {
+            field.set(even({i / 16 % 2 == 0 ? 1.0 : -1.0, 0.0, 0.0}));
+        }
+        const Vec3 now = felt(field, {}, i * tick);
+        largest = i > 100 ? std::max(largest, glm::length(now - before)) : 0.0;
+        before = now;
+    }
+    EXPECT_NEAR(largest, 2.0 / 16.0, 0.01) << "over the length of a frame";
+}
+
+TEST(HandField, OfAComputationThatHasFallenSilentNothingIsLeft) {
+    HandField field;
+    FieldMoment moment = even({0.0, 2.0, 0.0});
+    moment.by_place = Mat3(-100.0);
+    for (int i = 0; i < 10; ++i) {
+        field.set(moment);
+        felt(field, {}, i * frame);
+    }
+    const Nanoseconds last = 9 * frame;
+    EXPECT_NEAR(felt(field, {}, last + HandField::lives).y, 2.0, 1e-12);
+    EXPECT_NEAR(felt(field, {}, last + HandField::lives * 3 / 2).y, 1.0, 1e-9);
+    EXPECT_EQ(felt(field, {}, last + 2 * HandField::lives), Vec3(0.0));
+    EXPECT_EQ(field.begin_tick(last + 2 * HandField::lives).stiffness, 0.0) << "walls have it all again";
+    field.set(moment);
+    EXPECT_LT(felt(field, {}, last + 2 * HandField::lives + tick).y, 0.1) << "and begins anew";
+}
+
+TEST(HandField, ItIsNoStifferAndDampsNoMoreThanIsSafe) {
+    HandField field;
+    field.set(moment_of(5000.0, 50.0, {}));
+    felt(field, {}, 0);
+    const Wall safe{300.0, 2.0};
+    EXPECT_NEAR(felt(field, {{0.001, 0.0, 0.0}, {}}, 60 * tick, safe).x, -0.3 / std::sqrt(3.0), 1e-9);
+    EXPECT_NEAR(felt(field, {{}, {0.1, 0.0, 0.0}}, 60 * tick, safe).x, -0.2 / std::sqrt(3.0), 1e-9);
+}
+
+TEST(HandField, FarFromWhereItWasLookedAtItGrowsNoMore) {
+    HandField field;
+    field.set(moment_of(100.0, 2.0, {}));
+    felt(field, {}, 0);
+    EXPECT_NEAR(felt(field, {{5.0, 0.0, 0.0}, {}}, 60 * tick).x, -100.0 * HandField::reach, 1e-9);
+    EXPECT_NEAR(felt(field, {{}, {9.0, 0.0, 0.0}}, 60 * tick).x, -2.0 * HandField::speed_reach, 1e-9);
+}
+
+}  // namespace
+}  // namespace tactus

@@ -1,0 +1,115 @@
+// A force that the owner computes, in a session: felt, safe, and recorded with all else.
+#include <cmath>
+#include <limits>
+
+#include "recorded_inputs.hpp"
+#include "session_rig.hpp"
+#include "support/realtime_audit.hpp"
+
+namespace tactus {
+namespace {
+
+using namespace session_test;
+
+FieldMoment even(const Vec3& force) {
+    FieldMoment moment;
+    moment.force = force;
+    return moment;
+}
+
+FieldMoment spring(double stiffness, const Vec3& hand) {
+    return {hand, Vec3(0.0), -stiffness * hand, Mat3(-stiffness), Mat3(0.0)};
+}
+
+TEST(SessionField, IsFeltByTheHandBesideWhatItTouches) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.tick();
+    rig.draw({0.0, 0.005, 0.0}, 50);
+    for (int i = 0; i < 200; ++i) {
+        if (i % 16 == 0) {
+            FieldMoment moment = even({2.0, 0.0, 0.0});
+            moment.place = rig.device.position;
+            rig.session.set_hand_field(rig.proxy, moment);
+        }
+        rig.tick();
+    }
+    EXPECT_NEAR(rig.device.force.x, 2.0, 1e-6);
+    EXPECT_NEAR(rig.device.force.y, 500.0 * 0.005, 1e-3);
+}
+
+TEST(SessionField, IsGoneWhenTheOwnerFallsSilent) {
+    SessionRig rig;
+    rig.session.set_hand_field(rig.proxy, even({2.0, 0.0, 0.0}));
+    rig.ticks(60);
+    EXPECT_NEAR(rig.device.force.x, 2.0, 1e-6);
+    rig.ticks(200);
+    EXPECT_EQ(rig.device.force.x, 0.0);
+}
+
+// The device bears 800 N/m at 1 kHz: half of it for the field, and the wall has what that leaves.
+TEST(SessionField, FieldAndWallTogetherAreNoStifferThanIsSafe) {
+    SessionRig rig;
+    rig.device.can.damping = 0.4;
+    BodyAddition wall = ground();
+    wall.touch_material.stiffness = 10'000.0;
+    rig.add(wall);
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.tick();
+    rig.draw({0.0, 0.0, 0.0}, 50);
+    for (int i = 0; i < 500; ++i) {
+        if (i % 16 == 0) {
+            rig.session.set_hand_field(rig.proxy, spring(5'000.0, {0.0, 0.0, 0.0}));
+        }
+        rig.tick();
+    }
+    EXPECT_NEAR(rig.device.force.y, 400.0 * 0.01, 1e-3) << "at the field's middle: of the wall alone";
+    rig.ticks(300);
+    EXPECT_NEAR(rig.device.force.y, 800.0 * 0.01, 1e-3) << "the field is silent";
+}
+
+TEST(SessionField, NonsenseIsNotTaken) {
+    SessionRig rig;
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const auto refused = [&](auto&& spoil) {
+        FieldMoment moment = even({1.0, 0.0, 0.0});
+        spoil(moment);
+        rig.session.set_hand_field(rig.proxy, moment);
+    };
+    refused([](FieldMoment& m) { m.place = Vec3(nan); });
+    refused([](FieldMoment& m) { m.velocity = Vec3(nan); });
+    refused([](FieldMoment& m) { m.force.y = nan; });
+    refused([](FieldMoment& m) { m.force.x = 1e9; });
+    refused([](FieldMoment& m) { m.by_place = Mat3(nan); });
+    refused([](FieldMoment& m) { m.by_place = Mat3(1e300); });
+    refused([](FieldMoment& m) { m.by_velocity = Mat3(nan); });
+    rig.session.set_hand_field(99, even({1.0, 0.0, 0.0}));
+    rig.ticks(60);
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+}
+
+TEST(SessionField, IsPlayedAgainToTheSameBitsAndAllocatesNothing) {
+    RecordedInputs inputs;
+    SessionRig rig({}, &inputs.recorder);
+    rig.add(ground());
+    rig.session.settle();
+    for (int i = 0; i < 1000; ++i) {
+        rig.device.position = {0.02 * std::sin(0.01 * i), 0.02 + 0.015 * std::sin(0.02 * i), 0.0};
+        if (i % 16 == 0) {
+            rig.session.set_hand_field(rig.proxy, spring(150.0, rig.device.position));
+        }
+        testing::AuditScope audit;
+        rig.tick();
+        audit.finish();
+        ASSERT_EQ(audit.allocations() + audit.frees() + audit.waits(), 0u) << audit.describe();
+    }
+    inputs.end();
+    const InputReplay::Report report = inputs.play();
+    EXPECT_EQ(report.ticks, 1000u);
+    EXPECT_EQ(report.first_different, 0u);
+    EXPECT_EQ(report.problem, "");
+}
+
+}  // namespace
+}  // namespace tactus
