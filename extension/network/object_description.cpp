@@ -262,6 +262,9 @@ void touch_fields(auto& s, auto& touch) {
     not_negative(s, touch.impact_strength);
     not_negative(s, touch.impact_frequency);
     positive(s, touch.impact_decay);
+    not_negative(s, touch.stribeck_speed);
+    positive(s, touch.stiffening);
+    positive(s, touch.stiffening_depth);
 }
 
 template <typename Stream>

@@ -217,7 +217,7 @@ inline constexpr int members<PlacedShape> = 2;
 template <>
 inline constexpr int members<HeightImage> = 3;
 template <>
-inline constexpr int members<TouchMaterial> = 18;
+inline constexpr int members<TouchMaterial> = 21;
 template <>
 inline constexpr int members<SurfaceMaterial> = 4;
 template <>

@@ -71,7 +71,7 @@ std::string check_material(const TouchMaterial& m) {
     for (const double value :
          {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth, m.magnet_force,
           m.viscosity, m.stick_slip_stiffness, m.stick_slip_force, m.vibration_force, m.vibration_frequency,
-          m.pop_through_force, m.impact_strength, m.impact_frequency}) {
+          m.pop_through_force, m.impact_strength, m.impact_frequency, m.stribeck_speed}) {
         if (!(value >= 0.0 && value <= limits::stiffest)) {
             return "a value of the touch material is negative, above 10^9 or not a number: set all of them "
                    "to "
@@ -85,6 +85,11 @@ std::string check_material(const TouchMaterial& m) {
     }
     if (!(m.impact_decay > 0.0 && m.impact_decay <= limits::farthest)) {
         return "the time in which the touch material's taps decay is not positive: set it above 0 s";
+    }
+    if (!(m.stiffening > 0.0 && m.stiffness * m.stiffening <= limits::stiffest) ||
+        !(m.stiffening_depth > 0.0 && m.stiffening_depth <= limits::farthest)) {
+        return "the touch material's stiffening or its depth is not above 0, or it becomes stiffer than 10^9 "
+               "N/m: set the first to 1 for a surface that is as stiff at every depth";
     }
     return {};
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/haptics/surface_spring.hpp"
 #include "core/math/bit_hash.hpp"
 #include "core/teleop/body_motion.hpp"
 #include "realtime/thread_role.hpp"
@@ -198,7 +199,7 @@ FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
     FadingForce::Step step{slot.hand, slot.hand_velocity};
     for (const Touch& contact : slot.proxy->touching()) {
         const TouchMaterial& material = scene_.body(contact.body).material;
-        step.stiffness = std::max(step.stiffness, material.stiffness);
+        step.stiffness = std::max(step.stiffness, spring_of(material).steepest());
         step.damping = std::max(step.damping, material.damping);
     }
     return step;
@@ -236,7 +237,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         glm::distance(slot.hand, slot.state.hand) > slot.proxy->settings().radius) {
         slot.proxy->restart();
     }
-    const ProxyTick tick = slot.proxy->move(scene_, slot.hand);
+    const ProxyTick tick = slot.proxy->move(scene_, slot.hand, seconds_);
     HandForce& force = slot.parts;
     DeviceSlot& device = devices_[slot.description.device];
     const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
@@ -461,8 +462,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.sample.connected,
                                                slot.safe.state,
                                                slot.safe.limited,
-                                               slot.wanted.stiffness,
-                                               slot.used.stiffness,
+                                               slot.wanted_stiffness,
+                                               slot.used_stiffness,
                                                {seconds_, slot.capabilities.delay},
                                                slot.capabilities.radius};
         }

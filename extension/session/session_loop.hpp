@@ -185,7 +185,8 @@ private:
         DeviceCapabilities capabilities;
         HandSafety safety;
         SafeForce safe;
-        Wall wanted, used;  // of what is touched, the last that was not safe
+        // Of what is touched, the last that was not safe (unit: newtons per meter).
+        double wanted_stiffness = 0.0, used_stiffness = 0.0;
         bool was_held = false;
     };
 

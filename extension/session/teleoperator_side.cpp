@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/haptics/surface_spring.hpp"
 #include "network/plausibility.hpp"
 
 namespace tactus {
@@ -165,7 +166,7 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
         if (const SessionLoop::Body* const touched = loop.body(slot.state.bodies[0])) {
             const TouchBody& body = loop.scene().body(touched->slot);
             in.in_contact = true;
-            in.stiffness = body.material.stiffness;
+            in.stiffness = spring_of(body.material).secant(glm::length(in.force));
             in.own_proxy = to_parent(body.pose, to_local(body.previous, slot.state.position));
         }
     }

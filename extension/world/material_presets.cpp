@@ -37,6 +37,7 @@ MaterialValues values_of(MaterialPreset preset) {
             break;
         case MaterialPreset::ice:
             touch = {.stiffness = 2000.0, .damping = 1.0, .static_friction = 0.05, .dynamic_friction = 0.02};
+            touch.stribeck_speed = 0.03;
             values.friction = 0.03;
             values.bounce = 0.1;
             break;
@@ -56,6 +57,8 @@ MaterialValues values_of(MaterialPreset preset) {
             break;
         case MaterialPreset::sponge:
             touch = {.stiffness = 150.0, .damping = 2.0, .static_friction = 0.7, .dynamic_friction = 0.5};
+            touch.stiffening = 5.0;
+            touch.stiffening_depth = 0.03;
             touch.viscosity = 1.0;
             values.friction = 0.7;
             break;

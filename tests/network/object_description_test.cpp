@@ -41,6 +41,9 @@ TEST(ObjectDescription, SurvivesTheWire) {
     EXPECT_EQ(read.touch.impact_strength, sent.touch.impact_strength);
     EXPECT_EQ(read.touch.impact_frequency, sent.touch.impact_frequency);
     EXPECT_EQ(read.touch.impact_decay, sent.touch.impact_decay);
+    EXPECT_EQ(read.touch.stribeck_speed, sent.touch.stribeck_speed);
+    EXPECT_EQ(read.touch.stiffening, sent.touch.stiffening);
+    EXPECT_EQ(read.touch.stiffening_depth, sent.touch.stiffening_depth);
     ASSERT_NE(read.touch.texture, nullptr);
     EXPECT_EQ(read.touch.texture, read.texture.get());
     EXPECT_EQ(read.texture->heights, sent.texture->heights);

@@ -429,6 +429,7 @@ def _touch(r: Reader) -> Fields:
         "vibration_force": r.not_negative(), "vibration_frequency": r.not_negative(),
         "pop_through_force": r.not_negative(), "impact_strength": r.not_negative(),
         "impact_frequency": r.not_negative(), "impact_decay": r.positive(),
+        "stribeck_speed": r.not_negative(), "stiffening": r.positive(), "stiffening_depth": r.positive(),
     }  # fmt: skip
 
 

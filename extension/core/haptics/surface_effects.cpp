@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/haptics/surface_spring.hpp"
 #include "core/haptics/surface_way.hpp"
 
 namespace tactus {
@@ -31,13 +32,17 @@ double pixel(const HeightImage& image, std::int64_t column, std::int64_t row) {
     return image.heights[wrap(row, image.rows) * image.columns + wrap(column, image.columns)];
 }
 
-// The relief stores energy like the spring it lies on: U = k (pressure + height)^2 / 2. Its slope pushes the
-// hand downhill, its height away from the surface.
+// The relief stores energy like the spring it lies on: U(pressure + height), k d^2 / 2 of one that is linear.
+// Its slope pushes the hand downhill, its height away from the surface.
 Vec3 texture_force(const TouchBody& body, const Touch& contact) {
     const TextureSample relief = sample_texture(body.material, to_local(body.pose, contact.point),
                                                 direction_to_local(body.pose, contact.normal));
     const double stiffness = body.material.stiffness;
     const Vec3 downhill = -along_surface(direction_to_parent(body.pose, relief.gradient), contact.normal);
+    if (const SurfaceSpring spring = spring_of(body.material); !spring.is_linear()) {
+        const double raised = spring.force(contact.pressure + relief.height);
+        return contact.normal * (raised - spring.force(contact.pressure)) + downhill * raised;
+    }
     return contact.normal * (stiffness * relief.height) +
            downhill * (stiffness * (contact.pressure + relief.height));
 }

@@ -18,6 +18,12 @@ struct TouchMaterial {
     double damping = 0.0;      // against the speed into the surface (unit: newton-seconds per meter), >= 0
     double static_friction = 0.0;   // Coulomb coefficient at rest, >= dynamic_friction
     double dynamic_friction = 0.0;  // Coulomb coefficient while sliding, >= 0
+    // Within which friction falls from static to dynamic, see friction.hpp; 0: it does so at once, where it
+    // begins to slide (unit: meters per second), >= 0
+    double stribeck_speed = 0.0;
+    // So many times as stiff at this depth and below, see surface_spring.hpp; 1: everywhere alike.
+    double stiffening = 1.0;          // (dimensionless), > 0
+    double stiffening_depth = 0.005;  // (unit: meters), > 0
 
     // Effects; each is off where its force, depth or coefficient is 0 (surface_effects.hpp).
     const HeightImage* texture = nullptr;  // not owned; null: no texture
