@@ -7,6 +7,7 @@
 #include <string>
 
 #include "nodes/haptic_field.hpp"
+#include "nodes/haptic_material.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
@@ -34,7 +35,12 @@ public:
     godot::String problem() const;
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
     // out. Whether its triangles are sound shows when they are built.
-    ShapeReading read(const SceneFrame& body_scale) const;
+    // With texture coordinates where the body's material asks for them, or one of its own does.
+    ShapeReading read(const SceneFrame& body_scale, bool by_uv = false) const;
+
+    // What its surfaces feel like where they are not as the body; none: all are.
+    std::vector<std::optional<SurfaceFeel>> surface_feels() const;
+    std::vector<godot::Ref<godot::Resource>> surface_resources() const;
 
     // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
     // kilograms).
@@ -54,7 +60,9 @@ protected:
 private:
     // Null where nothing is named; a source with an error where it cannot be read.
     std::shared_ptr<TriangleSource> source() const;
+    std::shared_ptr<const SurfaceMap> surfaces(bool by_uv) const;
     const LibraryEntry& entry() const;
+    godot::String problem_of_surfaces() const;
     void mesh_changed();
     void library_changed();
     void form_changed();
@@ -65,10 +73,12 @@ private:
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;  // (unit: radians)
     bool one_sided_ = false;
+    godot::Array surface_materials_;
     bool use_library_mass_ = false;
-    mutable std::optional<LibraryEntry> entry_;       // of the library's mesh, looked up once
-    mutable std::shared_ptr<TriangleSource> source_;  // read once, when somebody asks
-    mutable std::shared_ptr<TriangleSource> former_;  // until then: the one before the mesh changed
+    mutable std::optional<LibraryEntry> entry_;           // of the library's mesh, looked up once
+    mutable std::shared_ptr<TriangleSource> source_;      // read once, when somebody asks
+    mutable std::shared_ptr<TriangleSource> former_;      // until then: the one before the mesh changed
+    mutable std::shared_ptr<const SurfaceMap> surfaces_;  // likewise, with what was asked for last
 };
 
 }  // namespace tactus

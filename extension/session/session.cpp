@@ -94,17 +94,35 @@ std::string check_material(const TouchMaterial& m) {
     return {};
 }
 
-std::string check_texture(const HeightImage* image) {
-    if (image && (image->columns == 0 || image->rows == 0 ||
-                  image->heights.size() != std::size_t{image->columns} * image->rows)) {
-        return "the touch material's texture has no pixels, or not as many as its size says: load the image "
-               "again";
+std::string check_images(const TouchImages& images) {
+    for (const TouchImage* image : {images.heights.get(), images.friction.get()}) {
+        if (image && (image->columns == 0 || image->rows == 0 ||
+                      image->values.size() != std::size_t{image->columns} * image->rows)) {
+            return "an image of the touch material has no pixels, or not as many as its size says: load the "
+                   "image again";
+        }
     }
     return {};
 }
 
-TouchMaterial with_texture(TouchMaterial material, const HeightImage* image) {
-    material.texture = image;
+std::string check_feel(const TouchMaterial& material, const TouchDetail* detail) {
+    std::string error = check_material(material);
+    if (error.empty() && detail) {
+        error = check_images(detail->images);
+        for (const std::optional<SurfaceFeel>& surface : detail->surfaces) {
+            if (error.empty() && surface) {
+                error = check_feel(surface->material, nullptr);
+            }
+            if (error.empty() && surface) {
+                error = check_images(surface->images);
+            }
+        }
+    }
+    return error;
+}
+
+TouchMaterial with_detail(TouchMaterial material, const TouchDetail* detail) {
+    material.detail = detail;
     return material;
 }
 
@@ -273,10 +291,7 @@ const SessionSettings& Session::settings() const {
 
 ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) {
     ReadyBody ready;
-    ready.error = check_material(addition.touch_material);
-    if (ready.error.empty()) {
-        ready.error = check_texture(addition.texture.get());
-    }
+    ready.error = check_feel(addition.touch_material, addition.detail.get());
     if (!ready.error.empty()) {
         return ready;
     }
@@ -305,8 +320,8 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(description);
     ready.error = ready.body.error();
-    ready.material = with_texture(addition.touch_material, addition.texture.get());
-    ready.texture = addition.texture;
+    ready.material = with_detail(addition.touch_material, addition.detail.get());
+    ready.detail = addition.detail;
     ready.layer = addition.description.collision.layer;
     ready.pose = addition.description.pose;
     ready.motion = description.motion;
@@ -335,7 +350,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
         impl_->note(call::AddBody{handle, call::Form::of(body), former});
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
-                                 std::move(body.touch), body.material, std::move(body.texture), body.layer,
+                                 std::move(body.touch), body.material, std::move(body.detail), body.layer,
                                  body.pose, body.motion, former, std::move(body.soft)});
     return {handle, {}};
 }
@@ -375,10 +390,10 @@ void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Ve
 }
 
 void Session::set_touch_material(SessionHandle body, const TouchMaterial& material,
-                                 std::shared_ptr<const HeightImage> texture) {
-    if (check_material(material).empty() && check_texture(texture.get()).empty()) {
-        const TouchMaterial complete = with_texture(material, texture.get());
-        impl_->send(command::SetTouchMaterial{body, complete, std::move(texture)});
+                                 std::shared_ptr<const TouchDetail> detail) {
+    if (check_feel(material, detail.get()).empty()) {
+        const TouchMaterial complete = with_detail(material, detail.get());
+        impl_->send(command::SetTouchMaterial{body, complete, std::move(detail)});
     }
 }
 
@@ -580,7 +595,7 @@ bool Session::collect() {
                 impl_->joints.give_back(remains.handle);
                 break;
             case Retired::Kind::form:
-            case Retired::Kind::texture:
+            case Retired::Kind::detail:
             case Retired::Kind::side:
                 break;
         }

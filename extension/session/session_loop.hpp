@@ -37,7 +37,7 @@ public:
         std::shared_ptr<const TouchShape> shape;
         std::shared_ptr<const TouchShape> former;  // form; its triangles may still be on their way
         bool takes_form = false;                   // `shape` is not in the touch scene yet
-        std::shared_ptr<const HeightImage> texture;
+        std::shared_ptr<const TouchDetail> detail;
         Motion motion = Motion::Static;
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
         Pose target;

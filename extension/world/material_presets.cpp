@@ -68,30 +68,30 @@ MaterialValues values_of(MaterialPreset preset) {
     return values;
 }
 
-std::shared_ptr<const HeightImage> grain() {
+std::shared_ptr<const TouchImage> grain() {
     static const auto image = [] {
-        auto made = std::make_shared<HeightImage>(HeightImage{grain_side, grain_side, {}});
+        auto made = std::make_shared<TouchImage>(TouchImage{grain_side, grain_side, {}});
         std::uint32_t random = 1;
         for (std::uint32_t i = 0; i < grain_side * grain_side; ++i) {
             random = random * 1664525u + 1013904223u;  // Numerical Recipes, 7.1
-            made->heights.push_back(static_cast<float>(random >> 8) * 0x1p-24f);
+            made->values.push_back(static_cast<float>(random >> 8) * 0x1p-24f);
         }
         return made;
     }();
     return image;
 }
 
-std::shared_ptr<const HeightImage> height_image(std::uint32_t columns, std::uint32_t rows,
-                                                std::span<const std::uint8_t> bytes) {
-    auto made = std::make_shared<HeightImage>();
+std::shared_ptr<const TouchImage> touch_image(std::uint32_t columns, std::uint32_t rows,
+                                              std::span<const std::uint8_t> bytes) {
+    auto made = std::make_shared<TouchImage>();
     made->columns = columns;
     made->rows = rows;
-    made->heights.resize(std::size_t{columns} * rows);
-    if (bytes.size() != made->heights.size() * sizeof(float)) {
+    made->values.resize(std::size_t{columns} * rows);
+    if (bytes.size() != made->values.size() * sizeof(float)) {
         return nullptr;
     }
-    std::memcpy(made->heights.data(), bytes.data(), bytes.size());
-    for (float& height : made->heights) {
+    std::memcpy(made->values.data(), bytes.data(), bytes.size());
+    for (float& height : made->values) {
         height = height >= 0.0f ? std::min(height, 1.0f) : 0.0f;
     }
     return made;

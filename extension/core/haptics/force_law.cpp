@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_spring.hpp"
 #include "core/haptics/surface_way.hpp"
 
@@ -64,7 +65,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         if (force.contact_count == HandForce::max_contacts) {
             break;
         }
-        const auto [wall, wanted, secant] = press(scene.body(contact.body).material, stretched, safe);
+        const auto [wall, wanted, secant] = press(*feel_at(scene, contact).material, stretched, safe);
         const Vec3 surface_way = way_of_surface(scene, contact);
         const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
         const double spring = secant * contact.pressure;
@@ -72,6 +73,7 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
         const Vec3 held = slide * (contact.pressure / all_pressure);
         ContactForce& part = force.contacts[force.contact_count++];
         part.body = contact.body;
+        part.feature = contact.feature;
         part.point = contact.point;
         part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * secant;
         part.wall = wall;

@@ -17,6 +17,7 @@ enum class ForceLaw {
 
 struct ContactForce {
     int body = -1;      // slot in the TouchScene
+    FeatureId feature;  // of the scene, now
     Vec3 point{0.0};    // in the world (unit: meters)
     Vec3 on_hand{0.0};  // (unit: newtons); the body gets the opposite
     // That has pressed, as stiff as it is at this depth: the material's, or what of it is safe.

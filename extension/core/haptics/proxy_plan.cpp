@@ -6,6 +6,7 @@
 
 #include "core/haptics/friction.hpp"
 #include "core/haptics/proxy.hpp"
+#include "core/haptics/surface_feel.hpp"
 
 namespace tactus {
 
@@ -107,9 +108,15 @@ double Proxy::friction_limit(const ConstrainedStep& step, double dropped) const 
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts_[step.pressing[i]];
         const ScenePart& placed = scene_->parts()[contact.feature.part];
-        const TouchMaterial& material = scene_->body(static_cast<int>(placed.body)).material;
+        const auto body = static_cast<int>(placed.body);
+        const Feel feel = feel_at(*scene_, body, contact.feature);
         const bool at_rest = contact.gap <= 4.0 * tolerances().skin + dropped;
-        const double coefficient = friction_at(material, sliding_, slide_speed_);
+        double coefficient = friction_at(*feel.material, sliding_, slide_speed_);
+        if (feel.friction()) {
+            const double rest = settings_.radius + tolerances().skin;
+            coefficient *= friction_share(*scene_, feel, body, contact.feature,
+                                          position_ - contact.normal * (contact.gap + rest), contact.normal);
+        }
         limit += at_rest ? coefficient * step.pressure[i] : 0.0;
     }
     return limit;
@@ -122,7 +129,8 @@ void Proxy::heed_speed(const ConstrainedStep& step, const Vec3& way) {
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts_[step.pressing[i]];
         const ScenePart& placed = scene_->parts()[contact.feature.part];
-        fall += step.pressure[i] * steepest_fall(scene_->body(static_cast<int>(placed.body)).material);
+        fall += step.pressure[i] *
+                steepest_fall(*feel_at(*scene_, static_cast<int>(placed.body), contact.feature).material);
         along -= contact.normal * glm::dot(along, contact.normal);
     }
     if (fall <= 0.0) {
