@@ -12,6 +12,7 @@
 #include "nodes/mesh_source.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/scene_warnings.hpp"
+#include "nodes/skin_reading.hpp"
 #include "realtime/workers.hpp"
 
 namespace tactus {
@@ -45,6 +46,7 @@ void HapticMesh::forget_triangles() {
 
 void HapticMesh::mesh_changed() {
     notify_property_list_changed();
+    set_process_internal(is_following());
     forget_triangles();
 }
 
@@ -77,7 +79,7 @@ std::shared_ptr<TriangleSource> HapticMesh::source() const {
         source_ = field_->surface();
         former_.reset();
     }
-    if (source_ != nullptr || (mesh_.is_null() && library_mesh_.is_empty())) {
+    if (source_ != nullptr || is_following() || (mesh_.is_null() && library_mesh_.is_empty())) {
         return source_;
     }
     source_ = mesh_.is_valid()
@@ -128,12 +130,56 @@ std::shared_ptr<const SurfaceMap> HapticMesh::surfaces(bool by_uv) const {
     return surfaces_;
 }
 
+void HapticMesh::instance_changed() {
+    set_process_internal(is_following());
+    followed_.unref();
+    skin_.reset();
+    forget_triangles();
+    follow_instance();
+}
+
+// As it is drawn in this frame. What it has been is given to workers to be put in that pose, and to bodies to
+// be swept against the way there.
+void HapticMesh::follow_instance() {
+    const auto* instance = is_following() && is_inside_tree()
+                               ? Object::cast_to<MeshInstance3D>(get_node_or_null(mesh_instance_))
+                               : nullptr;
+    const Ref<Mesh> mesh = instance != nullptr ? instance->get_mesh() : Ref<Mesh>();
+    const bool is_other = mesh != followed_;
+    if (is_other) {
+        followed_ = mesh;
+        skin_ = mesh.is_valid() ? skinned_mesh_of(mesh) : nullptr;
+    }
+    if (skin_ == nullptr) {
+        if (source_ != nullptr) {
+            forget_triangles();
+        }
+        return;
+    }
+    SkinPose pose = skin_pose_of(*instance, *this);
+    if (source_ != nullptr && !is_other && pose == pose_) {
+        return;
+    }
+    pose_ = std::move(pose);
+    const std::shared_ptr<TriangleSource> before = source_ != nullptr ? source_ : former_;
+    source_ = source_of(skin_, pose_);
+    if (before != nullptr) {
+        source_->succeed(before);
+    }
+    former_.reset();
+    ++change_count;
+}
+
 ShapeReading HapticMesh::read(const SceneFrame& body_scale, bool by_uv) const {
     ShapeReading reading;
     const std::shared_ptr<TriangleSource> triangles = source();
     if (triangles == nullptr) {
-        reading.error = "it has no mesh: set 'mesh', 'field', or 'library_mesh' to one of " +
-                        from_godot(String(", ").join(mesh_library_names()));
+        reading.error =
+            is_following() ? "there is no mesh to follow: let 'mesh_instance' lead to a MeshInstance3D that "
+                             "has one"
+                           : "it has no mesh: set 'mesh', 'field', 'mesh_instance', or 'library_mesh' to one "
+                             "of " +
+                                 from_godot(String(", ").join(mesh_library_names()));
         return reading;
     }
     const SceneFrame frame = compose(body_scale, frame_of(get_transform()));
@@ -212,8 +258,12 @@ PackedStringArray HapticMesh::_get_configuration_warnings() const {
 void HapticMesh::_notification(int what) {
     if (what == NOTIFICATION_ENTER_TREE) {
         set_notify_local_transform(true);
+        set_process_internal(is_following());
         watch_warnings(*this);
+        follow_instance();
         ++change_count;
+    } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
+        follow_instance();
     } else if (what == NOTIFICATION_EXIT_TREE || what == NOTIFICATION_LOCAL_TRANSFORM_CHANGED) {
         ++change_count;
     }
