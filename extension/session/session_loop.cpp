@@ -357,10 +357,8 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
             -part.on_hand, part.point, part.wall.stiffness, part.wall.damping, slot.hand_velocity,
             sticks,        {}};
         if (pressed.soft) {
-            const auto touching = slot.proxy->touching();
-            if (static_cast<std::size_t>(i) < touching.size() && spring.stiffness > 0.0) {
-                pressed.soft->press(scene_.body(part.body).pose, touching[static_cast<std::size_t>(i)],
-                                    spring);
+            if (spring.stiffness > 0.0) {
+                pressed.soft->press(scene_.body(part.body).pose, part.feature, spring);
             }
             continue;
         }
@@ -438,7 +436,7 @@ void SessionLoop::publish(Nanoseconds now) {
     out.tick = tick_;
     out.time = now;
     out.awake_bodies = physics_.awake_count();
-    out.slowed_bodies = physics_.slowed_count();
+    out.slowed_bodies = physics_.slowed_count() + slowed_soft_;
     out.physics_steps = physics_.steps();
     out.proxy_count = 0;
     for (std::size_t i = 0; i < proxies_.size(); ++i) {

@@ -262,6 +262,7 @@ private:
     void find_obstacles(const Body& giving);
     bool place_obstacles(const Body& giving);
     void push_obstacles(const Body& giving);
+    void step_soft(SessionHandle handle);
     void step_soft();
     void guess();
     void publish(Nanoseconds now);
@@ -280,6 +281,8 @@ private:
     std::vector<SessionHandle> travelling_;
     std::vector<SessionHandle> forming_;   // bodies that take another form in the coming tick
     std::vector<SessionHandle> giving_;    // bodies that give
+    std::size_t soft_turn_ = 0;            // of those, the first in the next tick
+    std::size_t slowed_soft_ = 0;          // of those, left out in the last
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<JointId> joints_;          // by handle
