@@ -230,12 +230,12 @@ struct SoftToolRig : SoftRig {
     const ToolState& tool() { return newest().tools[0]; }
     // Of any sphere's centre, over its radius; below 0 where it is inside of the surface.
     double least_room(double height = 0.04) {
-        const TriangleMesh now = surface(height);
+        const TriangleMesh form = surface(height);
         double least = 1e9;
         for (const ToolSphere& sphere : brick->spheres) {
             const Vec3 center = to_parent(tool().pose, sphere.center);
-            const double away = distance_to_surface(now, center) / sphere.radius;
-            least = std::min(least, winds_around(now, center) ? -away : away);
+            const double away = distance_to_surface(form, center) / sphere.radius;
+            least = std::min(least, winds_around(form, center) ? -away : away);
         }
         return least;
     }
