@@ -141,7 +141,7 @@ void HapticMesh::instance_changed() {
 // As it is drawn in this frame. What it has been is given to workers to be put in that pose, and to bodies to
 // be swept against the way there.
 void HapticMesh::follow_instance() {
-    const auto* instance = is_following() && is_inside_tree()
+    auto* instance = is_following() && is_inside_tree()
                                ? Object::cast_to<MeshInstance3D>(get_node_or_null(mesh_instance_))
                                : nullptr;
     const Ref<Mesh> mesh = instance != nullptr ? instance->get_mesh() : Ref<Mesh>();

@@ -48,7 +48,7 @@ SkinCollector::Surface surface_of(const Ref<Mesh>& mesh, int32_t index, bool are
 
 // Between two nodes through what stands above both, where there is something: what is moved about above them
 // leaves no rounding in it.
-Transform3D seen_from(const Node3D& node, const Node3D& from) {
+Transform3D seen_from(Node3D& node, const Node3D& from) {
     const auto up_to = [](const Node3D& start, const Node* end) {
         Transform3D place = start.get_transform();
         for (const Node* above = start.get_parent(); above != end && above != nullptr;
@@ -81,7 +81,7 @@ std::shared_ptr<const SkinnedMesh> skinned_mesh_of(const Ref<Mesh>& mesh) {
     return skinned->rest.triangles.empty() ? nullptr : skinned;
 }
 
-SkinPose skin_pose_of(const MeshInstance3D& instance, const Node3D& from) {
+SkinPose skin_pose_of(MeshInstance3D& instance, const Node3D& from) {
     SkinPose pose;
     pose.place = frame_of(seen_from(instance, from));
     for (int32_t i = 0; i < instance.get_blend_shape_count(); ++i) {

@@ -13,6 +13,6 @@ namespace tactus {
 std::shared_ptr<const SkinnedMesh> skinned_mesh_of(const godot::Ref<godot::Mesh>& mesh);
 
 // As it is drawn now, in the frame of `seen_from`.
-SkinPose skin_pose_of(const godot::MeshInstance3D& instance, const godot::Node3D& seen_from);
+SkinPose skin_pose_of(godot::MeshInstance3D& instance, const godot::Node3D& seen_from);
 
 }  // namespace tactus
