@@ -142,8 +142,8 @@ void HapticMesh::instance_changed() {
 // be swept against the way there.
 void HapticMesh::follow_instance() {
     auto* instance = is_following() && is_inside_tree()
-                               ? Object::cast_to<MeshInstance3D>(get_node_or_null(mesh_instance_))
-                               : nullptr;
+                         ? Object::cast_to<MeshInstance3D>(get_node_or_null(mesh_instance_))
+                         : nullptr;
     const Ref<Mesh> mesh = instance != nullptr ? instance->get_mesh() : Ref<Mesh>();
     const bool is_other = mesh != followed_;
     if (is_other) {
