@@ -382,7 +382,7 @@ def packet(data: bytes) -> tuple[Fields, str, Fields]:
 
 def description(data: bytes) -> Fields:
     r = Reader(data)
-    read = {"object": r.object(), "name": _name(r), "touch": _touch(r), "heights": _image(r), "friction": _image(r)} | _body(r)
+    read = {"object": r.object(), "name": _name(r), "touch": _touch(r), "height_image": _image(r), "friction_image": _image(r)} | _body(r)
     _require(read["object"] < FIRST_JOINT, "the number of a joint")
     r.end()
     return read
