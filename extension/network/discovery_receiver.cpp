@@ -252,7 +252,7 @@ std::optional<DiscoveryEvent> DiscoveryReceiver::accept(Reading& reading) {
     }
     DiscoveryEvent event{DiscoveryEvent::Kind::described, reading.object, std::move(reading.description),
                          reading.joint};
-    event.description.touch.texture = event.description.texture.get();
+    event.description.touch.detail = event.description.detail.get();
     return event;
 }
 

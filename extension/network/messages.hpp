@@ -270,8 +270,8 @@ struct ObjectDescription {
     std::string name;  // UTF-8, at most max_name_bytes: the node's path below its HapticWorld
     BodyDescription body;
     std::vector<PlacedShape> touch_shapes;  // what is touched, in the body's frame; empty: the body's shapes
-    TouchMaterial touch;                    // its texture, if any, points to `texture`
-    std::shared_ptr<const HeightImage> texture;
+    TouchMaterial touch;                    // its detail, if any, points to `detail`
+    std::shared_ptr<const TouchDetail> detail;  // but for surfaces
 };
 inline constexpr std::size_t max_name_bytes = 1024;
 

@@ -249,6 +249,7 @@ void touch_fields(auto& s, auto& touch) {
     not_negative(s, touch.damping);
     not_negative(s, touch.static_friction);
     not_negative(s, touch.dynamic_friction);
+    s.flag(touch.by_uv);
     positive(s, touch.texture_size);
     not_negative(s, touch.texture_depth);
     not_negative(s, touch.magnet_force);
@@ -262,19 +263,38 @@ void touch_fields(auto& s, auto& touch) {
     not_negative(s, touch.impact_strength);
     not_negative(s, touch.impact_frequency);
     positive(s, touch.impact_decay);
+    not_negative(s, touch.stribeck_speed);
+    positive(s, touch.stiffening);
+    positive(s, touch.stiffening_depth);
 }
 
 template <typename Stream>
-void texture_fields(Stream& s, auto& texture) {
-    bool present = texture != nullptr;
+void image_fields(Stream& s, auto& pointer) {
+    bool present = pointer != nullptr;
     s.flag(present);
     if (!s.good() || !present) {
         return;
     }
-    shared(s, texture, [](auto& stream, auto& image) {
+    shared(s, pointer, [](auto& stream, auto& image) {
         const std::size_t size = grid_size(stream, image.columns, image.rows, 1);
-        height_list(stream, image.heights, size, 0.0f, 1.0f);
+        height_list(stream, image.values, size, 0.0f, 1.0f);
     });
+}
+
+// What surfaces of a mesh have of their own is not told: it is felt as the body is.
+template <typename Stream>
+void detail_fields(Stream& s, auto& detail) {
+    TouchImages images;
+    if (detail != nullptr) {
+        images = detail->images;
+    }
+    image_fields(s, images.heights);
+    image_fields(s, images.friction);
+    if constexpr (Stream::reads) {
+        if (images.heights || images.friction) {
+            detail = std::make_shared<const TouchDetail>(TouchDetail{std::move(images), {}});
+        }
+    }
 }
 
 template <typename Stream>
@@ -283,7 +303,7 @@ void description_fields(Stream& s, auto& description) {
     s.require(description.object < first_joint);
     texts(s, description.name);
     touch_fields(s, description.touch);
-    texture_fields(s, description.texture);
+    detail_fields(s, description.detail);
     body_fields(s, description.body);
     shape_list(s, description.touch_shapes);
 }
@@ -312,7 +332,7 @@ Refusal decode_description(std::span<const std::byte> bytes, ObjectDescription& 
     if (reader.good() && reader.remaining() != 0) {
         return Refusal::oversized;
     }
-    description.touch.texture = description.texture.get();
+    description.touch.detail = description.detail.get();
     return reader.refusal();
 }
 

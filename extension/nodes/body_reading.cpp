@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/static_body3d.hpp>
 
+#include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_soft_body.hpp"
 
@@ -86,7 +87,8 @@ BodyForm read_form(CollisionObject3D& body) {
         take(read_shape(shape, compose(scaling, frame_of(place))), owner, form, form.meshes);
     });
     if (const HapticMesh* mesh = haptic_mesh_of(body)) {
-        take(mesh->read(scaling), mesh, form, form.touched);
+        const auto* material = Object::cast_to<HapticMaterial>(material_of(body).ptr());
+        take(mesh->read(scaling, material != nullptr && material->is_laid_by_uv()), mesh, form, form.touched);
     }
     if (const HapticSoftBody* soft = haptic_soft_body_of(body)) {
         const String problem = soft->problem();

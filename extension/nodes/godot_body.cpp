@@ -26,14 +26,22 @@ constexpr std::uint32_t all_turns = 0b111000;
 void read_touch(const Ref<PhysicsMaterial>& material, const BodyDefaults& defaults, BodyValues& values) {
     if (const auto* haptic = Object::cast_to<HapticMaterial>(material.ptr())) {
         values.touch = haptic->touch();
-        values.texture = haptic->heights();
+        values.detail = haptic->detail();
         return;
     }
     values.touch = defaults.touch;
-    values.texture = defaults.texture;
+    values.detail = defaults.detail;
     if (material.is_valid()) {
         values.touch.static_friction = values.touch.dynamic_friction =
             std::max(0.0, static_cast<double>(material->get_friction()));
+    }
+}
+
+void read_surfaces(const HapticMesh& mesh, BodyValues& values) {
+    std::vector<std::optional<SurfaceFeel>> feels = mesh.surface_feels();
+    if (!feels.empty()) {
+        values.detail = std::make_shared<const TouchDetail>(
+            TouchDetail{values.detail ? values.detail->images : TouchImages(), std::move(feels)});
     }
 }
 
@@ -52,10 +60,6 @@ Motion motion_of(const CollisionObject3D& body) {
     const bool is_told = Object::cast_to<AnimatableBody3D>(&body) != nullptr ||
                          Object::cast_to<CharacterBody3D>(&body) != nullptr;
     return is_told ? Motion::Kinematic : Motion::Static;
-}
-
-std::uint64_t id_of(const Ref<PhysicsMaterial>& material) {
-    return material.is_valid() ? material->get_instance_id() : 0;
 }
 
 }  // namespace
@@ -93,6 +97,11 @@ SceneSpeed GodotBody::speed() const {
 
 BodyMakings GodotBody::makings() const {
     BodyMakings makings;
+    const HapticMesh* mesh = haptic_mesh_of(node_);
+    if (mesh != nullptr) {
+        const auto* material = Object::cast_to<HapticMaterial>(material_of(node_).ptr());
+        makings.textured_by_uv = material != nullptr && material->is_laid_by_uv();
+    }
     if (rigid_ == nullptr) {
         return makings;
     }
@@ -101,7 +110,6 @@ BodyMakings GodotBody::makings() const {
     }
     makings.locks |= rigid_->is_lock_rotation_enabled() ? all_turns : 0u;
     makings.mass = rigid_->get_mass();
-    const HapticMesh* mesh = haptic_mesh_of(node_);
     if (mesh != nullptr && mesh->is_giving_mass()) {
         makings.mass = mesh->library_mass(scaling_of(frame()));
         makings.solid_of_mesh = true;
@@ -126,12 +134,15 @@ ShapeKey GodotBody::shape_key() const {
 
 BodyValues GodotBody::values(const BodyDefaults& defaults) {
     const Ref<PhysicsMaterial> material = material_of(node_);
-    if (watch_ != nullptr && material_ != id_of(material)) {
+    if (watch_ != nullptr && materials_ != material_resources()) {
         listen();
     }
     BodyValues values;
     values.motion = motion_of(node_);
     read_touch(material, defaults, values);
+    if (const HapticMesh* mesh = haptic_mesh_of(node_)) {
+        read_surfaces(*mesh, values);
+    }
     if (material.is_valid()) {
         values.surface = {std::max(0.0, static_cast<double>(material->get_friction())),
                           std::clamp(static_cast<double>(material->get_bounce()), 0.0, 1.0),
@@ -151,6 +162,17 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
     return values;
 }
 
+std::vector<Ref<Resource>> GodotBody::material_resources() const {
+    std::vector<Ref<Resource>> resources;
+    if (const HapticMesh* mesh = haptic_mesh_of(node_)) {
+        resources = mesh->surface_resources();
+    }
+    if (const Ref<PhysicsMaterial> material = material_of(node_); material.is_valid()) {
+        resources.push_back(material);
+    }
+    return resources;
+}
+
 void GodotBody::hold_still() {
     if (rigid_ != nullptr) {
         tactus::hold_still(*rigid_, true);
@@ -168,11 +190,8 @@ void GodotBody::listen() {
     for_each_shape(node_, [&resources](const Ref<Shape3D>& shape, const Transform3D&, Object*) {
         resources.push_back(shape);
     });
-    const Ref<PhysicsMaterial> material = material_of(node_);
-    material_ = id_of(material);
-    if (material.is_valid()) {
-        resources.push_back(material);
-    }
+    materials_ = material_resources();
+    resources.insert(resources.end(), materials_.begin(), materials_.end());
     watch_->listen_to(std::move(resources));
 }
 

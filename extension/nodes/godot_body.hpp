@@ -51,6 +51,7 @@ private:
     void has_moved() override { news_->moved.push_back(id_); }
     void has_changed() override { news_->changed.push_back(id_); }
     void is_in_tree(bool now) override;
+    std::vector<godot::Ref<godot::Resource>> material_resources() const;
     void watch_has_gone() override { watch_ = nullptr; }
 
     std::uint64_t id_;
@@ -59,7 +60,7 @@ private:
     BodyWatch* watch_ = nullptr;      // null: Godot takes none at the moment, or it has gone
     bool is_in_tree_ = false;         // while there is a watch; likewise the next one
     bool is_below_world_ = false;     // directly
-    std::uint64_t material_ = 0;      // id of the PhysicsMaterial that it listens to; 0: none
+    std::vector<godot::Ref<godot::Resource>> materials_;  // that it listens to
     const GodotScene& scene_;
     std::shared_ptr<BodyNews> news_;
 };

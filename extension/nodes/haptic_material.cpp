@@ -11,15 +11,15 @@ using namespace godot;
 
 namespace {
 
-std::shared_ptr<const HeightImage> heights_of(const Ref<Texture2D>& texture) {
+std::shared_ptr<const TouchImage> image_of(const Ref<Texture2D>& texture) {
     const Ref<Image> image = texture->get_image();
     if (image.is_null() || image->is_empty()) {
         return nullptr;
     }
     const PackedByteArray bytes = red_channel(image);
-    return height_image(static_cast<std::uint32_t>(image->get_width()),
-                        static_cast<std::uint32_t>(image->get_height()),
-                        {bytes.ptr(), static_cast<std::size_t>(bytes.size())});
+    return touch_image(static_cast<std::uint32_t>(image->get_width()),
+                       static_cast<std::uint32_t>(image->get_height()),
+                       {bytes.ptr(), static_cast<std::size_t>(bytes.size())});
 }
 
 }  // namespace
@@ -47,26 +47,40 @@ HapticMaterial::Preset HapticMaterial::get_preset() const {
 
 // An image that is made in the background, as a NoiseTexture2D's is, comes late and says so.
 void HapticMaterial::texture_changed() {
-    heights_.reset();
+    read_.heights.reset();
     emit_changed();
 }
 
-std::shared_ptr<const HeightImage> HapticMaterial::heights() const {
-    if (!(touch_.texture_depth > 0.0)) {
-        return nullptr;
+void HapticMaterial::friction_changed() {
+    read_.friction.reset();
+    emit_changed();
+}
+
+TouchImages HapticMaterial::images() const {
+    const auto read = [](const Ref<Texture2D>& texture, std::shared_ptr<const TouchImage>& image) {
+        if (image == nullptr && texture.is_valid()) {
+            image = image_of(texture);
+        }
+        return image;
+    };
+    TouchImages images;
+    if (touch_.texture_depth > 0.0) {
+        images.heights = texture_.is_null() ? grain() : read(texture_, read_.heights);
     }
-    if (texture_.is_null()) {
-        return grain();
-    }
-    if (heights_ == nullptr) {
-        heights_ = heights_of(texture_);
-    }
-    return heights_;
+    images.friction = read(friction_, read_.friction);
+    return images;
+}
+
+std::shared_ptr<const TouchDetail> HapticMaterial::detail() const {
+    TouchImages all = images();
+    return all == TouchImages() ? nullptr
+                                : std::make_shared<const TouchDetail>(TouchDetail{std::move(all), {}});
 }
 
 TouchMaterial HapticMaterial::touch() const {
     TouchMaterial touch = touch_;
     touch.static_friction = std::max(touch.static_friction, touch.dynamic_friction);
+    touch.by_uv = mapping_ == TEXTURE_MAPPING_UV;
     return touch;
 }
 

@@ -34,25 +34,33 @@ public:
     // The one that was chosen; where none was, the one whose values these are.
     Preset get_preset() const;
 
-    // Ready for use, without the texture: static friction is never below dynamic friction.
+    enum TextureMapping : int64_t { TEXTURE_MAPPING_FRAME, TEXTURE_MAPPING_UV };
+
+    // Ready for use, without images: static friction is never below dynamic friction.
     TouchMaterial touch() const;
-    // The texture's heights; null where it has no depth.
-    std::shared_ptr<const HeightImage> heights() const;
+    TouchImages images() const;
+    // The same for a body; null where there are none.
+    std::shared_ptr<const TouchDetail> detail() const;
+    bool is_laid_by_uv() const { return mapping_ == TEXTURE_MAPPING_UV && (images() != TouchImages()); }
 
 protected:
     static void _bind_methods();
 
 private:
     void texture_changed();
+    void friction_changed();
 
     MaterialValues values() const { return {touch_, get_friction(), get_bounce()}; }
 
     TouchMaterial touch_;
     PresetChoice choice_;
     godot::Ref<godot::Texture2D> texture_;
-    mutable std::shared_ptr<const HeightImage> heights_;  // read once, when somebody asks
+    godot::Ref<godot::Texture2D> friction_;
+    TextureMapping mapping_ = TEXTURE_MAPPING_FRAME;
+    mutable TouchImages read_;  // each once, when somebody asks
 };
 
 }  // namespace tactus
 
 VARIANT_ENUM_CAST(tactus::HapticMaterial::Preset);
+VARIANT_ENUM_CAST(tactus::HapticMaterial::TextureMapping);

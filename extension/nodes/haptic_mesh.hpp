@@ -2,14 +2,17 @@
 
 #include <godot_cpp/classes/mesh.hpp>
 #include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/variant/node_path.hpp>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "nodes/haptic_field.hpp"
+#include "nodes/haptic_material.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
+#include "world/skinned_mesh.hpp"
 
 namespace tactus {
 
@@ -34,7 +37,12 @@ public:
     godot::String problem() const;
     // The surface in the frame of the body it belongs to; `body_scale` is what the body's own frame leaves
     // out. Whether its triangles are sound shows when they are built.
-    ShapeReading read(const SceneFrame& body_scale) const;
+    // With texture coordinates where the body's material asks for them, or one of its own does.
+    ShapeReading read(const SceneFrame& body_scale, bool by_uv = false) const;
+
+    // What its surfaces feel like where they are not as the body; none: all are.
+    std::vector<std::optional<SurfaceFeel>> surface_feels() const;
+    std::vector<godot::Ref<godot::Resource>> surface_resources() const;
 
     // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
     // kilograms).
@@ -54,7 +62,12 @@ protected:
 private:
     // Null where nothing is named; a source with an error where it cannot be read.
     std::shared_ptr<TriangleSource> source() const;
+    bool is_following() const { return mesh_.is_null() && field_.is_null() && !mesh_instance_.is_empty(); }
+    void follow_instance();
+    void instance_changed();
+    std::shared_ptr<const SurfaceMap> surfaces(bool by_uv) const;
     const LibraryEntry& entry() const;
+    godot::String problem_of_surfaces() const;
     void mesh_changed();
     void library_changed();
     void form_changed();
@@ -62,13 +75,20 @@ private:
 
     godot::Ref<godot::Mesh> mesh_;
     godot::Ref<HapticField> field_;
+    godot::NodePath mesh_instance_;
     godot::String library_mesh_;
     double smoothing_angle_ = 0.0;  // (unit: radians)
     bool one_sided_ = false;
+    godot::Array surface_materials_;
     bool use_library_mass_ = false;
     mutable std::optional<LibraryEntry> entry_;       // of the library's mesh, looked up once
     mutable std::shared_ptr<TriangleSource> source_;  // read once, when somebody asks
     mutable std::shared_ptr<TriangleSource> former_;  // until then: the one before the mesh changed
+    // What it follows, as it was when it was looked at last.
+    godot::Ref<godot::Mesh> followed_;
+    std::shared_ptr<const SkinnedMesh> skin_;
+    SkinPose pose_;
+    mutable std::shared_ptr<const SurfaceMap> surfaces_;  // likewise, with what was asked for last
 };
 
 }  // namespace tactus

@@ -100,7 +100,7 @@ BodyDefaults HapticWorld::body_defaults() const {
     defaults.angular_damping = project_number("physics/3d/default_angular_damp", defaults.angular_damping);
     if (default_material_.is_valid()) {
         defaults.touch = default_material_->touch();
-        defaults.texture = default_material_->heights();
+        defaults.detail = default_material_->detail();
     }
     return defaults;
 }

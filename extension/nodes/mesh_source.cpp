@@ -1,5 +1,6 @@
 #include "nodes/mesh_source.hpp"
 
+#include <algorithm>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
@@ -8,6 +9,7 @@
 #include <godot_cpp/variant/dictionary.hpp>
 #include <godot_cpp/variant/packed_byte_array.hpp>
 #include <godot_cpp/variant/packed_int32_array.hpp>
+#include <godot_cpp/variant/packed_vector2_array.hpp>
 #include <optional>
 #include <vector>
 
@@ -19,6 +21,7 @@ using namespace godot;
 
 namespace {
 
+constexpr int32_t max_surfaces = 256;      // of a mesh, in Godot
 constexpr std::int64_t known_version = 1;  // of the layout of a surface's bytes: Godot 4.2 to 4.6
 
 static_assert(sizeof(Vector3) == sizeof(PackedPlace), "a Godot of single precision");
@@ -105,6 +108,30 @@ std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
         }
     }
     return source_of(std::move(surfaces));
+}
+
+std::shared_ptr<const SurfaceMap> surface_map_of(const Ref<Mesh>& mesh, bool surfaces, bool uv) {
+    auto map = std::make_shared<SurfaceMap>();
+    for (int32_t i = 0; is_of_triangles(mesh) && i < mesh->get_surface_count(); ++i) {
+        const Array arrays = mesh->surface_get_arrays(i);
+        const PackedInt32Array indices = arrays[Mesh::ARRAY_INDEX];
+        const PackedVector3Array corners = arrays[Mesh::ARRAY_VERTEX];
+        const PackedVector2Array places = arrays[Mesh::ARRAY_TEX_UV];
+        const int64_t count = (indices.is_empty() ? corners.size() : indices.size()) / 3;
+        if (surfaces) {
+            map->surface.resize(map->surface.size() + static_cast<std::size_t>(count),
+                                static_cast<std::uint8_t>(std::min(i, max_surfaces - 1)));
+        }
+        const auto place = [&](int64_t corner) -> std::array<float, 2> {
+            const int64_t index = indices.is_empty() ? corner : indices[corner];
+            return index < places.size() ? std::array{places[index].x, places[index].y}
+                                         : std::array{0.0F, 0.0F};
+        };
+        for (int64_t t = 0; uv && t < count; ++t) {
+            map->uv.push_back({place(3 * t), place(3 * t + 2), place(3 * t + 1)});
+        }
+    }
+    return map->surface.empty() && map->uv.empty() ? nullptr : map;
 }
 
 std::shared_ptr<TriangleSource> source_of(const PackedVector3Array& faces) {

@@ -13,6 +13,9 @@
 namespace tactus {
 
 std::shared_ptr<TriangleSource> source_of(const godot::Ref<godot::Mesh>& mesh);
+// Of its triangles as source_of() reads them: which surface they belong to, and their texture coordinates.
+// Where one of its surfaces has none, its triangles have those of one point.
+std::shared_ptr<const SurfaceMap> surface_map_of(const godot::Ref<godot::Mesh>& mesh, bool surfaces, bool uv);
 std::shared_ptr<TriangleSource> source_of(const godot::PackedVector3Array& faces);
 
 }  // namespace tactus

@@ -135,7 +135,7 @@ void WorldRun::look_at_scene() {
 void WorldRun::synchronise_bodies(double seconds) {
     running_.push_for(seconds);
     const BodyDefaults defaults = world_.body_defaults();
-    if (!same_values(defaults.touch, defaults_.touch) || defaults.texture != defaults_.texture) {
+    if (!same_values(defaults.touch, defaults_.touch) || !same_detail(defaults.detail, defaults_.detail)) {
         bodies_.mirrors().note_all_changed();
     }
     defaults_ = defaults;

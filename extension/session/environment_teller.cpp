@@ -23,7 +23,7 @@ PreparedDiscovery prepared(SessionHandle body, const std::string& name, const Bo
     description.body.angular_velocity = motion.angular_velocity;
     description.touch_shapes = addition.touch_shapes;
     description.touch = addition.touch_material;
-    description.texture = addition.texture;
+    description.detail = addition.detail;
     return prepare_discovery(description);
 }
 

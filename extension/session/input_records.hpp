@@ -26,7 +26,7 @@ struct Form {
     BodyDescription description;
     std::vector<PlacedShape> touch_shapes;
     TouchMaterial touch_material;
-    std::shared_ptr<const HeightImage> texture;
+    std::shared_ptr<const TouchDetail> detail;
     // Of its trees, one for each part. One whose number has been there is that tree, refitted: made anew it
     // would touch alike, but not to the last bit.
     std::vector<std::uint64_t> lineages;
@@ -35,7 +35,7 @@ struct Form {
     static Form of(const ReadyBody& body) {
         const BodyAddition& source = body.source;
         Form form{
-            source.description, source.touch_shapes, source.touch_material, source.texture, {}, nullptr};
+            source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr};
         if (source.soft) {
             form.soft = {source.soft, &source.soft->design};
             return form;
@@ -212,15 +212,23 @@ inline constexpr int members<PlaneShape> = 2;
 template <>
 inline constexpr int members<ConvexHullShape> = 1;
 template <>
-inline constexpr int members<MeshShape> = 3;
+inline constexpr int members<MeshShape> = 4;
 template <>
 inline constexpr int members<HeightFieldShape> = 4;
 template <>
 inline constexpr int members<PlacedShape> = 2;
 template <>
-inline constexpr int members<HeightImage> = 3;
+inline constexpr int members<TouchImage> = 3;
 template <>
-inline constexpr int members<TouchMaterial> = 18;
+inline constexpr int members<TouchImages> = 2;
+template <>
+inline constexpr int members<SurfaceFeel> = 2;
+template <>
+inline constexpr int members<TouchDetail> = 2;
+template <>
+inline constexpr int members<SurfaceMap> = 2;
+template <>
+inline constexpr int members<TouchMaterial> = 22;
 template <>
 inline constexpr int members<SurfaceMaterial> = 4;
 template <>

@@ -253,7 +253,7 @@ ReadyBody InputReplay::prepared(const call::Form& form) {
     addition.description = form.description;
     addition.touch_shapes = form.touch_shapes;
     addition.touch_material = form.touch_material;
-    addition.texture = form.texture;
+    addition.detail = form.detail;
     return Session::prepare_body(addition);
 }
 
@@ -359,7 +359,7 @@ void InputReplay::carry_out(const command::SetBodyVelocity& c) {
     session_->set_body_velocity(c.handle, c.linear, c.angular);
 }
 void InputReplay::carry_out(const command::SetTouchMaterial& c) {
-    session_->set_touch_material(c.handle, c.material, c.texture);
+    session_->set_touch_material(c.handle, c.material, c.detail);
 }
 void InputReplay::carry_out(const command::SetBodySurface& c) {
     session_->set_body_surface(c.handle, c.surface);

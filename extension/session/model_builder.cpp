@@ -31,7 +31,7 @@ BodyAddition addition_of(const ObjectDescription& description, const Pose& frame
     addition.description.angular_velocity = motion.angular_velocity;
     addition.touch_shapes = description.touch_shapes;
     addition.touch_material = description.touch;
-    addition.texture = description.texture;
+    addition.detail = description.detail;
     return addition;
 }
 

@@ -11,6 +11,7 @@
 // operator_sending.cpp tells the far side.
 #pragma once
 
+#include "core/haptics/surface_spring.hpp"
 #include "core/teleop/felt_pointer.hpp"
 #include "core/teleop/passive_update.hpp"
 #include "core/teleop/pose_filter.hpp"
@@ -139,7 +140,7 @@ private:
                                               SessionLoop::ProxySlot& slot, Nanoseconds now) const;
     Vec3 modelled_force(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot, bool changed,
                         Nanoseconds now);
-    void hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
+    void hide_changes(Pointer& pointer, const Vec3& modelled, const SurfaceSpring& spring, const Vec3& way,
                       bool changed);
     Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
     void note_given(SessionLoop& loop, std::size_t index);

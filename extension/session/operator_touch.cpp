@@ -16,12 +16,15 @@ constexpr double no_force = 1e-9;
 // Of a pointer that rests on nothing that says otherwise (unit: newtons per meter).
 constexpr double usual_stiffness = 500.0;
 
-double stiffness_under(const SessionLoop& loop, const ProxyState& state) {
-    if (state.contact_count == 0) {
-        return 0.0;
+SurfaceSpring spring_under(const SessionLoop& loop, const ProxyState& state) {
+    const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
+    if (!under) {
+        const double alike = state.contact_count > 0 ? usual_stiffness : 0.0;
+        return {alike, alike};
     }
-    const SessionLoop::Body* const under = loop.body(state.bodies[0]);
-    return under ? std::max(1.0, loop.scene().body(under->slot).material.stiffness) : usual_stiffness;
+    const SurfaceSpring spring = spring_of(loop.scene().body(under->slot).material);
+    const double stiffer = std::max(1.0, spring.stiffness);
+    return spring.is_linear() ? SurfaceSpring{stiffer, stiffer} : spring;
 }
 
 // What another friction or mass of what is touched makes of a force comes as the hand and the body go on: at
@@ -194,7 +197,7 @@ Vec3 OperatorSide::modelled_force(SessionLoop& loop, Pointer& pointer, SessionLo
     if (!apart) {
         return force;
     }
-    const double stiffness = std::max(stiffness_under(loop, carried.slot().state), usual_stiffness);
+    const double stiffness = std::max(spring_under(loop, carried.slot().state).steepest(), usual_stiffness);
     const double way = carried.slot().state.contact_count == 0
                            ? settings().stealth.free_speed * seconds_
                            : unnoticed_change(settings().stealth, glm::length(force), seconds_) / stiffness;
@@ -264,6 +267,7 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     const Vec3 way = pointer.known ? slot.hand - pointer.hand : Vec3(0.0);
     bool changed = changed_ || (!corrected_ && has_leapt(loop, slot.state));
     FeltInput in;
+    SurfaceSpring spring;
     in.hand_velocity = way / seconds_;
     in.seconds = seconds_;
     if (settings().traditional) {
@@ -276,15 +280,16 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
         changed |= std::exchange(pointer.answered, answers) != answers;
         in.modelled = passive_force(index, slot, answers);
         traditional_.describe(index, slot, in.modelled);
-        in.stiffness = glm::length(in.modelled) > no_force ? usual_stiffness : 0.0;
+        spring.stiffness = spring.deep = glm::length(in.modelled) > no_force ? usual_stiffness : 0.0;
     } else {
         in.modelled = modelled_force(loop, pointer, slot, changed, now);
-        in.stiffness = stiffness_under(loop, slot.state);
+        spring = spring_under(loop, slot.state);
     }
     // No hand feels more than its device may give: nothing of what is beyond needs hiding.
     const Vec3 whole = in.modelled;
     in.modelled = limited_force(whole, loop.force_limit(slot));
-    hide_changes(pointer, in.modelled, in.stiffness, way, changed);
+    in.stiffness = spring.as_rich(glm::length(in.modelled));
+    hide_changes(pointer, in.modelled, spring, way, changed);
     const TouchedBody touched = touched_body(loop, slot.state);
     if (const double force = glm::length(in.modelled);
         changed && pointer.known &&
@@ -314,12 +319,12 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
 
 // A correction's part is known to the bit. Any other change of what is touched, or of who answers, is what
 // the force had changed by without the correction, beyond what the hand's own way can have made of it.
-void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double stiffness, const Vec3& way,
-                                bool changed) {
+void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, const SurfaceSpring& spring,
+                                const Vec3& way, bool changed) {
     if (changed && pointer.known) {
         const Vec3 expected = pointer.modelled + (pointer.modelled - pointer.modelled_before);
         const Vec3& uncorrected = corrected_ ? pointer.uncorrected.force : modelled;
-        const double natural = 2.0 * stiffness * glm::length(way) + no_force;
+        const double natural = 2.0 * spring.steepest() * glm::length(way) + no_force;
         if (glm::distance(expected, uncorrected) > natural) {
             pointer.felt.hide(expected, uncorrected);
         }
@@ -333,7 +338,8 @@ void OperatorSide::hide_changes(Pointer& pointer, const Vec3& modelled, double s
         } else if (settings().correction == Correction::stealthy_magnitude) {
             pointer.felt.hide_size(uncorrected, modelled);
         } else if (settings().correction == Correction::passive) {
-            pointer.update.changed(uncorrected, modelled, stiffness);
+            pointer.update.changed(uncorrected, spring.as_rich(glm::length(uncorrected)), modelled,
+                                   spring.as_rich(glm::length(modelled)));
         }
         cost.force_step = std::max(cost.force_step, glm::distance(modelled + pointer.felt.hidden(), before));
     }

@@ -72,7 +72,7 @@ std::string check_material(const TouchMaterial& m) {
     for (const double value :
          {m.stiffness, m.damping, m.static_friction, m.dynamic_friction, m.texture_depth, m.magnet_force,
           m.viscosity, m.stick_slip_stiffness, m.stick_slip_force, m.vibration_force, m.vibration_frequency,
-          m.pop_through_force, m.impact_strength, m.impact_frequency}) {
+          m.pop_through_force, m.impact_strength, m.impact_frequency, m.stribeck_speed}) {
         if (!(value >= 0.0 && value <= limits::stiffest)) {
             return "a value of the touch material is negative, above 10^9 or not a number: set all of them "
                    "to "
@@ -87,20 +87,43 @@ std::string check_material(const TouchMaterial& m) {
     if (!(m.impact_decay > 0.0 && m.impact_decay <= limits::farthest)) {
         return "the time in which the touch material's taps decay is not positive: set it above 0 s";
     }
-    return {};
-}
-
-std::string check_texture(const HeightImage* image) {
-    if (image && (image->columns == 0 || image->rows == 0 ||
-                  image->heights.size() != std::size_t{image->columns} * image->rows)) {
-        return "the touch material's texture has no pixels, or not as many as its size says: load the image "
-               "again";
+    if (!(m.stiffening > 0.0 && m.stiffness * m.stiffening <= limits::stiffest) ||
+        !(m.stiffening_depth > 0.0 && m.stiffening_depth <= limits::farthest)) {
+        return "the touch material's stiffening or its depth is not above 0, or it becomes stiffer than 10^9 "
+               "N/m: set the first to 1 for a surface that is as stiff at every depth";
     }
     return {};
 }
 
-TouchMaterial with_texture(TouchMaterial material, const HeightImage* image) {
-    material.texture = image;
+std::string check_images(const TouchImages& images) {
+    for (const TouchImage* image : {images.heights.get(), images.friction.get()}) {
+        if (image && (image->columns == 0 || image->rows == 0 ||
+                      image->values.size() != std::size_t{image->columns} * image->rows)) {
+            return "an image of the touch material has no pixels, or not as many as its size says: load the "
+                   "image again";
+        }
+    }
+    return {};
+}
+
+std::string check_feel(const TouchMaterial& material, const TouchDetail* detail) {
+    std::string error = check_material(material);
+    if (error.empty() && detail) {
+        error = check_images(detail->images);
+        for (const std::optional<SurfaceFeel>& surface : detail->surfaces) {
+            if (error.empty() && surface) {
+                error = check_feel(surface->material, nullptr);
+            }
+            if (error.empty() && surface) {
+                error = check_images(surface->images);
+            }
+        }
+    }
+    return error;
+}
+
+TouchMaterial with_detail(TouchMaterial material, const TouchDetail* detail) {
+    material.detail = detail;
     return material;
 }
 
@@ -269,10 +292,7 @@ const SessionSettings& Session::settings() const {
 
 ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunner& run) {
     ReadyBody ready;
-    ready.error = check_material(addition.touch_material);
-    if (ready.error.empty()) {
-        ready.error = check_texture(addition.texture.get());
-    }
+    ready.error = check_feel(addition.touch_material, addition.detail.get());
     if (!ready.error.empty()) {
         return ready;
     }
@@ -301,8 +321,8 @@ ReadyBody Session::prepare_body(const BodyAddition& addition, const ParallelRunn
     }
     ready.body = prepare(description);
     ready.error = ready.body.error();
-    ready.material = with_texture(addition.touch_material, addition.texture.get());
-    ready.texture = addition.texture;
+    ready.material = with_detail(addition.touch_material, addition.detail.get());
+    ready.detail = addition.detail;
     ready.layer = addition.description.collision.layer;
     ready.pose = addition.description.pose;
     ready.motion = description.motion;
@@ -329,7 +349,7 @@ AddResult Session::add_body(ReadyBody&& body, const FormerBody& former) {
         impl_->note(call::AddBody{handle, call::Form::of(body), former});
     }
     impl_->send(command::AddBody{handle, std::move(body.body), std::move(body.same_body),
-                                 std::move(body.touch), body.material, std::move(body.texture), body.layer,
+                                 std::move(body.touch), body.material, std::move(body.detail), body.layer,
                                  body.pose, body.motion, former, std::move(body.soft)});
     return {handle, {}};
 }
@@ -369,10 +389,10 @@ void Session::set_body_velocity(SessionHandle body, const Vec3& linear, const Ve
 }
 
 void Session::set_touch_material(SessionHandle body, const TouchMaterial& material,
-                                 std::shared_ptr<const HeightImage> texture) {
-    if (check_material(material).empty() && check_texture(texture.get()).empty()) {
-        const TouchMaterial complete = with_texture(material, texture.get());
-        impl_->send(command::SetTouchMaterial{body, complete, std::move(texture)});
+                                 std::shared_ptr<const TouchDetail> detail) {
+    if (check_feel(material, detail.get()).empty()) {
+        const TouchMaterial complete = with_detail(material, detail.get());
+        impl_->send(command::SetTouchMaterial{body, complete, std::move(detail)});
     }
 }
 
@@ -589,7 +609,7 @@ bool Session::collect() {
                 impl_->joints.give_back(remains.handle);
                 break;
             case Retired::Kind::form:
-            case Retired::Kind::texture:
+            case Retired::Kind::detail:
             case Retired::Kind::side:
                 break;
         }

@@ -37,7 +37,7 @@ struct BodyAddition {
     // The same, made already and perhaps shared with other bodies; null: made from the above.
     std::shared_ptr<const TouchShape> touch;
     TouchMaterial touch_material;
-    std::shared_ptr<const HeightImage> texture;  // becomes touch_material.texture; null: none
+    std::shared_ptr<const TouchDetail> detail;  // becomes touch_material.detail; null: none
     // A body that gives (core/soft/soft_body.hpp): its surface is what is touched, in place of the above. It
     // stays where it is put but for its form, and nothing collides with its shapes. For a session of its
     // model's tick.
@@ -50,7 +50,7 @@ struct ReadyBody {
     PreparedBody body, same_body;
     std::shared_ptr<const TouchShape> touch;
     TouchMaterial material;
-    std::shared_ptr<const HeightImage> texture;
+    std::shared_ptr<const TouchDetail> detail;
     std::uint32_t layer = 0;
     Pose pose;
     Motion motion = Motion::Static;
@@ -94,7 +94,7 @@ public:
     void move_body(SessionHandle body, const Pose& pose, double seconds);
     void set_body_velocity(SessionHandle body, const Vec3& linear, const Vec3& angular);
     void set_touch_material(SessionHandle body, const TouchMaterial& material,
-                            std::shared_ptr<const HeightImage> texture = nullptr);
+                            std::shared_ptr<const TouchDetail> detail = nullptr);
     void set_body_layers(SessionHandle body, const CollisionLayers& layers);
     void set_body_motion(SessionHandle body, Motion motion);
     void set_body_surface(SessionHandle body, const SurfaceMaterial& surface);

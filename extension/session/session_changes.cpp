@@ -57,8 +57,8 @@ const SessionLoop::Body* SessionLoop::body(SessionHandle handle) const {
 bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     const auto give_back = [&] {
         status_ |= session_full;
-        retired = {Retired::Kind::body,  c.handle, std::move(c.body), std::move(c.shape), nullptr,
-                   std::move(c.texture), nullptr};
+        retired = {Retired::Kind::body, c.handle, std::move(c.body), std::move(c.shape), nullptr,
+                   std::move(c.detail), nullptr};
         return true;
     };
     const BodyId id = physics_.add(c.body);
@@ -75,7 +75,7 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
     added.id = id;
     added.slot = slot;
     added.shape = std::move(c.shape);
-    added.texture = std::move(c.texture);
+    added.detail = std::move(c.detail);
     added.motion = c.motion;
     added.soft = std::move(c.soft);
     if (added.soft) {
@@ -165,7 +165,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
                physics_.remove(removed->id),
                std::move(removed->shape),
                nullptr,
-               std::move(removed->texture),
+               std::move(removed->detail),
                nullptr,
                std::move(removed->former)};
     *removed = {};
@@ -244,13 +244,13 @@ bool SessionLoop::carry_out(command::SetBodyVelocity& c, Retired&) {
 bool SessionLoop::carry_out(command::SetTouchMaterial& c, Retired& retired) {
     if (Body* const changed = body(c.handle)) {
         scene_.set_material(changed->slot, c.material);
-        std::swap(changed->texture, c.texture);
+        std::swap(changed->detail, c.detail);
         note_magnet(c.handle);
     }
-    if (!c.texture) {
+    if (!c.detail) {
         return false;
     }
-    retired = {Retired::Kind::texture, no_handle, {}, nullptr, nullptr, std::move(c.texture), nullptr};
+    retired = {Retired::Kind::detail, no_handle, {}, nullptr, nullptr, std::move(c.detail), nullptr};
     return true;
 }
 
@@ -466,7 +466,7 @@ struct Duplicate {
     bool operator()(command::AddBody& c) {
         same = command::AddBody{c.handle,   std::move(c.same_body),
                                 {},         c.shape,
-                                c.material, c.texture,
+                                c.material, c.detail,
                                 c.layer,    c.pose,
                                 c.motion,   c.former,
                                 nullptr};

@@ -20,7 +20,7 @@ struct AddBody {
     PreparedBody body, same_body;  // the second for a twin
     std::shared_ptr<const TouchShape> shape;
     TouchMaterial material;
-    std::shared_ptr<const HeightImage> texture;  // keeps material.texture alive
+    std::shared_ptr<const TouchDetail> detail;  // keeps material.detail alive
     std::uint32_t layer;
     Pose pose;
     Motion motion;
@@ -52,7 +52,7 @@ struct SetBodyVelocity {
 struct SetTouchMaterial {
     SessionHandle handle;
     TouchMaterial material;
-    std::shared_ptr<const HeightImage> texture;
+    std::shared_ptr<const TouchDetail> detail;
 };
 struct SetBodySurface {
     SessionHandle handle;
@@ -163,12 +163,12 @@ using Command = std::variant<
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {
-    enum class Kind { body, form, device, proxy, tool, texture, joint, side } kind = Kind::body;
+    enum class Kind { body, form, device, proxy, tool, detail, joint, side } kind = Kind::body;
     SessionHandle handle = no_handle;
     PreparedBody body;
     std::shared_ptr<const TouchShape> shape;
     std::unique_ptr<Proxy> proxy;
-    std::shared_ptr<const HeightImage> texture;
+    std::shared_ptr<const TouchDetail> detail;
     std::unique_ptr<TeleopSide> side;
     std::shared_ptr<const TouchShape> former_shape = nullptr;
     std::unique_ptr<ToolSlot> tool = nullptr;

@@ -199,12 +199,9 @@ SessionLoop::Lead SessionLoop::lead(ProxySlot& slot, const LoopLag& lag, double 
 void SessionLoop::note_walls(const ProxySlot& slot, DeviceSlot& device) const {
     for (int i = 0; i < slot.parts.contact_count; ++i) {
         const ContactForce& part = slot.parts.contacts[i];
-        const TouchMaterial& material = scene_.body(part.body).material;
-        const Wall wanted =
-            under_pad({material.stiffness, material.damping}, slot.description.finger.stiffness);
-        if (part.wall.stiffness < wanted.stiffness) {
-            device.wanted = wanted;
-            device.used = part.wall;
+        if (part.wall.stiffness < part.wanted_stiffness) {
+            device.wanted_stiffness = part.wanted_stiffness;
+            device.used_stiffness = part.wall.stiffness;
         }
     }
 }

@@ -6,6 +6,8 @@
 #include <span>
 
 #include "core/geometry/surface_query.hpp"
+#include "core/haptics/surface_feel.hpp"
+#include "core/haptics/surface_spring.hpp"
 #include "core/math/bit_hash.hpp"
 #include "core/teleop/body_motion.hpp"
 #include "realtime/thread_role.hpp"
@@ -197,8 +199,8 @@ void SessionLoop::fade_jumps() {
 FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
     FadingForce::Step step{slot.hand, slot.hand_velocity};
     for (const Touch& contact : slot.proxy->touching()) {
-        const TouchMaterial& material = scene_.body(contact.body).material;
-        step.stiffness = std::max(step.stiffness, material.stiffness);
+        const TouchMaterial& material = *feel_at(scene_, contact).material;
+        step.stiffness = std::max(step.stiffness, spring_of(material).steepest());
         step.damping = std::max(step.damping, material.damping);
     }
     return step;
@@ -236,7 +238,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         glm::distance(slot.hand, slot.state.hand) > slot.proxy->settings().radius) {
         slot.proxy->restart();
     }
-    const ProxyTick tick = slot.proxy->move(scene_, slot.hand);
+    const ProxyTick tick = slot.proxy->move(scene_, slot.hand, seconds_);
     HandForce& force = slot.parts;
     DeviceSlot& device = devices_[slot.description.device];
     const double damping = damping_in_scene(device.workspace, device.capabilities.damping);
@@ -297,7 +299,7 @@ Vec3 SessionLoop::attract(const ProxySlot& slot, bool press) {
 void SessionLoop::break_surfaces(ProxySlot& slot, const HandForce& force) {
     for (int i = 0; i < force.contact_count; ++i) {
         const ContactForce& part = force.contacts[i];
-        const double bears = scene_.body(part.body).material.pop_through_force;
+        const double bears = feel_at(scene_, part.body, part.feature).material->pop_through_force;
         if (bears > 0.0 && glm::length(part.on_hand) > bears) {
             slot.proxy->pass_through(part.body);
         }
@@ -317,11 +319,15 @@ void SessionLoop::hold_against_turning(ProxySlot& slot) const {
     for (int i = 0; i < slot.parts.contact_count; ++i) {
         const Touch& contact = slot.proxy->touching()[static_cast<std::size_t>(i)];
         const TouchBody& body = scene_.body(contact.body);
+        const Feel feel = feel_at(scene_, contact);
+        const double share =
+            friction_share(scene_, feel, contact.body, contact.feature, contact.point, contact.normal);
         const Vec3& on_hand = slot.parts.contacts[i].on_hand;
         const double pressing = std::max(0.0, glm::dot(on_hand, contact.normal));
         const double along = glm::length(on_hand - contact.normal * glm::dot(on_hand, contact.normal));
-        const double slipping = torsion_limit(finger, body.material.dynamic_friction, pressing, along);
-        const double at_rest = torsion_limit(finger, body.material.static_friction, pressing, along);
+        const double slipping =
+            torsion_limit(finger, share * feel.material->dynamic_friction, pressing, along);
+        const double at_rest = torsion_limit(finger, share * feel.material->static_friction, pressing, along);
         const Vec3 body_turn =
             body.moved ? turn_vector(body.pose.rotation * glm::conjugate(body.previous.rotation)) : Vec3(0.0);
         Torsion torsion = before.grip_of(contact.body, contact.normal);
@@ -350,15 +356,14 @@ void SessionLoop::press_bodies(const ProxySlot& slot) {
         if (pressed.motion != Motion::Dynamic && !pressed.soft) {
             continue;
         }
-        const TouchBody& surface = scene_.body(part.body);
-        const bool sticks = !slot.sliding && surface.material.static_friction > 0.0;
+        const TouchMaterial& material = *feel_at(scene_, part.body, part.feature).material;
+        const bool sticks = !slot.sliding && material.static_friction > 0.0;
         SpringForce spring{
             -part.on_hand, part.point, part.wall.stiffness, part.wall.damping, slot.hand_velocity,
             sticks,        {}};
         if (pressed.soft) {
-            const auto touching = slot.proxy->touching();
-            if (static_cast<std::size_t>(i) < touching.size() && spring.stiffness > 0.0) {
-                pressed.soft->press(surface.pose, touching[static_cast<std::size_t>(i)], spring);
+            if (spring.stiffness > 0.0) {
+                pressed.soft->press(scene_.body(part.body).pose, part.feature, spring);
             }
             continue;
         }
@@ -437,7 +442,7 @@ void SessionLoop::publish(Nanoseconds now) {
     out.tick = tick_;
     out.time = now;
     out.awake_bodies = physics_.awake_count();
-    out.slowed_bodies = physics_.slowed_count();
+    out.slowed_bodies = physics_.slowed_count() + slowed_soft_;
     out.physics_steps = physics_.steps();
     out.proxy_count = 0;
     for (std::size_t i = 0; i < proxies_.size(); ++i) {
@@ -467,8 +472,8 @@ void SessionLoop::publish(Nanoseconds now) {
                                                slot.sample.connected,
                                                slot.safe.state,
                                                slot.safe.limited,
-                                               slot.wanted.stiffness,
-                                               slot.used.stiffness,
+                                               slot.wanted_stiffness,
+                                               slot.used_stiffness,
                                                {seconds_, slot.capabilities.delay},
                                                slot.capabilities.radius,
                                                slot.safety.work()};

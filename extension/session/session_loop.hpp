@@ -38,7 +38,7 @@ public:
         std::shared_ptr<const TouchShape> shape;
         std::shared_ptr<const TouchShape> former;  // form; its triangles may still be on their way
         bool takes_form = false;                   // `shape` is not in the touch scene yet
-        std::shared_ptr<const HeightImage> texture;
+        std::shared_ptr<const TouchDetail> detail;
         Motion motion = Motion::Static;
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
         Pose target;
@@ -187,7 +187,8 @@ private:
         DeviceCapabilities capabilities;
         HandSafety safety;
         SafeForce safe;
-        Wall wanted, used;  // of what is touched, the last that was not safe
+        // Of what is touched, the last that was not safe (unit: newtons per meter).
+        double wanted_stiffness = 0.0, used_stiffness = 0.0;
         bool was_held = false;
     };
 
@@ -264,6 +265,7 @@ private:
     void find_obstacles(const Body& giving);
     bool place_obstacles(const Body& giving);
     void push_obstacles(const Body& giving);
+    void step_soft(SessionHandle handle);
     void step_soft();
     void guess();
     void publish(Nanoseconds now);
@@ -282,6 +284,8 @@ private:
     std::vector<SessionHandle> travelling_;
     std::vector<SessionHandle> forming_;   // bodies that take another form in the coming tick
     std::vector<SessionHandle> giving_;    // bodies that give
+    std::size_t soft_turn_ = 0;            // of those, the first in the next tick
+    std::size_t slowed_soft_ = 0;          // of those, left out in the last
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<JointId> joints_;          // by handle

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/haptics/surface_way.hpp"
 #include "core/teleop/body_motion.hpp"
 #include "session/session_loop.hpp"
 
@@ -30,6 +31,31 @@ bool SessionLoop::carry_out(command::RemoveTool& c, Retired& retired) {
     retired.tool = std::move(tools_[c.handle]);
     return true;
 }
+
+namespace {
+
+Touch surface_of(const ToolTouch& touch) {
+    Touch surface;
+    surface.point = touch.point;
+    surface.body = touch.body;
+    surface.feature = touch.feature;
+    return surface;
+}
+
+// What of a touch's stiffness is its own. The coupling presses with all of a body's touches together: where
+// n of them give way alike, it loosens once, not n times. Those along which it presses at right angles do not
+// know of each other.
+double own_share(std::span<const ToolTouch> touches, const ToolTouch& one) {
+    const double own = glm::dot(one.force, one.normal);
+    double all = 0.0;
+    for (const ToolTouch& touch : touches) {
+        const double alike = glm::dot(touch.normal, one.normal);
+        all += touch.body == one.body ? std::max(0.0, alike) * glm::dot(touch.force, touch.normal) : 0.0;
+    }
+    return all > 0.0 ? std::clamp(own / all, 1e-3, 1.0) : 1.0;
+}
+
+}  // namespace
 
 // Over a link only fingertips are told.
 void SessionLoop::touch_tools() {
@@ -70,7 +96,7 @@ void SessionLoop::touch(ToolSlot& slot) {
     slot.jumped = (tick.status & (tool_absent | tool_squeezed)) != 0;
     double given = 0.0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
-        const Vec3 way = touch.point - previous_place(scene_.body(touch.body), touch.point);
+        const Vec3 way = way_of_surface(scene_, surface_of(touch));
         given += glm::dot(touch.force, way) * slot.share;
     }
     slot.source = std::max(0.0, given);
@@ -110,15 +136,20 @@ void SessionLoop::press_bodies(const ToolSlot& slot) {
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(touch.body)]];
         const Vec3 force = touch.force * slot.share;
-        if (pressed.motion != Motion::Dynamic || force == Vec3(0.0)) {
+        if ((pressed.motion != Motion::Dynamic && !pressed.soft) || force == Vec3(0.0)) {
             continue;
         }
         const bool sticks =
             (slot.state.status & tool_sliding) == 0 && scene_.body(touch.body).material.static_friction > 0.0;
         const Vec3 velocity =
             slot.hand_velocity + glm::cross(slot.hand_spin, touch.point - slot.hand.position);
-        physics_.apply_spring_force(
-            pressed.id, {-force, touch.point, touch.stiffness * slot.share, 0.0, velocity, sticks, {}});
+        SpringForce spring{-force, touch.point, touch.stiffness * slot.share, 0.0, velocity, sticks, {}};
+        if (pressed.soft) {
+            spring.stiffness *= own_share(slot.proxy.touching(), touch);
+            pressed.soft->press(scene_.body(touch.body).pose, touch.feature, spring);
+            continue;
+        }
+        physics_.apply_spring_force(pressed.id, spring);
     }
 }
 

@@ -175,7 +175,8 @@ struct SessionSnapshot {
     std::array<DeviceState, max_devices> devices;
     std::size_t device_count = 0;
     std::size_t awake_bodies = 0;
-    std::size_t slowed_bodies = 0;    // of those awake: far from every hand, at a sixteenth of the tick rate
+    std::size_t slowed_bodies =
+        0;  // of those awake: far from every hand, at a sixteenth of the tick rate, or soft
     std::uint64_t physics_steps = 0;  // that physics has taken so far; a scene at rest takes none
 };
 

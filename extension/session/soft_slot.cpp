@@ -54,13 +54,13 @@ bool SoftSlot::take_form() {
     return true;
 }
 
-void SoftSlot::press(const Pose& at, const Touch& touch, const SpringForce& spring) {
-    if (push_count_ == pushes_.size() || touch.feature.triangle == Hit::no_triangle) {
+void SoftSlot::press(const Pose& at, const FeatureId& feature, const SpringForce& spring) {
+    if (push_count_ == pushes_.size() || feature.triangle == Hit::no_triangle) {
         return;
     }
     const TriangleTree& tree = *trees_[shown_];
-    pushes_[push_count_++] = {tree.triangle_at(touch.feature.triangle),
-                              weights_of(to_local(at, touch.point), tree.corners(touch.feature.triangle)),
+    pushes_[push_count_++] = {tree.triangle_at(feature.triangle),
+                              weights_of(to_local(at, spring.point), tree.corners(feature.triangle)),
                               direction_to_local(at, spring.force),
                               spring.stiffness,
                               spring.damping,
@@ -75,7 +75,7 @@ std::uint32_t SoftSlot::step(const Pose& at, const Vec3& gravity) {
     }
     const std::uint32_t status =
         body.step(direction_to_local(at, gravity), pushes, std::span(obstacles).first(obstacle_count));
-    body.write_surface(surface_.vertices);
+    gave_by_ = body.write_surface(surface_.vertices);
     moved_ = true;
     if (view_) {
         view_->back() = surface_.vertices;

@@ -34,9 +34,20 @@ public:
     // Its form as it was touched last, and the one that it takes next: true where that is another one.
     const TouchShape& form() const { return forms_[shown_]; }
     bool take_form();
+    // No corner went farther from the one to the other (unit: meters).
+    double gave_by() const { return gave_by_; }
 
-    // A hand presses it where it is touched, in this tick. `at` is the body's place, `touch` of its surface.
-    void press(const Pose& at, const Touch& touch, const SpringForce& spring);
+    // Something presses it where it is touched, in this tick: at spring.point on that triangle. `at` is the
+    // body's place.
+    void press(const Pose& at, const FeatureId& feature, const SpringForce& spring);
+    bool is_pressed() const { return push_count_ > 0; }
+    // In this tick it is stepped, or left as it is.
+    void begin_step(std::uint64_t tick) { tick_ = tick; }
+    void skip(std::uint64_t tick) {
+        tick_ = tick;
+        push_count_ = 0;
+    }
+    bool was_stepped(std::uint64_t tick) const { return tick_ == tick; }
     // What presses it does so in one step from here. `gravity` in the world.
     std::uint32_t step(const Pose& at, const Vec3& gravity);
 
@@ -49,10 +60,12 @@ private:
     std::array<std::shared_ptr<TriangleTree>, 2> trees_;  // of the forms
     std::size_t shown_ = 0;
     bool moved_ = false;  // since the form that is shown
+    double gave_by_ = 0.0;
     TriangleMesh surface_;
     std::shared_ptr<SoftView> view_;
     std::array<SoftPush, SoftBody::max_pushes> pushes_;
     std::size_t push_count_ = 0;
+    std::uint64_t tick_ = 0;  // the last that it was stepped in, or left out
 };
 
 }  // namespace tactus

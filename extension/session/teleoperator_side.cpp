@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/haptics/surface_feel.hpp"
+#include "core/haptics/surface_spring.hpp"
 #include "network/plausibility.hpp"
 
 namespace tactus {
@@ -164,8 +166,11 @@ StandInInput TeleoperatorSide::stand_in_input(SessionLoop& loop, const Pointer& 
     if (slot.state.contact_count > 0) {
         if (const SessionLoop::Body* const touched = loop.body(slot.state.bodies[0])) {
             const TouchBody& body = loop.scene().body(touched->slot);
+            const auto touching = slot.proxy->touching();
+            const TouchMaterial& material =
+                touching.empty() ? body.material : *feel_at(loop.scene(), touching[0]).material;
             in.in_contact = true;
-            in.stiffness = body.material.stiffness;
+            in.stiffness = spring_of(material).secant(glm::length(in.force));
             in.own_proxy = to_parent(body.pose, to_local(body.previous, slot.state.position));
         }
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <utility>
 
 #include "core/geometry/smooth_normals.hpp"
 #include "physics/solid_properties.hpp"
@@ -26,7 +28,7 @@ bool same_meshes(const std::vector<MeshDraft>& a, const std::vector<MeshDraft>& 
     return std::ranges::equal(a, b, [](const MeshDraft& left, const MeshDraft& right) {
         return left.source == right.source && left.scaling == right.scaling &&
                same_pose(left.pose, right.pose) && left.smooth_below == right.smooth_below &&
-               left.one_sided == right.one_sided;
+               left.one_sided == right.one_sided && left.surfaces == right.surfaces;
     });
 }
 
@@ -41,13 +43,26 @@ struct BuiltDraft {
     PlacedShape shape;
 };
 
+// A mirrored mesh has its triangles turned over (see triangle_source.hpp).
+std::shared_ptr<const SurfaceMap> scaled(std::shared_ptr<const SurfaceMap> map, const Mat3& scaling) {
+    if (!map || map->uv.empty() || glm::determinant(scaling) > 0.0) {
+        return map;
+    }
+    auto mirrored = std::make_shared<SurfaceMap>(*map);
+    for (SurfaceMap::Corners& corners : mirrored->uv) {
+        std::swap(corners[1], corners[2]);
+    }
+    return mirrored;
+}
+
 BuiltDraft build_draft(const MeshDraft& draft, const ParallelRunner& run) {
     const BuiltMesh built = draft.source->built(draft.scaling, run);
     const bool closed = is_closed(*built.mesh);
     const bool one_sided = draft.one_sided && closed;
-    BuiltDraft result{
-        {draft.pose, built.tree, built.tree->center(), built.tree->radius(), nullptr, closed, one_sided},
-        {MeshShape{built.mesh, draft.smooth_below, one_sided}, draft.pose}};
+    const auto surfaces = scaled(draft.surfaces, draft.scaling);
+    BuiltDraft result{{draft.pose, built.tree, built.tree->center(), built.tree->radius(), nullptr, closed,
+                       one_sided, surfaces},
+                      {MeshShape{built.mesh, draft.smooth_below, one_sided, surfaces}, draft.pose}};
     if (draft.smooth_below > 0.0) {
         result.part.smooth_normals = std::make_shared<const std::vector<CornerNormals>>(
             smooth_normals(*built.mesh, draft.smooth_below));

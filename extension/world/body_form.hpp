@@ -22,6 +22,7 @@ struct MeshDraft {
     double smooth_below = 0.0;  // see MeshShape
     bool one_sided = false;     // likewise
     std::string owner;          // who it is, for what there is to say of the triangles
+    std::shared_ptr<const SurfaceMap> surfaces = nullptr;  // of the triangles as they are read
 };
 
 struct BodyForm {
@@ -48,7 +49,8 @@ struct BodyMakings {
     std::optional<Vec3> center_of_mass;
     bool continuous = false;
     bool can_sleep = true;
-    std::uint32_t locks = 0;  // bit i: axis i of x, y, z, and of the turns about x, y, z
+    bool textured_by_uv = false;  // its mesh is read with texture coordinates
+    std::uint32_t locks = 0;      // bit i: axis i of x, y, z, and of the turns about x, y, z
     bool operator==(const BodyMakings&) const = default;
 };
 

@@ -16,11 +16,13 @@ using Values = BodyValues;
 using Addition = BodyAddition;
 
 constexpr Row rows[] = {
-    {[](const Values& a, const Values& b) { return same_values(a.touch, b.touch) && a.texture == b.texture; },
-     [](Session& s, SessionHandle body, const Values& v) { s.set_touch_material(body, v.touch, v.texture); },
+    {[](const Values& a, const Values& b) {
+         return same_values(a.touch, b.touch) && same_detail(a.detail, b.detail);
+     },
+     [](Session& s, SessionHandle body, const Values& v) { s.set_touch_material(body, v.touch, v.detail); },
      [](Addition& to, const Values& v) {
          to.touch_material = v.touch;
-         to.texture = v.texture;
+         to.detail = v.detail;
      }},
     {[](const Values& a, const Values& b) {
          return a.surface.friction == b.surface.friction && a.surface.restitution == b.surface.restitution &&

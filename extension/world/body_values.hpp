@@ -11,7 +11,7 @@ namespace tactus {
 struct BodyValues {
     Motion motion = Motion::Static;
     TouchMaterial touch;
-    std::shared_ptr<const HeightImage> texture;  // null: none
+    std::shared_ptr<const TouchDetail> detail;  // null: none
     SurfaceMaterial surface;
     CollisionLayers layers;
     double gravity_scale = 1.0;

@@ -37,6 +37,7 @@ MaterialValues values_of(MaterialPreset preset) {
             break;
         case MaterialPreset::ice:
             touch = {.stiffness = 2000.0, .damping = 1.0, .static_friction = 0.05, .dynamic_friction = 0.02};
+            touch.stribeck_speed = 0.03;
             values.friction = 0.03;
             values.bounce = 0.1;
             break;
@@ -56,6 +57,8 @@ MaterialValues values_of(MaterialPreset preset) {
             break;
         case MaterialPreset::sponge:
             touch = {.stiffness = 150.0, .damping = 2.0, .static_friction = 0.7, .dynamic_friction = 0.5};
+            touch.stiffening = 5.0;
+            touch.stiffening_depth = 0.03;
             touch.viscosity = 1.0;
             values.friction = 0.7;
             break;
@@ -65,30 +68,30 @@ MaterialValues values_of(MaterialPreset preset) {
     return values;
 }
 
-std::shared_ptr<const HeightImage> grain() {
+std::shared_ptr<const TouchImage> grain() {
     static const auto image = [] {
-        auto made = std::make_shared<HeightImage>(HeightImage{grain_side, grain_side, {}});
+        auto made = std::make_shared<TouchImage>(TouchImage{grain_side, grain_side, {}});
         std::uint32_t random = 1;
         for (std::uint32_t i = 0; i < grain_side * grain_side; ++i) {
             random = random * 1664525u + 1013904223u;  // Numerical Recipes, 7.1
-            made->heights.push_back(static_cast<float>(random >> 8) * 0x1p-24f);
+            made->values.push_back(static_cast<float>(random >> 8) * 0x1p-24f);
         }
         return made;
     }();
     return image;
 }
 
-std::shared_ptr<const HeightImage> height_image(std::uint32_t columns, std::uint32_t rows,
-                                                std::span<const std::uint8_t> bytes) {
-    auto made = std::make_shared<HeightImage>();
+std::shared_ptr<const TouchImage> touch_image(std::uint32_t columns, std::uint32_t rows,
+                                              std::span<const std::uint8_t> bytes) {
+    auto made = std::make_shared<TouchImage>();
     made->columns = columns;
     made->rows = rows;
-    made->heights.resize(std::size_t{columns} * rows);
-    if (bytes.size() != made->heights.size() * sizeof(float)) {
+    made->values.resize(std::size_t{columns} * rows);
+    if (bytes.size() != made->values.size() * sizeof(float)) {
         return nullptr;
     }
-    std::memcpy(made->heights.data(), bytes.data(), bytes.size());
-    for (float& height : made->heights) {
+    std::memcpy(made->values.data(), bytes.data(), bytes.size());
+    for (float& height : made->values) {
         height = height >= 0.0f ? std::min(height, 1.0f) : 0.0f;
     }
     return made;

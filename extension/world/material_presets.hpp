@@ -23,12 +23,12 @@ struct MaterialValues {
 MaterialValues values_of(MaterialPreset preset);
 
 // Grains of random height, the same everywhere: for roughness without an image.
-std::shared_ptr<const HeightImage> grain();
+std::shared_ptr<const TouchImage> grain();
 
 // Of floats, row by row, as an engine's image packs them. What is no height from 0 to 1 becomes the nearest
 // one, what is no number 0. Null where there are more or fewer.
-std::shared_ptr<const HeightImage> height_image(std::uint32_t columns, std::uint32_t rows,
-                                                std::span<const std::uint8_t> bytes);
+std::shared_ptr<const TouchImage> touch_image(std::uint32_t columns, std::uint32_t rows,
+                                              std::span<const std::uint8_t> bytes);
 
 // Nothing is forgotten: what the material had before comes back with the preset that it had before.
 class PresetChoice {

@@ -29,7 +29,8 @@ bool same(const ConvexHullShape& a, const ConvexHullShape& b) {
     return same(a.hull, b.hull);
 }
 bool same(const MeshShape& a, const MeshShape& b) {
-    return a.smooth_below == b.smooth_below && a.one_sided == b.one_sided && same(a.mesh, b.mesh);
+    return a.smooth_below == b.smooth_below && a.one_sided == b.one_sided && a.surfaces == b.surfaces &&
+           same(a.mesh, b.mesh);
 }
 bool same(const HeightFieldShape& a, const HeightFieldShape& b) {
     return a.columns == b.columns && a.rows == b.rows && a.scale == b.scale && *a.heights == *b.heights;

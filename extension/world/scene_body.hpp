@@ -35,10 +35,10 @@ struct ShapeKey {
 
 // What a world adds to each of its bodies.
 struct BodyDefaults {
-    TouchMaterial touch;                         // of bodies without a material of their own
-    std::shared_ptr<const HeightImage> texture;  // of the same
-    double linear_damping = 0.1;                 // (unit: 1/seconds)
-    double angular_damping = 0.1;                // likewise
+    TouchMaterial touch;                        // of bodies without a material of their own
+    std::shared_ptr<const TouchDetail> detail;  // of the same
+    double linear_damping = 0.1;                // (unit: 1/seconds)
+    double angular_damping = 0.1;               // likewise
 };
 
 class SceneBody {

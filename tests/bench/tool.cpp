@@ -148,6 +148,7 @@ void report_presses(Report& report, const std::string& name, SoftFigures& figure
     report.set(name + ".force_max_n", figures.largest_force);
     report.set(name + ".energy_created_J", figures.energy_created);
     report.set(name + ".energy_created_held_J", figures.energy_created_held);
+    report.set(name + ".energy_held_over_damped", figures.held_share);
     report.set(name + ".shape_error_m", figures.shape_error);
     report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
     report.set(name + ".tick_p99_us", percentile(figures.microseconds, 0.99));
@@ -156,14 +157,16 @@ void report_presses(Report& report, const std::string& name, SoftFigures& figure
     std::printf(
         "%s: %zu nodes, %zu elements, %zu entries; %d presses, %d ticks in contact, %d passes, %d "
         "unfinished; "
-        "%.1f mm deep, %.1f N; created %g J (held %g J), shape off by %g mm; p50 %.0f, p99 %.0f, longest "
+        "%.1f mm deep, %.1f N; created %g J (held %g J, %.3f of what a device damps), shape off by %g mm; "
+        "p50 %.0f, p99 %.0f, longest "
         "%.0f, "
         "asleep %.1f us\n",
         name.c_str(), figures.nodes, figures.elements, figures.factor_entries, figures.presses,
         figures.contact_ticks, figures.passes, figures.unfinished, 1e3 * figures.deepest,
-        figures.largest_force, figures.energy_created, figures.energy_created_held, 1e3 * figures.shape_error,
-        percentile(figures.microseconds, 0.5), percentile(figures.microseconds, 0.99),
-        percentile(figures.microseconds, 1.0), percentile(figures.still_microseconds, 0.5));
+        figures.largest_force, figures.energy_created, figures.energy_created_held, figures.held_share,
+        1e3 * figures.shape_error, percentile(figures.microseconds, 0.5),
+        percentile(figures.microseconds, 0.99), percentile(figures.microseconds, 1.0),
+        percentile(figures.still_microseconds, 0.5));
 }
 
 void report_soft(Report& report, int presses) {

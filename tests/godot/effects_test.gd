@@ -32,6 +32,24 @@ func test_viscosity_drags_a_moving_hand() -> void:
 	check_near(proxy.get_force(), Vector3(-5.0 * 0.1, 5.0, 0), 1e-3, "force")
 
 
+func test_a_surface_that_stiffens_pushes_harder_the_deeper_it_is_pressed() -> void:
+	var look := material(500.0)
+	look.stiffening = 3.0
+	look.stiffening_depth = PRESS
+	check_near(_at_rest(look), Vector3(0, 10.0, 0), 1e-3, "force where it is three times as stiff")
+	check_near(_at_rest(look, Vector3(0, -0.01, 0)), Vector3(0, 25.0, 0), 1e-3, "beyond")
+
+
+func test_friction_falls_with_the_speed() -> void:
+	var look := material(500.0)
+	look.static_friction = 0.5
+	look.dynamic_friction = 0.1
+	look.stribeck_speed = 0.1
+	var proxy := _stroke(look, Vector3.ZERO, Vector3(0.1, 0, 0))
+	_world_of(proxy).advance(0.9)
+	check_near(proxy.get_force().x, -5.0 * (0.1 + 0.4 * exp(-1.0)), 0.02, "friction at that speed")
+
+
 func test_vibration_shakes_with_its_force_and_frequency() -> void:
 	var look := material(500.0)
 	look.vibration_force = 0.5

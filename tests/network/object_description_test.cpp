@@ -41,9 +41,14 @@ TEST(ObjectDescription, SurvivesTheWire) {
     EXPECT_EQ(read.touch.impact_strength, sent.touch.impact_strength);
     EXPECT_EQ(read.touch.impact_frequency, sent.touch.impact_frequency);
     EXPECT_EQ(read.touch.impact_decay, sent.touch.impact_decay);
-    ASSERT_NE(read.touch.texture, nullptr);
-    EXPECT_EQ(read.touch.texture, read.texture.get());
-    EXPECT_EQ(read.texture->heights, sent.texture->heights);
+    EXPECT_EQ(read.touch.stribeck_speed, sent.touch.stribeck_speed);
+    EXPECT_EQ(read.touch.stiffening, sent.touch.stiffening);
+    EXPECT_EQ(read.touch.stiffening_depth, sent.touch.stiffening_depth);
+    EXPECT_TRUE(read.touch.by_uv);
+    ASSERT_NE(read.touch.detail, nullptr);
+    EXPECT_EQ(read.touch.detail, read.detail.get());
+    EXPECT_EQ(read.detail->images.heights->values, sent.detail->images.heights->values);
+    EXPECT_EQ(read.detail->images.friction->values, sent.detail->images.friction->values);
     ASSERT_EQ(read.body.shapes.size(), sent.body.shapes.size());
     for (std::size_t i = 0; i < sent.body.shapes.size(); ++i) {
         EXPECT_EQ(read.body.shapes[i].shape.index(), sent.body.shapes[i].shape.index());
@@ -57,8 +62,8 @@ TEST(ObjectDescription, ABareOneSurvivesToo) {
     sent.body.shapes.push_back({SphereShape{0.1}, {}});
     ObjectDescription read;
     ASSERT_EQ(decode_description(encode_description(sent), read), Refusal::none);
-    EXPECT_EQ(read.texture, nullptr);
-    EXPECT_EQ(read.touch.texture, nullptr);
+    EXPECT_EQ(read.detail, nullptr);
+    EXPECT_EQ(read.touch.detail, nullptr);
     EXPECT_FALSE(read.body.inertia.has_value());
     EXPECT_EQ(encode_description(read), encode_description(sent));
 }

@@ -26,9 +26,15 @@ inline ObjectDescription object_of_all_shapes(ObjectId id) {
     object.touch.impact_strength = 4.0;
     object.touch.impact_frequency = 250.0;
     object.touch.impact_decay = 0.125;
-    HeightImage image{2, 3, {0.0f, 0.25f, 0.5f, 0.75f, 1.0f, 0.125f}};
-    object.texture = std::make_shared<const HeightImage>(image);
-    object.touch.texture = object.texture.get();
+    object.touch.stribeck_speed = 0.0625;
+    object.touch.stiffening = 2.5;
+    object.touch.stiffening_depth = 0.03125;
+    object.touch.by_uv = true;
+    const TouchImage heights{2, 3, {0.0f, 0.25f, 0.5f, 0.75f, 1.0f, 0.125f}};
+    const TouchImage friction{1, 2, {0.5f, 1.0f}};
+    object.detail = std::make_shared<const TouchDetail>(TouchDetail{
+        {std::make_shared<const TouchImage>(heights), std::make_shared<const TouchImage>(friction)}, {}});
+    object.touch.detail = object.detail.get();
 
     BodyDescription& body = object.body;
     body.motion = Motion::Dynamic;

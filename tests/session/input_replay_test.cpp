@@ -133,7 +133,11 @@ TEST(InputReplay, EverythingThatAnOwnerAsksForIsPlayed) {
     HeldDevice second;
     second.can.rotates = true;
     std::vector<SessionHandle> added;
-    const auto texture = std::make_shared<const HeightImage>(HeightImage{2, 2, {0.0f, 1.0f, 0.5f, 0.25f}});
+    const auto image = std::make_shared<const TouchImage>(TouchImage{2, 2, {0.0f, 1.0f, 0.5f, 0.25f}});
+    TouchMaterial other{300.0, 0.0, 0.6, 0.3};
+    other.by_uv = true;
+    const auto detail = std::make_shared<const TouchDetail>(
+        TouchDetail{{image, nullptr}, {std::nullopt, SurfaceFeel{other, {nullptr, image}}}});
     SessionHandle other_hand = no_handle, other_proxy = no_handle, tool = no_handle;
     for (int round = 0; round < 40; ++round) {
         for (int i = 0; i < 8; ++i) {
@@ -144,7 +148,7 @@ TEST(InputReplay, EverythingThatAnOwnerAsksForIsPlayed) {
             added.push_back(rig.add(addition));
         }
         const SessionHandle last = added.back();
-        rig.session.set_touch_material(last, {100.0, 1.0, 0.2, 0.1}, texture);
+        rig.session.set_touch_material(last, {100.0, 1.0, 0.2, 0.1}, detail);
         rig.session.set_body_motion(last, Motion::Kinematic);
         rig.session.move_body(last, {{1.0, 1.0, 1.0}, Quat(1.0, 0.0, 0.0, 0.0)}, 0.005);
         rig.session.teleport_body(added.front(), {{2.0, 1.0, 1.0}, Quat(1.0, 0.0, 0.0, 0.0)});

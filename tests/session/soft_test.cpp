@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 
 #include "core/math/bit_hash.hpp"
@@ -208,6 +209,181 @@ TEST(Soft, TheForceFollowsTheHandWithoutFading) {
         before = state.force.y;
     }
     EXPECT_LT(largest, 0.06);
+}
+
+// A brick of 40 by 20 by 40 mm in place of the fingertip.
+struct SoftToolRig : SoftRig {
+    std::shared_ptr<const ToolShape> brick;
+
+    SoftToolRig(const SoftMaterial& material, const HeldParts& held, double height = 0.04,
+                double friction = 0.0)
+        : SoftRig(material, held, height, friction) {
+        static const ToolShapeResult made = make_tool_shape(shared::box({0.02, 0.01, 0.02}), {1e-3, 200});
+        brick = made.shape;
+        session.remove_proxy(proxy);
+        device.can.rotates = true;
+        device.can.max_torque = 10.0;
+        ToolUse use;
+        use.device = hand;
+        session.add_tool(brick, use);
+    }
+    const ToolState& tool() { return newest().tools[0]; }
+    // Of any sphere's centre, over its radius; below 0 where it is inside of the surface.
+    double least_room(double height = 0.04) {
+        const TriangleMesh form = surface(height);
+        double least = 1e9;
+        for (const ToolSphere& sphere : brick->spheres) {
+            const Vec3 center = to_parent(tool().pose, sphere.center);
+            const double away = distance_to_surface(form, center) / sphere.radius;
+            least = std::min(least, winds_around(form, center) ? -away : away);
+        }
+        return least;
+    }
+};
+
+TEST(SoftTool, ABlockGivesUnderAToolWhichNeverEntersIt) {
+    SoftToolRig rig({.stiffness = 1e4}, foot);
+    rig.session.set_gravity(Vec3(0.0));
+    rig.ticks(10);
+    double deepest = 1.0;
+    for (int i = 0; i < 300; ++i) {
+        rig.device.rotation = glm::angleAxis(0.3 * std::sin(0.02 * i), glm::normalize(Vec3(1.0, 0.0, 0.4)));
+        rig.draw(rig.device.position + Vec3(0.0, i < 150 ? -3e-4 : 3e-4, 0.0), 1);
+        ASSERT_EQ(rig.tool().status & tool_squeezed, 0u) << i;
+        if (i % 5 == 0) {
+            ASSERT_GT(rig.least_room(), 0.6) << i;
+        }
+        deepest = std::min(deepest, rig.tool().pose.position.y - 0.01);
+    }
+    EXPECT_LT(deepest, 0.07);  // it gave by 10 mm
+    EXPECT_EQ(rig.tool().contact_count, 0);
+    rig.ticks(3000);
+    const TriangleMesh after = rig.surface();
+    for (std::size_t i = 0; i < after.vertices.size(); ++i) {
+        ASSERT_LT(glm::distance(after.vertices[i], rig.model->surface.vertices[i] + Vec3(0.0, 0.04, 0.0)),
+                  1e-4);
+    }
+}
+
+TEST(SoftTool, HeldInItPressesSteadily) {
+    SoftToolRig rig({.stiffness = 1e4, .damping = 0.01}, foot);
+    rig.draw(Vec3(0.0, 0.082, 0.0), 200);
+    rig.ticks(2000);
+    const ToolState held = rig.tool();
+    EXPECT_NEAR(held.force.y, 1000.0 * (held.pose.position.y - held.hand.position.y), 1e-6);
+    EXPECT_GT(held.force.y, 2.0);
+    rig.ticks(500);
+    EXPECT_NEAR(rig.tool().force.y, held.force.y, 0.01 * held.force.y);
+}
+
+TEST(SoftTool, WhatAToolGivesItHas) {
+    SoftToolRig rig({.stiffness = 1e5, .damping = 0.005, .drag = 0.0}, {}, 1.0);
+    rig.session.set_gravity(Vec3(0.0));
+    double given = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        rig.draw(rig.device.position - Vec3(0.0, 2e-4, 0.0), 1);
+        given += 1e-3 * rig.tool().force.y;
+    }
+    const auto mean = [](const TriangleMesh& mesh) {
+        Vec3 sum(0.0);
+        for (const Vec3& vertex : mesh.vertices) {
+            sum += vertex;
+        }
+        return sum / static_cast<double>(mesh.vertices.size());
+    };
+    const Vec3 before = mean(rig.surface());
+    rig.device.position.y = 2.0;
+    rig.device.velocity = Vec3(0.0);
+    rig.ticks(101);
+    const Vec3 speed = (mean(rig.surface()) - before) / 0.101;
+    EXPECT_NEAR(-speed.y * rig.model->total_mass(), given, 0.05 * given);
+    EXPECT_GT(given, 0.01);
+}
+
+TEST(SoftTool, NoPressGivesEnergy) {
+    SoftToolRig rig({.stiffness = 1e4}, foot, 0.04, 0.3);
+    rig.session.set_gravity(Vec3(0.0));
+    rig.ticks(10);
+    for (int press = 0; press < 6; ++press) {
+        const Vec3 begin(0.004 * press - 0.01, 0.095, 0.003 * press);
+        rig.draw(begin, 30);
+        rig.device.rotation = glm::angleAxis(0.1 * press, Vec3(0.0, 0.0, 1.0));
+        rig.ticks(5);
+        double gained = 0.0;
+        Vec3 before = rig.tool().force;
+        for (int i = 1; i <= 200; ++i) {
+            const double depth = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * i / 200));
+            const Vec3 place = begin - Vec3(0.0, 0.02 * depth, 0.0);
+            const Vec3 way = place - rig.device.position;
+            rig.draw(place, 1);
+            gained += 0.5 * glm::dot(before + rig.tool().force, way);
+            before = rig.tool().force;
+        }
+        EXPECT_LE(gained, 1e-6) << press;
+        EXPECT_LT(gained, -1e-4) << "some is damped";
+    }
+}
+
+TEST(SoftTool, ATickAllocatesLocksAndCallsNothing) {
+    SoftToolRig rig({.stiffness = 1e4}, foot);
+    rig.ticks(20);
+    rig.newest();
+    testing::AuditScope audit;
+    for (int i = 0; i < 200; ++i) {
+        rig.device.position.y += i < 100 ? -3e-4 : 3e-4;
+        rig.session.tick(rig.now += session_test::period);
+    }
+    audit.finish();
+    EXPECT_EQ(audit.allocations() + audit.frees(), 0u) << audit.describe();
+    EXPECT_EQ(audit.locks() + audit.waits() + audit.system_calls(), 0u) << audit.describe();
+}
+
+TEST(SoftTool, TheSamePressesGiveTheSameBits) {
+    std::uint64_t hashes[2];
+    for (std::uint64_t& hash : hashes) {
+        SoftToolRig rig({.stiffness = 1e4}, {}, 0.045, 0.5);
+        BitHash bits;
+        for (int i = 0; i < 300; ++i) {
+            rig.draw(rig.device.position + Vec3(5e-5, i < 200 ? -2e-4 : 1e-4, 1e-5), 1);
+            bits.add(rig.tool().force);
+            bits.add(rig.tool().torque);
+        }
+        hash = bits.value();
+    }
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+// Twelve blocks of 3,072 tetrahedra, which fall onto themselves, want more than a tick has for them.
+TEST(Soft, SeveralShareATickAndWhatIsPressedGoesFirst) {
+    SessionRig rig;
+    std::vector<std::shared_ptr<SoftView>> views;
+    const SoftModelResult made =
+        make_soft_volume(shared::grid_box(Vec3(0.04), 8), 8, {.stiffness = 1e4}, foot, 1e-3);
+    ASSERT_EQ(made.error, "");
+    for (int i = 0; i < 12; ++i) {
+        BodyAddition addition;
+        addition.description.pose.position = Vec3(0.2 * i, 0.0, 0.0);
+        addition.touch_material = {500.0, 0.0, 0.0, 0.0};
+        addition.soft = made.model;
+        addition.soft_view = views.emplace_back(std::make_shared<SoftView>(made.model->surface.vertices));
+        rig.add(addition);
+    }
+    rig.device.position = Vec3(0.0, 0.06, 0.0);
+    rig.ticks(2);
+    rig.draw(Vec3(0.0, 0.045, 0.0), 20);
+    int steps[12] = {};
+    for (int i = 0; i < 240; ++i) {
+        rig.draw(rig.device.position + Vec3(0.0, i % 2 == 0 ? -1e-4 : 1e-4, 0.0), 1);
+        for (std::size_t body = 0; body < views.size(); ++body) {
+            steps[body] += views[body]->refresh();
+        }
+    }
+    EXPECT_EQ(steps[0], 240) << "the one that is pressed";
+    EXPECT_GT(rig.newest().slowed_bodies, 0u);
+    const auto [least, most] = std::minmax_element(std::begin(steps) + 1, std::end(steps));
+    EXPECT_GT(*least, 40);
+    EXPECT_LT(*most, 240);
+    EXPECT_LE(*most - *least, 3);
 }
 
 TEST(Soft, AClothIsNotPassed) {

@@ -59,8 +59,11 @@ std::vector<std::byte> FalseDescriptions::some_body() {
     touch.impact_frequency = dice_.size(1e3);
     touch.impact_decay = dice_.size(1.0);
     if (dice_.one_in(4)) {
-        described.texture = std::make_shared<const HeightImage>(HeightImage{2, 2, {0.0f, 1.0f, 0.5f, 0.0f}});
-        touch.texture = described.texture.get();
+        const auto image = std::make_shared<const TouchImage>(TouchImage{2, 2, {0.0f, 1.0f, 0.5f, 0.0f}});
+        described.detail =
+            std::make_shared<const TouchDetail>(TouchDetail{{image, dice_.one_in(2) ? image : nullptr}, {}});
+        touch.detail = described.detail.get();
+        touch.by_uv = dice_.one_in(2);
         touch.texture_depth = dice_.size(1.0);
         touch.texture_size = dice_.size(1.0);
     }

@@ -21,6 +21,7 @@ constexpr Nanoseconds period = 1'000'000;
 constexpr double half_edge = 0.04;
 constexpr double radius = 0.01;
 constexpr double press_depth = 0.01;
+constexpr double wall_stiffness = 500.0;  // (unit: newtons per meter)
 
 class Hand final : public Device {
 public:
@@ -49,7 +50,7 @@ struct Pressing {
     Pressing(std::shared_ptr<const SoftModel> made, const Vec3& begin) : model(std::move(made)) {
         view = std::make_shared<SoftView>(model->surface.vertices);
         BodyAddition addition;
-        addition.touch_material = {500.0, 0.0, 0.4, 0.3};
+        addition.touch_material = {wall_stiffness, 0.0, 0.4, 0.3};
         addition.soft = model;
         addition.soft_view = view;
         hand.position = begin;
@@ -94,7 +95,7 @@ struct Pressing {
         constexpr int ticks = 200;
         const Vec3 begin = spot.place + spot.out * (radius + 2e-3);
         Vec3 force_before = tick(begin).force;
-        double gained = 0.0, gained_held = 0.0;
+        double gained = 0.0, gained_held = 0.0, ways = 0.0;
         for (int i = 1; i <= ticks; ++i) {
             const double depth = 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * i / ticks));
             const Vec3 place = begin - spot.out * ((press_depth + 2e-3 + hand_gives) * depth);
@@ -102,6 +103,7 @@ struct Pressing {
             const ProxyState& state = tick(place);
             gained += 0.5 * glm::dot(force_before + state.force, way);
             gained_held += glm::dot(force_before, way);
+            ways += glm::dot(way, way);
             force_before = state.force;
             if (i % judged == 0) {
                 view->refresh();
@@ -116,6 +118,7 @@ struct Pressing {
         }
         figures.energy_created = std::max(figures.energy_created, gained);
         figures.energy_created_held = std::max(figures.energy_created_held, gained_held);
+        figures.held_share = std::max(figures.held_share, gained_held / (0.5 * wall_stiffness * ways));
         ++figures.presses;
     }
 

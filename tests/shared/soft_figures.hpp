@@ -28,6 +28,9 @@ struct SoftFigures {
     // between two ticks, and with the one that a device holds until the next.
     double energy_created = 0.0;
     double energy_created_held = 0.0;
+    // The latter over k / 2 times the sum of the squares of the hand's ways, which a spring k that is held
+    // for a tick may give back, and a device has to damp (core/safety/stiffness_limit.hpp); at most.
+    double held_share = 0.0;
     double shape_error = 0.0;                // of the vertices, long after the last press (unit: meters)
     std::vector<double> microseconds;        // of each tick in contact
     std::vector<double> still_microseconds;  // of ticks asleep

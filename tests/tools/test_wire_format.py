@@ -114,7 +114,11 @@ def test_description_is_read():
     assert (read["object"], read["name"], read["mass"]) == (5, "Table/Box", 0.125)
     assert (read["touch"]["stiffness"], read["touch"]["pop_through_force"]) == (750.0, 3.0)
     assert (read["touch"]["impact_strength"], read["touch"]["impact_decay"]) == (4.0, 0.125)
-    assert read["texture"] == {"columns": 2, "rows": 3, "heights": [0.0, 0.25, 0.5, 0.75, 1.0, 0.125]}
+    assert (read["touch"]["stribeck_speed"], read["touch"]["stiffening"]) == (0.0625, 2.5)
+    assert read["touch"]["stiffening_depth"] == 0.03125
+    assert read["touch"]["by_uv"]
+    assert read["friction_image"] == {"columns": 1, "rows": 2, "heights": [0.5, 1.0]}
+    assert read["height_image"] == {"columns": 2, "rows": 3, "heights": [0.0, 0.25, 0.5, 0.75, 1.0, 0.125]}
     assert read["pose"] == {"position": (0.5, -1.0, 2.0), "rotation": (0.5, -0.5, 0.5, 0.5)}
     assert (read["inertia"], read["center_of_mass"]) == ((0.001, 0.002, 0.003), (0.01, 0.02, 0.03))
     assert (read["layer"], read["mask"]) == (5, 0x80000003)

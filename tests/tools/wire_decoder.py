@@ -382,7 +382,7 @@ def packet(data: bytes) -> tuple[Fields, str, Fields]:
 
 def description(data: bytes) -> Fields:
     r = Reader(data)
-    read = {"object": r.object(), "name": _name(r), "touch": _touch(r), "texture": _texture(r)} | _body(r)
+    read = {"object": r.object(), "name": _name(r), "touch": _touch(r), "height_image": _image(r), "friction_image": _image(r)} | _body(r)
     _require(read["object"] < FIRST_JOINT, "the number of a joint")
     r.end()
     return read
@@ -423,12 +423,13 @@ def _touch(r: Reader) -> Fields:
     return {
         "stiffness": r.not_negative(), "damping": r.not_negative(),
         "static_friction": r.not_negative(), "dynamic_friction": r.not_negative(),
-        "texture_size": r.positive(), "texture_depth": r.not_negative(),
+        "by_uv": r.flag(), "texture_size": r.positive(), "texture_depth": r.not_negative(),
         "magnet_force": r.not_negative(), "magnet_range": r.positive(), "viscosity": r.not_negative(),
         "stick_slip_stiffness": r.not_negative(), "stick_slip_force": r.not_negative(),
         "vibration_force": r.not_negative(), "vibration_frequency": r.not_negative(),
         "pop_through_force": r.not_negative(), "impact_strength": r.not_negative(),
         "impact_frequency": r.not_negative(), "impact_decay": r.positive(),
+        "stribeck_speed": r.not_negative(), "stiffening": r.positive(), "stiffening_depth": r.positive(),
     }  # fmt: skip
 
 
@@ -443,7 +444,7 @@ def _grid(r: Reader, columns: int, rows: int, least_side: int, least: float, mos
     return {"heights": [r.real(least, most, "f") for _ in range(columns * rows)]}
 
 
-def _texture(r: Reader) -> Fields | None:
+def _image(r: Reader) -> Fields | None:
     return _heights(r, 1, 0.0, 1.0) if r.flag() else None
 
 

@@ -56,25 +56,25 @@ TEST(MaterialPresets, TheSameAgainChangesNothing) {
 
 TEST(Grain, IsBetweenZeroAndOneAndTheSameAlways) {
     const auto image = grain();
-    ASSERT_EQ(image->heights.size(), std::size_t{image->columns} * image->rows);
+    ASSERT_EQ(image->values.size(), std::size_t{image->columns} * image->rows);
     double sum = 0.0;
-    for (const float height : image->heights) {
+    for (const float height : image->values) {
         ASSERT_GE(height, 0.0f);
         ASSERT_LT(height, 1.0f);
         sum += static_cast<double>(height);
     }
-    EXPECT_NEAR(sum / static_cast<double>(image->heights.size()), 0.5, 0.02);
+    EXPECT_NEAR(sum / static_cast<double>(image->values.size()), 0.5, 0.02);
     EXPECT_EQ(grain(), image);
 }
 
-TEST(HeightImage, IsMadeOfPackedFloatsBetweenZeroAndOne) {
+TEST(TouchImage, IsMadeOfPackedFloatsBetweenZeroAndOne) {
     const float packed[] = {0.25f, -1.0f, 7.0f, std::numeric_limits<float>::quiet_NaN(), 1.0f, 0.5f};
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(packed);
-    const auto image = height_image(3, 2, {bytes, sizeof(packed)});
+    const auto image = touch_image(3, 2, {bytes, sizeof(packed)});
     ASSERT_NE(image, nullptr);
     EXPECT_EQ(image->columns, 3u);
-    EXPECT_EQ(image->heights, (std::vector<float>{0.25f, 0.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
-    EXPECT_EQ(height_image(3, 2, {bytes, sizeof(packed) - 1}), nullptr);
+    EXPECT_EQ(image->values, (std::vector<float>{0.25f, 0.0f, 1.0f, 0.0f, 1.0f, 0.5f}));
+    EXPECT_EQ(touch_image(3, 2, {bytes, sizeof(packed) - 1}), nullptr);
 }
 
 }  // namespace

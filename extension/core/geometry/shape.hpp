@@ -3,6 +3,8 @@
 // along y); a PlacedShape puts it into the frame of its body.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <variant>
 #include <vector>
@@ -40,6 +42,14 @@ struct ConvexHullShape {
     std::shared_ptr<const TriangleMesh> hull;  // closed surface of the hull
 };
 
+// What a mesh says of its triangles besides where they are; by triangle, empty where it says nothing.
+struct SurfaceMap {
+    using Corners = std::array<std::array<float, 2>, 3>;  // on images, in repetitions
+
+    std::vector<std::uint8_t> surface;  // the one of the mesh that it belongs to
+    std::vector<Corners> uv;
+};
+
 // Any triangles: closed or open, touched from both sides, or, where they are closed, from outside only.
 struct MeshShape {
     std::shared_ptr<const TriangleMesh> mesh;
@@ -47,6 +57,7 @@ struct MeshShape {
     // radians, 0 to pi); 0: the force is that of the facets.
     double smooth_below = 0.0;
     bool one_sided = false;
+    std::shared_ptr<const SurfaceMap> surfaces = nullptr;  // null: it says nothing
 };
 
 // Heights over a grid in x-z, centred on the origin, z-major: heights[row * columns + column].

@@ -14,6 +14,16 @@ bool is_length(double value) {
     return value > 0.0 && value <= 1e9;
 }
 
+bool is_of(const SurfaceMap& map, const TriangleMesh& mesh) {
+    const auto is_sound = [](const SurfaceMap::Corners& corners) {
+        return std::ranges::all_of(
+            corners, [](const auto& at) { return std::abs(at[0]) <= 1e6f && std::abs(at[1]) <= 1e6f; });
+    };
+    return (map.surface.empty() || map.surface.size() == mesh.triangles.size()) &&
+           (map.uv.empty() || map.uv.size() == mesh.triangles.size()) &&
+           std::ranges::all_of(map.uv, is_sound);
+}
+
 // An empty text, or why the shape cannot be touched.
 struct Check {
     std::string operator()(const SphereShape& s) const {
@@ -48,6 +58,11 @@ struct Check {
             return "the angle below which facets are smoothed is not between 0 and 180 degrees: set it so";
         }
         std::string error = m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
+        if (error.empty() && m.surfaces && !is_of(*m.surfaces, *m.mesh)) {
+            error =
+                "the mesh's surfaces or texture coordinates are not as many as its triangles, or no "
+                "numbers: make them anew";
+        }
         if (error.empty() && m.one_sided && !is_closed(*m.mesh)) {
             error =
                 "the mesh is to be touched from outside only, but it has no inside: close its holes and "
@@ -91,6 +106,7 @@ struct Compile {
     TouchPart operator()(const MeshShape& m) const {
         TouchPart part = with_tree(pose, *m.mesh, run);
         part.one_sided = m.one_sided && part.closed;
+        part.surfaces = m.surfaces;
         if (m.smooth_below > 0.0) {
             part.smooth_normals =
                 std::make_shared<const std::vector<CornerNormals>>(smooth_normals(*m.mesh, m.smooth_below));

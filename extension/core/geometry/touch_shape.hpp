@@ -24,6 +24,8 @@ struct TouchPart {
         smooth_normals;      // by triangle of the mesh; null: facets
     bool closed = false;     // a mesh that bounds a solid (see is_closed)
     bool one_sided = false;  // of closed meshes: touched from outside only; what is inside is let out
+    std::shared_ptr<const SurfaceMap> surfaces =
+        nullptr;  // null: the body's material is that of every triangle
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);

@@ -4,9 +4,44 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/haptics/surface_feel.hpp"
+#include "core/haptics/surface_spring.hpp"
 #include "core/haptics/surface_way.hpp"
 
 namespace tactus {
+
+namespace {
+
+// A wall at the depth that it is pressed to, and the force over the way there.
+struct Pressing {
+    Wall wall;
+    double wanted = 0.0;  // stiffness of the wall, were it safe (unit: newtons per meter)
+    double secant = 0.0;  // (unit: newtons per meter)
+};
+
+// `stretch`: from proxy to hand, of which the pad has its share (unit: meters).
+Pressing press(const TouchMaterial& material, double stretch, const SafeWalls& safe) {
+    const SurfaceSpring surface = spring_of(material);
+    const double pad = safe.pad_stiffness;
+    if (surface.is_linear()) {
+        const Wall wanted = under_pad({material.stiffness, material.damping}, pad);
+        const Wall wall = safe_wall(safe.lag, safe.device_damping, wanted);
+        return {wall, wanted.stiffness, wall.stiffness};
+    }
+    const auto wall_of = [&](const SurfaceSpring& spring, double depth) {
+        return under_pad({spring.slope(depth), material.damping}, pad);
+    };
+    const Wall wanted = wall_of(surface, depth_under_pad(surface, pad, stretch));
+    const Wall bound =
+        safe_wall(safe.lag, safe.device_damping, {std::numeric_limits<double>::infinity(), wanted.damping});
+    const SurfaceSpring safely = no_steeper(surface, pad, bound.stiffness);
+    const double depth = depth_under_pad(safely, pad, stretch);
+    const double stiffness = wall_of(safely, depth).stiffness;
+    const double secant = stretch > 0.0 ? safely.force(depth) / stretch : stiffness;
+    return {{stiffness, bound.damping}, wanted.stiffness, secant};
+}
+
+}  // namespace
 
 Wall under_pad(const Wall& surface, double pad_stiffness) {
     if (pad_stiffness <= 0.0 || surface.stiffness <= 0.0) {
@@ -20,27 +55,29 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
                         const Vec3& hand_velocity, double seconds, const SafeWalls& safe) {
     HandForce force;
     double all_pressure = 0.0;
+    Vec3 stretch = slide;
     for (const Touch& contact : touching) {
         all_pressure += contact.pressure;
+        stretch -= contact.normal * contact.pressure;
     }
+    const double stretched = glm::length(stretch);
     for (const Touch& contact : touching) {
         if (force.contact_count == HandForce::max_contacts) {
             break;
         }
-        const TouchBody& body = scene.body(contact.body);
-        const TouchMaterial& material = body.material;
-        const Wall wall = safe_wall(safe.lag, safe.device_damping,
-                                    under_pad({material.stiffness, material.damping}, safe.pad_stiffness));
+        const auto [wall, wanted, secant] = press(*feel_at(scene, contact).material, stretched, safe);
         const Vec3 surface_way = way_of_surface(scene, contact);
         const double approach = -glm::dot(hand_velocity - surface_way / seconds, contact.normal);
-        const double spring = wall.stiffness * contact.pressure;
+        const double spring = secant * contact.pressure;
         const double damper = wall.damping * approach;
         const Vec3 held = slide * (contact.pressure / all_pressure);
         ContactForce& part = force.contacts[force.contact_count++];
         part.body = contact.body;
+        part.feature = contact.feature;
         part.point = contact.point;
-        part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * wall.stiffness;
+        part.on_hand = contact.force_direction * std::max(0.0, spring + damper) - held * secant;
         part.wall = wall;
+        part.wanted_stiffness = wanted;
         force.source += glm::dot(part.on_hand, surface_way);
         force.total += part.on_hand;
     }

@@ -17,9 +17,12 @@ enum class ForceLaw {
 
 struct ContactForce {
     int body = -1;      // slot in the TouchScene
+    FeatureId feature;  // of the scene, now
     Vec3 point{0.0};    // in the world (unit: meters)
     Vec3 on_hand{0.0};  // (unit: newtons); the body gets the opposite
-    Wall wall;          // that has pressed: the material's, or what of it is safe
+    // That has pressed, as stiff as it is at this depth: the material's, or what of it is safe.
+    Wall wall;
+    double wanted_stiffness = 0.0;  // of the material's (unit: newtons per meter)
 };
 
 struct HandForce {

@@ -137,6 +137,7 @@ bool Proxy::fly(const Vec3& hand) {
     position_ = hand;
     surroundings_.travelled(way);
     sliding_ = false;
+    slide_speed_ = 0.0;
     contacts_hold_ = false;
     return true;
 }
@@ -199,6 +200,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         }
     }
     sliding_ = sliding_ && descent.slid;
+    heed_speed(step, position_ - start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
     // Where the work has ended before what holds it was seen again, that still does; also what held it a tick
     // ago, where it is not far from there.
@@ -240,9 +242,10 @@ void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& 
     say(proxy_letting_out, lets_out_of_squeeze || passed.any(PassedBecause::overlaps));
 }
 
-ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand) {
+ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand, double seconds) {
     ProxyTick tick;
     scene_ = &scene;
+    seconds_ = seconds;
     // Devices do send numbers that are none: the hand stays where it was last.
     constexpr double farthest = 1e9;
     const Vec3 size = glm::abs(given_hand);

@@ -55,6 +55,7 @@ struct ProxyMemory {
     bool overlaps = false;
     Vec3 hand{0.0};  // in the world (unit: meters)
     TouchList touching;
+    double slide_speed = 0.0;  // (unit: meters per second)
 };
 
 class Proxy {
@@ -64,8 +65,8 @@ public:
     void set_settings(const ProxySettings& settings) { settings_ = settings; }
     const ProxySettings& settings() const { return settings_; }
 
-    // One tick: the scene as it is now, the hand where it is now. Allocates nothing.
-    ProxyTick move(const TouchScene& scene, const Vec3& hand);
+    // One tick, so many seconds long: the scene as it is now, the hand where it is now. Allocates nothing.
+    ProxyTick move(const TouchScene& scene, const Vec3& hand, double seconds = 0.001);
 
     // The contacts that hold the proxy back after the last move, with their pressure.
     std::span<const Touch> touching() const { return touching_.all(); }
@@ -77,7 +78,9 @@ public:
     // one that slides the hand leads what lies along the surface, so that it is only pushed.
     void go_along(const Vec3& offset, int body);
     // The proxy as it was, to move it again from there.
-    ProxyMemory memory() const { return {position_, present_, sliding_, overlaps_, hand_, touching_}; }
+    ProxyMemory memory() const {
+        return {position_, present_, sliding_, overlaps_, hand_, touching_, slide_speed_};
+    }
     void recall(const ProxyMemory& memory) {
         put(memory.position);
         present_ = memory.present;
@@ -85,6 +88,7 @@ public:
         overlaps_ = memory.overlaps;
         hand_ = memory.hand;
         touching_ = memory.touching;
+        slide_speed_ = memory.slide_speed;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -141,6 +145,7 @@ private:
     void brake(ConstrainedStep& step, double dropped);
     double drop_after(double length) const;
     double friction_limit(const ConstrainedStep& step, double dropped) const;
+    void heed_speed(const ConstrainedStep& step, const Vec3& way);
     void keep_touching(const ConstrainedStep& step);
     const Tolerances& tolerances() const { return surroundings_.tolerances(); }
 
@@ -150,7 +155,9 @@ private:
     Vec3 position_{0.0};
     bool present_ = false;
     bool sliding_ = false;
-    Vec3 hand_{0.0};  // the last that was a place
+    double seconds_ = 0.001;    // of this tick
+    double slide_speed_ = 0.0;  // that friction goes by, see friction.hpp (unit: meters per second)
+    Vec3 hand_{0.0};            // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     bool overlaps_ = false;       // a surface, since the last move

@@ -4,7 +4,9 @@
 #include <span>
 #include <utility>
 
+#include "core/haptics/friction.hpp"
 #include "core/haptics/proxy.hpp"
+#include "core/haptics/surface_feel.hpp"
 
 namespace tactus {
 
@@ -106,12 +108,37 @@ double Proxy::friction_limit(const ConstrainedStep& step, double dropped) const 
     for (int i = 0; i < step.pressing_count; ++i) {
         const Contact& contact = contacts_[step.pressing[i]];
         const ScenePart& placed = scene_->parts()[contact.feature.part];
-        const TouchMaterial& material = scene_->body(static_cast<int>(placed.body)).material;
+        const auto body = static_cast<int>(placed.body);
+        const Feel feel = feel_at(*scene_, body, contact.feature);
         const bool at_rest = contact.gap <= 4.0 * tolerances().skin + dropped;
-        const double coefficient = sliding_ ? material.dynamic_friction : material.static_friction;
+        double coefficient = friction_at(*feel.material, sliding_, slide_speed_);
+        if (feel.friction()) {
+            const double rest = settings_.radius + tolerances().skin;
+            coefficient *= friction_share(*scene_, feel, body, contact.feature,
+                                          position_ - contact.normal * (contact.gap + rest), contact.normal);
+        }
         limit += at_rest ? coefficient * step.pressure[i] : 0.0;
     }
     return limit;
+}
+
+// After a tick in which the proxy has gone `way` on the surfaces of its last step (unit: meters).
+void Proxy::heed_speed(const ConstrainedStep& step, const Vec3& way) {
+    double fall = 0.0;  // of friction with the speed, p |mu'| (unit: seconds)
+    Vec3 along = way;
+    for (int i = 0; i < step.pressing_count; ++i) {
+        const Contact& contact = contacts_[step.pressing[i]];
+        const ScenePart& placed = scene_->parts()[contact.feature.part];
+        fall += step.pressure[i] *
+                steepest_fall(*feel_at(*scene_, static_cast<int>(placed.body), contact.feature).material);
+        along -= contact.normal * glm::dot(along, contact.normal);
+    }
+    if (fall <= 0.0) {
+        slide_speed_ = 0.0;
+        return;
+    }
+    const double speed = glm::length(along) / seconds_;
+    slide_speed_ += (speed - slide_speed_) * (0.5 * seconds_ / std::max(fall, seconds_));
 }
 
 // What friction leaves of a step. It has no say in how far down the surface is.

@@ -99,15 +99,6 @@ private:
     ContactList contacts_;
 };
 
-// Nothing has happened since but that bodies give.
-bool only_gives(const TouchScene& scene, std::uint64_t since) {
-    bool gives = scene.revision() - since <= TouchScene::remembered_changes;
-    for (std::uint64_t revision = since + 1; gives && revision <= scene.revision(); ++revision) {
-        gives = scene.change(revision).kind == TouchScene::Change::Kind::gives;
-    }
-    return gives;
-}
-
 }  // namespace
 
 // Whether the force may change although neither hand nor bodies have moved.
@@ -125,7 +116,7 @@ bool Proxy::take_in_jumps() {
     if (present_) {
         let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(), surroundings_.work()));
     }
-    return other_sphere || other_material || !only_gives(*scene_, since);
+    return other_sphere || other_material || !scene_->only_gives_since(since);
 }
 
 // Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "core/haptics/surface_feel.hpp"
+#include "core/haptics/surface_spring.hpp"
 #include "core/haptics/surface_way.hpp"
 
 namespace tactus {
@@ -16,42 +18,42 @@ Vec3 along_surface(const Vec3& v, const Vec3& normal) {
     return v - normal * glm::dot(v, normal);
 }
 
-bool has_texture(const TouchMaterial& m) {
-    return m.texture && m.texture_depth > 0.0;
+bool has_texture(const Feel& feel) {
+    return feel.heights() && feel.material->texture_depth > 0.0;
 }
 bool has_stick_slip(const TouchMaterial& m) {
     return m.stick_slip_stiffness > 0.0 && m.stick_slip_force > 0.0;
 }
 
-double pixel(const HeightImage& image, std::int64_t column, std::int64_t row) {
-    const auto wrap = [](std::int64_t i, std::uint32_t count) {
-        const std::int64_t rest = i % static_cast<std::int64_t>(count);
-        return static_cast<std::size_t>(rest < 0 ? rest + count : rest);
-    };
-    return image.heights[wrap(row, image.rows) * image.columns + wrap(column, image.columns)];
-}
-
-// The relief stores energy like the spring it lies on: U = k (pressure + height)^2 / 2. Its slope pushes the
-// hand downhill, its height away from the surface.
-Vec3 texture_force(const TouchBody& body, const Touch& contact) {
-    const TextureSample relief = sample_texture(body.material, to_local(body.pose, contact.point),
-                                                direction_to_local(body.pose, contact.normal));
-    const double stiffness = body.material.stiffness;
-    const Vec3 downhill = -along_surface(direction_to_parent(body.pose, relief.gradient), contact.normal);
-    return contact.normal * (stiffness * relief.height) +
-           downhill * (stiffness * (contact.pressure + relief.height));
+// The relief stores energy like the spring it lies on: U(pressure + height), k d^2 / 2 of one that is linear.
+// Its slope pushes the hand downhill, its height away from the surface.
+Vec3 texture_force(const TouchScene& scene, const Feel& feel, const Touch& contact) {
+    const TouchImage& image = *feel.heights();
+    const ImagePlace place =
+        image_place(scene, feel, image, contact.body, contact.feature, contact.point, contact.normal);
+    const ImageSample relief = sample(image, place, feel.material->texture_depth);
+    const Vec3 downhill =
+        -along_surface(direction_to_parent(scene.body(contact.body).pose, relief.gradient), contact.normal);
+    const SurfaceSpring spring = spring_of(*feel.material);
+    if (!spring.is_linear()) {
+        const double raised = spring.force(contact.pressure + relief.value);
+        return contact.normal * (raised - spring.force(contact.pressure)) + downhill * raised;
+    }
+    return contact.normal * (spring.stiffness * relief.value) +
+           downhill * (spring.stiffness * (contact.pressure + relief.value));
 }
 
 // A spring to the place where the hand stuck; when it is stretched beyond its force, the hand sticks anew
 // where it is.
-Vec3 stick_slip_force(const TouchBody& body, const Touch& contact, const Vec3& hand, EffectMemory& memory) {
+Vec3 stick_slip_force(const TouchBody& body, const TouchMaterial& material, const Touch& contact,
+                      const Vec3& hand, EffectMemory& memory) {
     if (memory.stuck_body != contact.body) {
         memory.stuck_body = contact.body;
         memory.stuck_at = to_local(body.pose, hand);
     }
     const Vec3 stretched = along_surface(to_parent(body.pose, memory.stuck_at) - hand, contact.normal);
-    const Vec3 force = stretched * body.material.stick_slip_stiffness;
-    if (glm::length(force) > body.material.stick_slip_force) {
+    const Vec3 force = stretched * material.stick_slip_stiffness;
+    if (glm::length(force) > material.stick_slip_force) {
         memory.stuck_at = to_local(body.pose, hand);
         return Vec3(0.0);
     }
@@ -76,34 +78,6 @@ double tap_force(const Touch& contact, const TouchMaterial& material, double met
 
 }  // namespace
 
-TextureSample sample_texture(const TouchMaterial& material, const Vec3& point, const Vec3& normal) {
-    const HeightImage& image = *material.texture;
-    const Vec3 size = glm::abs(normal);
-    const int along = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-    const int u_axis = (along + 1) % 3;
-    const int v_axis = (along + 2) % 3;
-    const double columns_per_meter = image.columns / material.texture_size;
-    const double rows_per_meter = image.rows / material.texture_size;
-    const double u = point[u_axis] * columns_per_meter;
-    const double v = point[v_axis] * rows_per_meter;
-    const double column = std::floor(u);
-    const double row = std::floor(v);
-    const double s = u - column;
-    const double t = v - row;
-    const auto c = static_cast<std::int64_t>(column);
-    const auto r = static_cast<std::int64_t>(row);
-    const double h00 = pixel(image, c, r);
-    const double h10 = pixel(image, c + 1, r);
-    const double h01 = pixel(image, c, r + 1);
-    const double h11 = pixel(image, c + 1, r + 1);
-    TextureSample sample;
-    const double depth = material.texture_depth;
-    sample.height = depth * ((1 - t) * ((1 - s) * h00 + s * h10) + t * ((1 - s) * h01 + s * h11));
-    sample.gradient[u_axis] = depth * columns_per_meter * ((1 - t) * (h10 - h00) + t * (h11 - h01));
-    sample.gradient[v_axis] = depth * rows_per_meter * ((1 - s) * (h01 - h00) + s * (h11 - h10));
-    return sample;
-}
-
 double magnet_pull(const TouchMaterial& material, double gap) {
     return material.magnet_force * std::clamp(1.0 - gap / material.magnet_range, 0.0, 1.0);
 }
@@ -123,11 +97,11 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
     const std::array<Ringing, HandForce::max_contacts> rings = std::exchange(memory.rings, {});
     for (int i = 0; i < force.contact_count; ++i) {
         const Touch& contact = touching[static_cast<std::size_t>(i)];
-        const TouchBody& body = scene.body(contact.body);
-        const TouchMaterial& material = body.material;
+        const Feel feel = feel_at(scene, contact);
+        const TouchMaterial& material = *feel.material;
         Vec3 added(0.0);
-        if (has_texture(material)) {
-            added += texture_force(body, contact);
+        if (has_texture(feel)) {
+            added += texture_force(scene, feel, contact);
         }
         if (material.viscosity > 0.0 || material.impact_strength > 0.0) {
             const Vec3 carried = way_of_surface(scene, contact) / seconds;
@@ -143,7 +117,7 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
             added += contact.normal * (material.vibration_force * std::sin(phase));
         }
         if (has_stick_slip(material) && !sticks) {
-            added += stick_slip_force(body, contact, hand.position, memory);
+            added += stick_slip_force(scene.body(contact.body), material, contact, hand.position, memory);
             sticks = true;
         }
         force.contacts[i].on_hand += added;

@@ -52,14 +52,4 @@ constexpr double max_pull_rate = 400.0;
 // to hide.
 Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t magnets, EffectMemory& memory);
 
-struct TextureSample {
-    double height = 0.0;  // (unit: meters)
-    Vec3 gradient{0.0};   // of the height along the surface (dimensionless), in the body's frame
-};
-
-// The image is laid onto the body along the axis of its frame that the normal is nearest to, so that no mesh
-// needs texture coordinates. Bilinear between pixels.
-TextureSample sample_texture(const TouchMaterial& material, const Vec3& point_in_body,
-                             const Vec3& normal_in_body);
-
 }  // namespace tactus

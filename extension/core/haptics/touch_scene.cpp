@@ -51,8 +51,8 @@ int TouchScene::add(const TouchShape& shape, const Pose& pose, const TouchMateri
         return -1;
     }
     const int index = static_cast<int>(slot - bodies_.begin());
-    *slot = {
-        &shape, pose, pose, material, layer, false, 0.0, nullptr, static_cast<std::uint32_t>(first_part)};
+    *slot = {&shape, pose, pose, material, layer,
+             false,  0.0,  0.0,  nullptr,  static_cast<std::uint32_t>(first_part)};
     for (std::size_t i = 0; i < shape.parts.size(); ++i) {
         const Pose placed = compose(pose, shape.parts[i].pose);
         parts_[slot->first_part + i] = {&shape.parts[i], static_cast<std::uint32_t>(index), placed, placed};
@@ -104,6 +104,7 @@ void TouchScene::begin_tick() {
     moved_.clear();
     for (const int index : deformed_) {
         body_at(index).former = nullptr;
+        body_at(index).gave_by = 0.0;
     }
     deformed_.clear();
 }
@@ -116,10 +117,19 @@ bool TouchScene::deform(int index, const TouchShape& shape) {
     return true;
 }
 
-bool TouchScene::give(int index, const TouchShape& shape) {
+bool TouchScene::only_gives_since(std::uint64_t since) const {
+    bool gives = revision_ - since <= remembered_changes;
+    for (std::uint64_t revision = since + 1; gives && revision <= revision_; ++revision) {
+        gives = change(revision).kind == Change::Kind::gives;
+    }
+    return gives;
+}
+
+bool TouchScene::give(int index, const TouchShape& shape, double by) {
     if (!is_deformation(*body(index).shape, shape)) {
         return false;
     }
+    body_at(index).gave_by += by;
     take_form(index, shape, Change::Kind::gives);
     return true;
 }

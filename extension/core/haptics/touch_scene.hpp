@@ -24,6 +24,7 @@ struct TouchBody {
     std::uint32_t layer = 1;  // bits; a proxy touches it where its mask has one of them
     bool moved = false;       // since the last tick
     double moved_by = 0.0;    // no point of the body moved farther since the last tick (unit: meters)
+    double gave_by = 0.0;     // no corner of it gave farther, likewise
     const TouchShape* former = nullptr;  // its form one tick ago; null: it has not deformed since
     std::uint32_t first_part =
         0;  // its parts are scene parts first_part … first_part + shape->parts.size() - 1
@@ -60,9 +61,9 @@ public:
     // Proxies sweep along the way of the triangles that are refits of those before. False, and nothing
     // happens, where the parts are not as many.
     bool deform(int body, const TouchShape& shape);
-    // The same for a body that gives under what touches it, in every tick: no change to what is felt. False,
-    // and nothing happens, where the triangles are not refits of those before.
-    bool give(int body, const TouchShape& shape);
+    // The same for a body that gives under what touches it, in every tick, no corner by more than `by`: no
+    // change to what is felt. False, and nothing happens, where the triangles are not refits of those before.
+    bool give(int body, const TouchShape& shape, double by);
 
     std::size_t slots() const { return bodies_.size(); }
     std::size_t slots_in_use() const { return used_; }  // all bodies are below
@@ -89,6 +90,8 @@ public:
     static constexpr std::uint64_t remembered_changes = 64;
     std::uint64_t revision() const { return revision_; }
     const Change& change(std::uint64_t revision) const { return changes_[revision % remembered_changes]; }
+    // Nothing has happened since that revision but that bodies give.
+    bool only_gives_since(std::uint64_t revision) const;
     // Counts materials that were set.
     std::uint64_t material_changes() const { return material_changes_; }
 

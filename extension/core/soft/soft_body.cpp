@@ -106,15 +106,19 @@ void SoftBody::put(std::size_t node, const Vec3& place, const Vec3& velocity) {
     wake();
 }
 
-void SoftBody::write_surface(std::span<Vec3> out) const {
+double SoftBody::write_surface(std::span<Vec3> out) const {
+    double farthest2 = 0.0;
     for (std::size_t i = 0; i < out.size(); ++i) {
         const SoftAnchor& anchor = model_->anchors[i];
         Lanes place = splat(0.0);
         for (std::size_t k = 0; k < 4; ++k) {
             place = multiply_add(place_[anchor.node[k]], splat(anchor.weight[k]), place);
         }
+        const Vec3 way = vector_of(place) - out[i];
+        farthest2 = std::max(farthest2, glm::dot(way, way));
         out[i] = vector_of(place);
     }
+    return std::sqrt(farthest2);
 }
 
 Vec3 SoftBody::surface_point(std::uint32_t triangle, const Vec3& weights) const {

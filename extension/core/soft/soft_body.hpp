@@ -91,8 +91,9 @@ public:
     // Back in its shape at rest, and still.
     void reset();
 
-    // Where the vertices of the surface are; as many as the model has.
-    void write_surface(std::span<Vec3> out) const;
+    // Where the vertices of the surface are; as many as the model has. How far the farthest has gone from
+    // where `out` had it (unit: meters).
+    double write_surface(std::span<Vec3> out) const;
     Vec3 surface_point(std::uint32_t triangle, const Vec3& weights) const;
     // What a push of the last step has pressed with (unit: newtons).
     const Vec3& pressed(std::size_t push) const { return contacts_[push].force; }

@@ -37,20 +37,20 @@ double potential_of(double force, double stiffness, double unpaid, double over) 
 
 }  // namespace
 
-void PassiveUpdate::changed(const Vec3& before, const Vec3& after, double stiffness) {
-    if (!(stiffness > 0.0)) {
+void PassiveUpdate::changed(const Vec3& before, double k_before, const Vec3& after, double k_after) {
+    if (!(k_before > 0.0) || !(k_after > 0.0)) {
         return;
     }
     const double from = glm::length(before), to = glm::length(after);
-    const double had = potential_of(from, stiffness, unpaid_, over_);
-    const double felt = felt_size(from, stiffness, unpaid_, over_);
-    const double stored = stored_in(to, stiffness);
+    const double had = potential_of(from, k_before, unpaid_, over_);
+    const double felt = felt_size(from, k_before, unpaid_, over_);
+    const double stored = stored_in(to, k_after);
     if (had >= stored) {
         unpaid_ = 0.0;
         over_ = stored > 0.0 ? std::clamp(std::min(felt / to, had / stored), 1.0, max_over) : 1.0;
     } else {
         over_ = 1.0;
-        unpaid_ = std::max(0.0, stored - std::min(stored_in(felt, stiffness), had));
+        unpaid_ = std::max(0.0, stored - std::min(stored_in(felt, k_after), had));
     }
     pace_ = fading_ = 0.0;
 }

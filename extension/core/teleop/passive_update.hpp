@@ -32,8 +32,8 @@ struct PassiveUpdateSettings {
 class PassiveUpdate {
 public:
     // The model has changed under the hand: in this tick its force is `after`, and would have been `before`
-    // (unit: newtons).
-    void changed(const Vec3& before, const Vec3& after, double stiffness);
+    // (unit: newtons). Of a spring that is not linear, k at a force is that of one that stores as much.
+    void changed(const Vec3& before, double k_before, const Vec3& after, double k_after);
     // A correction has given a touched body so much energy of motion (unit: joules).
     void sped_up(double energy) { owed_ += energy; }
 

@@ -42,6 +42,7 @@ void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> 
                         double limit, double same, WorkBudget& work) {
     count_ = 0;
     clear_ = limit;
+    worn_ = 0.0;
     gathered_at_ = center;
     looked_at_ = Vec3(std::numeric_limits<double>::infinity());
     for (const std::uint32_t index : parts) {

@@ -43,6 +43,7 @@ public:
     // Surfaces may have come nearer by as much (unit: meters).
     void approach(double by) {
         clear_ -= by;
+        worn_ += by;
         looked_at_ = Vec3(std::numeric_limits<double>::infinity());
         for (int i = 0; i < count_; ++i) {
             planes_[static_cast<std::size_t>(i)].offset -= by;
@@ -62,6 +63,9 @@ public:
     // The same features, those nearer than `within` exactly as they are seen from `center`.
     void look(const TouchScene& scene, const Vec3& center, double within, double same, WorkBudget& work);
     bool is_full() const { return count_ == capacity; }
+    // What has come nearer since it was gathered makes it see less than there is, by more than this (unit:
+    // meters).
+    bool is_worn(double by) const { return worn_ > by; }
     bool is_seen_from(const Vec3& center, double within) const {
         return looked_at_ == center && looked_within_ >= within;
     }
@@ -75,6 +79,7 @@ private:
     std::array<double, capacity> distances_{};
     int count_ = 0;
     double clear_ = -std::numeric_limits<double>::infinity();
+    double worn_ = 0.0;
     Vec3 gathered_at_{0.0};
     Vec3 looked_at_{std::numeric_limits<double>::infinity()};
     double looked_within_ = 0.0;  // (unit: meters)

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <utility>
 
+#include "core/haptics/surface_way.hpp"
 #include "core/teleop/body_motion.hpp"
 
 namespace tactus {
@@ -167,8 +169,12 @@ void ToolProxy::keep_touches(const NearestMotion& holding) {
         const ToolContact& contact = contacts_.items[at(push.bound)];
         const Vector6 row = lifted_row(contact.normal, contact.point - pose_.position, length_);
         const double give = length_of(row);
-        touches_[at(i)] = {contact.point, contact.normal, push.direction * (push.size * settings_.stiffness),
-                           settings_.stiffness / (give * give), contact.body};
+        touches_[at(i)] = {contact.point,
+                           contact.normal,
+                           push.direction * (push.size * settings_.stiffness),
+                           settings_.stiffness / (give * give),
+                           contact.body,
+                           contact.feature};
     }
 }
 
@@ -226,7 +232,75 @@ bool ToolProxy::ride() {
             has_room = has_room && around_.share_until_entered(index, before, pose_, lost, work_) == 1.0;
         }
     }
-    return has_room && taken <= farthest_ride * shape().reach;
+    return ride_forms(taken) && has_room && taken <= farthest_ride * shape().reach;
+}
+
+// The rigid motion nearest to how the surface has gone under the tool, by what each contact presses with.
+// About axes that the contacts say nothing of it does not turn.
+RigidMotion ToolProxy::way_of_form(int body) const {
+    constexpr double steadies = 0.01;  // of the tool's reach
+    double pressing = 0.0;
+    Vec3 center(0.0), mean(0.0);
+    const auto for_each = [&](auto&& use) {
+        for (const ToolTouch& touch : touching()) {
+            const double weight = glm::dot(touch.force, touch.normal);
+            if (touch.body == body && weight > 0.0) {
+                Touch place;
+                place.point = touch.point;
+                place.body = touch.body;
+                place.feature = touch.feature;
+                use(weight, touch.point - pose_.position, tactus::way_of_surface(*scene_, place));
+            }
+        }
+    };
+    for_each([&](double weight, const Vec3& arm, const Vec3& way) {
+        pressing += weight;
+        center += weight * arm;
+        mean += weight * way;
+    });
+    if (pressing <= 0.0) {
+        return {};
+    }
+    center /= pressing;
+    mean /= pressing;
+    const double steady = steadies * shape().reach;
+    Mat3 inertia(pressing * steady * steady);
+    Vec3 momentum(0.0);
+    for_each([&](double weight, const Vec3& arm, const Vec3& way) {
+        const Vec3 r = arm - center;
+        inertia += weight * (Mat3(glm::dot(r, r)) - glm::outerProduct(r, r));
+        momentum += weight * glm::cross(r, way - mean);
+    });
+    const Vec3 turn = glm::inverse(inertia) * momentum;
+    return {mean - glm::cross(turn, center), turn};
+}
+
+// What gives carries a tool that rests on it, and takes it along where it would enter its spheres too far.
+bool ToolProxy::ride_forms(double& taken) {
+    const Pose before = pose_;
+    const auto take_along = [&](const RigidMotion& motion, int index) {
+        taken += around_.farthest_way(motion);
+        if (taken <= farthest_ride * shape().reach) {
+            const double straight = around_.straight_share(motion);
+            go(motion * (straight * around_.free_share(pose_, motion * straight, work_, index)));
+        }
+    };
+    bool has_room = true;
+    for (const int index : scene_->deformed_bodies()) {
+        const TouchBody& body = scene_->body(index);
+        if ((body.layer & settings_.mask) == 0 || !is_deformation(*body.former, *body.shape)) {
+            continue;
+        }
+        if (const RigidMotion rests = way_of_form(index); rests.way != Vec3(0.0)) {
+            take_along(rests, index);
+        }
+        const auto entering = around_.entered_by_form(index, before, pose_, entered, work_);
+        if (entering.share < 1.0) {
+            take_along({entering.way, Vec3(0.0)}, index);
+            has_room = has_room && around_.entered_by_form(index, before, pose_, lost, work_).share == 1.0;
+        }
+    }
+    return has_room;
 }
 
 void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
@@ -268,7 +342,7 @@ ToolTick ToolProxy::move(const TouchScene& scene, const Pose& hand) {
     }
     const Pose start = pose_;
     work_ = WorkBudget(settings_.max_work);
-    if (std::exchange(revision_, scene.revision()) != scene.revision()) {
+    if (!scene.only_gives_since(std::exchange(revision_, scene.revision()))) {
         touch_count_ = 0;
     }
     // It ends no farther from the hand than it is after its ride.

@@ -40,6 +40,7 @@ struct ToolTouch {
     double stiffness = 0.0;      // by which that grows when tool and hand come apart there, along it
                                  // (unit: newtons per meter)
     int body = -1;               // slot in the TouchScene
+    FeatureId feature;           // of the scene, now
 };
 
 struct ToolTick {
@@ -82,6 +83,8 @@ private:
 
     ToolTick appear(const Pose& hand);
     bool ride();
+    bool ride_forms(double& taken);
+    RigidMotion way_of_form(int body) const;
     int carrier() const;
     void descend(const Pose& hand, ToolTick& tick);
     Plan plan(const RigidMotion& pull);

@@ -89,13 +89,13 @@ void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, c
         }
         const TouchBody& body = scene.body(static_cast<int>(placed.body));
         const Vec3 apart = to_local(placed.pose, pose.position) - placed.part->center;
-        const double gone = body.moved ? body.moved_by : 0.0;
+        const double gone = (body.moved ? body.moved_by : 0.0) + body.gave_by;
         if (glm::length(apart) - placed.part->radius <= near + gone) {
             parts_.push_back(static_cast<std::uint32_t>(i));
             approach = std::max(approach, gone);
         }
     }
-    if (std::exchange(revision_, scene.revision()) != scene.revision()) {
+    if (!scene.only_gives_since(std::exchange(revision_, scene.revision()))) {
         forget();
     } else if (approach > 0.0) {
         for (std::size_t i = 0; i < hoods_.size(); ++i) {
@@ -145,7 +145,7 @@ void ToolSurroundings::look_at_sphere(std::uint32_t index, const Pose& pose, dou
     SphereHood& hood = hoods_[index];
     const double others = hood.others(center) - rest;
     // A hood that is full sees no farther from here: sweeps do, and what stops one makes it look anew.
-    if (others < window && !hood.is_full()) {
+    if (others < window && (!hood.is_full() || hood.is_worn(window))) {
         const double around =
             std::clamp(4.0 * window, hood_share * shape_->reach, farthest_share * shape_->reach);
         hood.gather(*scene_, parts_, center, rest + around, same_share * skin_, work);
@@ -157,8 +157,11 @@ void ToolSurroundings::look_at_sphere(std::uint32_t index, const Pose& pose, dou
     }
     for (const HoodPlane& plane : hood.planes()) {
         if (is_near(plane) && (!plane.covered || has_stopped(index, plane))) {
-            contacts.add({plane.point, plane.normal, plane.at(center) - rest,
-                          static_cast<int>(scene_->parts()[plane.part].body)});
+            contacts.add({plane.point,
+                          plane.normal,
+                          plane.at(center) - rest,
+                          static_cast<int>(scene_->parts()[plane.part].body),
+                          {plane.part, plane.triangle}});
         }
     }
     room_[index] = hood.least(center) - rest;
@@ -274,6 +277,58 @@ double ToolSurroundings::share_until_entered(int body, const Pose& before, const
         }
     }
     return limit;
+}
+
+// Until the point, on its way, is no farther than the room from a triangle on its own.
+double ToolSurroundings::share_until_near(const DeformSweep& sweep, const Vec3& from, const Vec3& to,
+                                          double room, double limit, WorkBudget& work) {
+    constexpr double arrived = 1e-3;  // of the tick
+    constexpr int max_looks = 64;
+    double t = 0.0;
+    for (int i = 0; i < max_looks && t < limit; ++i) {
+        const double next = sweep.free_until(t, from + (to - from) * t, to - from, room, work);
+        if (next < 1.0 && next - t <= arrived) {
+            return t;
+        }
+        t = next;
+    }
+    return std::min(t, limit);
+}
+
+ToolSurroundings::Entering ToolSurroundings::entered_by_form(int body, const Pose& before, const Pose& now,
+                                                             double depth, WorkBudget& work) {
+    Entering entering;
+    const TouchBody& given = scene_->body(body);
+    for (const std::uint32_t part : parts_) {
+        const ScenePart& placed = scene_->parts()[part];
+        if (static_cast<int>(placed.body) != body) {
+            continue;
+        }
+        const TouchPart& former = given.former->parts[part - given.first_part];
+        const DeformSweep sweep(*former.tree(), *placed.part->tree());
+        for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
+            const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
+            const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
+            const double room = (1.0 - depth) * shape_->spheres[i].radius;
+            const double ball = std::max(former.radius, placed.part->radius);
+            if (room_[i] > 0.0 || glm::distance(to, placed.part->center) >
+                                      ball + room + glm::distance(from, to) + given.gave_by) {
+                continue;
+            }
+            const double share = share_until_near(sweep, from, to, room, entering.share, work);
+            if (share < entering.share) {
+                const Vec3 at = from + (to - from) * share;
+                double nearest = shape_->spheres[i].radius;
+                Vec3 way(0.0);
+                sweep.visit_near(share, at, nearest, work, [&](const DeformSweep::Seen& seen) {
+                    nearest = seen.distance;
+                    way = sweep.motion_of(seen, share, at);
+                });
+                entering = {share, direction_to_parent(placed.pose, way) * (1.0 - share)};
+            }
+        }
+    }
+    return entering;
 }
 
 void ToolSurroundings::went(const RigidMotion& motion) {

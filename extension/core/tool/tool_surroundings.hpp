@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "core/geometry/deform_sweep.hpp"
+#include "core/haptics/contact.hpp"
 #include "core/tool/nearest_motion.hpp"
 #include "core/tool/sphere_hood.hpp"
 #include "core/tool/tool_shape.hpp"
@@ -22,6 +24,7 @@ struct ToolContact {
     Vec3 normal{0.0, 1.0, 0.0};  // unit, from the surface to the tool, in the world
     double gap = 0.0;            // distance still to where the tool rests (unit: meters)
     int body = -1;               // slot in the TouchScene
+    FeatureId feature;           // of the scene, now
 };
 
 struct ToolContacts {
@@ -60,6 +63,13 @@ public:
     // What of its way in this tick the body has gone when it is this share of a sphere's radius in the tool,
     // which went from `before` to `now`; 1: it is not.
     double share_until_entered(int body, const Pose& before, const Pose& now, double depth, WorkBudget& work);
+    // The same for a body that gives, between its two last forms, and how its surface goes on there until the
+    // tick ends, in the world (unit: meters).
+    struct Entering {
+        double share = 1.0;
+        Vec3 way{0.0};
+    };
+    Entering entered_by_form(int body, const Pose& before, const Pose& now, double depth, WorkBudget& work);
     // The tool has made the motion.
     void went(const RigidMotion& motion);
 
@@ -76,6 +86,8 @@ private:
     static double way_of(const RigidMotion& motion, double arm);
     void look_at_sphere(std::uint32_t index, const Pose& pose, double window, ToolContacts& contacts,
                         WorkBudget& work);
+    static double share_until_near(const DeformSweep& sweep, const Vec3& from, const Vec3& to, double room,
+                                   double limit, WorkBudget& work);
     double sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag, double limit,
                         int except, WorkBudget& work);
     bool has_stopped(std::uint32_t sphere, const HoodPlane& plane) const;

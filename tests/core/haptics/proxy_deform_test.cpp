@@ -33,7 +33,7 @@ protected:
         former_ = form_;
         form_ = shared::refitted(*form_, mesh);
         rig_.scene.begin_tick();
-        EXPECT_TRUE(gives_ ? rig_.scene.give(body_, *form_) : rig_.scene.deform(body_, *form_));
+        EXPECT_TRUE(gives_ ? rig_.scene.give(body_, *form_, 0.1) : rig_.scene.deform(body_, *form_));
         return rig_.proxy.move(rig_.scene, hand);
     }
 
@@ -75,7 +75,7 @@ TEST_F(ProxyDeform, WhatIsNoRefitDoesNotGive) {
     start(shared::terrain(20, 2.0, 0.0));
     const std::shared_ptr<const TouchShape> other = shared::touch_of(shared::terrain(20, 2.0, 0.0));
     rig_.scene.begin_tick();
-    EXPECT_FALSE(rig_.scene.give(body_, *other));
+    EXPECT_FALSE(rig_.scene.give(body_, *other, 0.1));
     EXPECT_EQ(rig_.scene.body(body_).shape, form_.get());
 }
 

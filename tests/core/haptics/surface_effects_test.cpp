@@ -1,5 +1,7 @@
 #include "core/haptics/surface_effects.hpp"
 
+#include "core/haptics/surface_feel.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -143,14 +145,20 @@ TEST(SurfaceEffects, MagnetFadesFromTouchToItsRange) {
     EXPECT_EQ(magnet_pull(material, -0.01), 3.0);
 }
 
-HeightImage bumps() {
+ImageSample sample_texture(const TouchMaterial& material, const Vec3& point, const Vec3& normal) {
+    const TouchImage& image = *material.detail->images.heights;
+    return sample(image, place_in_frame(image, material.texture_size, point, normal), material.texture_depth);
+}
+
+TouchImage bumps() {
     return {3, 2, {0.0f, 0.5f, 1.0f, 0.25f, 0.75f, 0.1f}};
 }
 
 TEST(SurfaceEffects, TextureGradientIsTheSlopeOfItsHeight) {
-    const HeightImage image = bumps();
+    const auto image = std::make_shared<const TouchImage>(bumps());
+    const TouchDetail detail{{image, nullptr}, {}};
     TouchMaterial material;
-    material.texture = &image;
+    material.detail = &detail;
     material.texture_size = 0.03;
     material.texture_depth = 0.002;
     RandomValues random(141);
@@ -158,13 +166,13 @@ TEST(SurfaceEffects, TextureGradientIsTheSlopeOfItsHeight) {
     for (const Vec3& normal : {Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0, 0, -1)}) {
         for (int i = 0; i < 300; ++i) {
             const Vec3 p = random.in_box(0.1);
-            const TextureSample at = sample_texture(material, p, normal);
+            const ImageSample at = sample_texture(material, p, normal);
             for (int axis = 0; axis < 3; ++axis) {
                 Vec3 step(0.0);
                 step[axis] = h;
-                const double ahead = sample_texture(material, p + step, normal).height;
-                const double behind = sample_texture(material, p - step, normal).height;
-                const double one_sided = (ahead - at.height) / h;
+                const double ahead = sample_texture(material, p + step, normal).value;
+                const double behind = sample_texture(material, p - step, normal).value;
+                const double one_sided = (ahead - at.value) / h;
                 const double slope = (ahead - behind) / (2.0 * h);
                 if (std::abs(one_sided - slope) < 1e-4) {  // not across a pixel's border
                     ASSERT_NEAR(at.gradient[axis], slope, 1e-4) << "axis " << axis;
@@ -175,29 +183,31 @@ TEST(SurfaceEffects, TextureGradientIsTheSlopeOfItsHeight) {
 }
 
 TEST(SurfaceEffects, TextureRepeatsAndIsContinuousAcrossItsBorder) {
-    const HeightImage image = bumps();
+    const auto image = std::make_shared<const TouchImage>(bumps());
+    const TouchDetail detail{{image, nullptr}, {}};
     TouchMaterial material;
-    material.texture = &image;
+    material.detail = &detail;
     material.texture_size = 0.03;
     material.texture_depth = 0.002;
     const Vec3 up(0.0, 1.0, 0.0);
     RandomValues random(142);
     for (int i = 0; i < 300; ++i) {
         const Vec3 p = random.in_box(0.1);
-        const double here = sample_texture(material, p, up).height;
-        EXPECT_NEAR(sample_texture(material, p + Vec3(0.03, 0.0, -0.06), up).height, here, 1e-9);
+        const double here = sample_texture(material, p, up).value;
+        EXPECT_NEAR(sample_texture(material, p + Vec3(0.03, 0.0, -0.06), up).value, here, 1e-9);
         EXPECT_GE(here, 0.0);
         EXPECT_LE(here, 0.002);
     }
-    EXPECT_NEAR(sample_texture(material, {0.03 - 1e-12, 0.0, 0.011}, up).height,
-                sample_texture(material, {0.03 + 1e-12, 0.0, 0.011}, up).height, 1e-9);
+    EXPECT_NEAR(sample_texture(material, {0.03 - 1e-12, 0.0, 0.011}, up).value,
+                sample_texture(material, {0.03 + 1e-12, 0.0, 0.011}, up).value, 1e-9);
 }
 
 // The relief's force is the slope of an energy: drawn around a closed way at constant depth it does no work.
 TEST(SurfaceEffects, ATextureGivesBackWhatItTook) {
-    const HeightImage image = bumps();
+    const auto image = std::make_shared<const TouchImage>(bumps());
+    const TouchDetail detail{{image, nullptr}, {}};
     TouchMaterial material{500.0, 0.0, 0.0, 0.0};
-    material.texture = &image;
+    material.detail = &detail;
     material.texture_size = 0.03;
     material.texture_depth = 0.001;
     Pressed pressed(material);

@@ -48,7 +48,7 @@ struct Touch {
         const Vec3 modelled = wall.force(hand, tip);
         tip = {hand.x + modelled.x / stiffness, 0.0, 0.0};
         if (corrected) {
-            update.changed(before, modelled, stiffness);
+            update.changed(before, stiffness, modelled, stiffness);
         }
         FeltInput in;
         in.modelled = modelled;
