@@ -1,5 +1,7 @@
 """Compiler flags: one set for everything, so that the same numbers come out of every build."""
 
+import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -44,14 +46,29 @@ LINK_AUDIT = {
 }
 
 
-# Which may stand together: address with undefined.
-SANITIZERS = ["address", "undefined", "thread"]
+# Which may stand together: address with undefined, and both with the fuzzer.
+SANITIZERS = ["address", "undefined", "thread", "fuzzer"]
 
 
-def sanitize_flags(sanitizers):
+def sanitize_flags(sanitizers, is_fuzzed=False):
+    """Of every program, or of one whose main() is libFuzzer's own."""
     # What is undefined ends the program, like what the others find. Of an object's type it would ask what Jolt and
     # physics/ are compiled without.
-    return [f"-fsanitize={sanitizers}", "-fno-sanitize=vptr", "-fno-sanitize-recover=all"] if sanitizers else []
+    named = sanitizers if is_fuzzed else sanitizers.replace("fuzzer", "fuzzer-no-link")
+    return [f"-fsanitize={named}", "-fno-sanitize=vptr", "-fno-sanitize-recover=all"] if sanitizers else []
+
+
+def fuzzing_compiler():
+    """The newest clang that has libFuzzer beside it; "" where there is none."""
+
+    def has_fuzzer(compiler):
+        folder = subprocess.run([compiler, "-print-runtime-dir"], text=True, capture_output=True, check=True).stdout.strip()
+        beside = [Path(folder), Path(folder).parent / "linux"]
+        return any(one.glob("libclang_rt.fuzzer*.a") for one in beside)
+
+    found = {path.name: path for folder in os.environ["PATH"].split(os.pathsep) for path in Path(folder).glob("clang++*")}
+    versions = {int(name.partition("-")[2] or 0): path for name, path in found.items() if re.fullmatch(r"clang\+\+(-\d+)?", name)}
+    return next((str(path) for _, path in sorted(versions.items(), reverse=True) if has_fuzzer(path)), "")
 
 
 def compile_flags(platform, target, sanitizers=""):
@@ -61,8 +78,10 @@ def compile_flags(platform, target, sanitizers=""):
     plain = [*language, *optimised, *SAME_BITS, *WARNINGS, *BY_TARGET[target]]
     if not sanitizers:
         return plain
-    # Less inlining than -O3 for a quicker build; warnings that only watched code gives are not errors.
-    return [*plain, "-O1", "-fno-omit-frame-pointer", "-Wno-error", *sanitize_flags(sanitizers)]
+    # Less inlining than -O3 for a quicker build; warnings that only watched code gives are not errors, and another
+    # compiler's are not looked at.
+    other = ["-w", "-include", "tests/fuzz/driver/clang_vectors.hpp"] if "fuzzer" in sanitizers else ["-Wno-error"]
+    return [*plain, "-O1", "-fno-omit-frame-pointer", *other, *sanitize_flags(sanitizers)]
 
 
 # A unique symbol would keep the library loaded for ever, and the editor from reloading it. The linker drops the

@@ -28,6 +28,13 @@ if ! compgen -G "/usr/lib/*/libpcl_registration.so.*" >/dev/null || [ ! -e /usr/
         rival+=("libpcl-$part$version")
     done
 fi
+# What ./run proof plays with: libFuzzer beside the newest clang there is, and a loop to hold its own beside.
+proof=()
+if ! compgen -G "/usr/lib/llvm-*/lib/clang/*/lib/linux/libclang_rt.fuzzer-*.a" >/dev/null; then
+    version="$(apt-cache pkgnames libclang-rt- 2>/dev/null | sed -n 's/^libclang-rt-\([0-9]*\)-dev$/\1/p' | sort -n | tail -n 1)"
+    proof+=("clang${version:+-$version}" "libclang-rt-${version:-19}-dev")
+fi
+command -v cyclictest >/dev/null || proof+=(rt-tests)
 
 needs python3 test -x /usr/bin/python3
 needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
@@ -47,10 +54,12 @@ wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
 wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
 seeing=no
 compared=no
+proven=no
 for extra in "$@"; do
     case "$extra" in
     sensing) seeing=wanted && continue ;;
     rival) compared=wanted && continue ;;
+    proof) proven=wanted && continue ;;
     with_sensing) missing+=("${sensing[@]}" "${rival[@]}") && continue ;;
     esac
     needs make command -v make
@@ -76,6 +85,7 @@ goes_without() { # goes_without WHAT PACKAGE…: root installs the packages, oth
 goes_without "tests with devices that are played" "${played[@]}"
 [ "$seeing" = no ] || goes_without "depth cameras and their tests" "${sensing[@]}"
 [ "$compared" = no ] || goes_without "the comparison with PCL" "${rival[@]}"
+[ "$proven" = no ] || goes_without "fuzzing led by libFuzzer, and the loop beside cyclictest" "${proof[@]}"
 [ ${#missing[@]} -gt 0 ] || exit 0
 # What the same is called elsewhere. Godot itself is fetched on Debian only: there, one of version 4.4 or later must be on
 # the PATH or in GODOT.

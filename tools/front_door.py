@@ -28,7 +28,7 @@ def needed(command: str, arguments: list[str]) -> list[Step]:
         return plan
     if command == "addon":
         plan += steps.of_platforms(platforms.named_in(arguments))
-    if command in ("setup", "export", "addon", "test"):
+    if command in ("setup", "export", "addon", "test", "proof"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]
 
@@ -46,6 +46,10 @@ def demo(_: list[str]) -> int:
 
 def test(arguments: list[str]) -> int:
     return cache.run_tool("testing/run_tests.py", *arguments)
+
+
+def proof(arguments: list[str]) -> int:
+    return cache.run_tool("prove.py", *arguments)
 
 
 def bench(arguments: list[str]) -> int:
@@ -80,7 +84,10 @@ def addon(arguments: list[str]) -> int:
     return cache.run_tool("addon.py", *arguments)
 
 
-COMMANDS = {function.__name__: function for function in (setup, demo, test, bench, experiment, replay, docs, edit, app, export, addon)}
+COMMANDS = {
+    function.__name__: function
+    for function in (setup, demo, test, proof, bench, experiment, replay, docs, edit, app, export, addon)
+}
 
 if __name__ == "__main__":
     try:

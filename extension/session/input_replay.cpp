@@ -346,75 +346,10 @@ void InputReplay::carry_out(const call::RowsWritten& c) {
         rows_->most = std::min(rows_->most, c.rows);
     }
 }
-void InputReplay::carry_out(const command::RemoveBody& c) {
-    session_->remove_body(c.handle);
-}
-void InputReplay::carry_out(const command::TeleportBody& c) {
-    session_->teleport_body(c.handle, c.pose);
-}
-void InputReplay::carry_out(const command::MoveBody& c) {
-    session_->move_body(c.handle, c.pose, c.seconds);
-}
-void InputReplay::carry_out(const command::SetBodyVelocity& c) {
-    session_->set_body_velocity(c.handle, c.linear, c.angular);
-}
-void InputReplay::carry_out(const command::SetTouchMaterial& c) {
-    session_->set_touch_material(c.handle, c.material, c.detail);
-}
-void InputReplay::carry_out(const command::SetBodySurface& c) {
-    session_->set_body_surface(c.handle, c.surface);
-}
-void InputReplay::carry_out(const command::SetBodyLayers& c) {
-    session_->set_body_layers(c.handle, c.layers);
-}
-void InputReplay::carry_out(const command::SetBodyMotion& c) {
-    session_->set_body_motion(c.handle, c.motion);
-}
-void InputReplay::carry_out(const command::SetBodyGravityScale& c) {
-    session_->set_body_gravity_scale(c.handle, c.scale);
-}
-void InputReplay::carry_out(const command::SetBodyDamping& c) {
-    session_->set_body_damping(c.handle, c.linear, c.angular);
-}
-void InputReplay::carry_out(const command::SetBodyPush& c) {
-    session_->set_body_push(c.handle, c.force, c.torque);
-}
-void InputReplay::carry_out(const command::SeeBody& c) {
-    session_->see_body(c.handle, c.sighting);
-}
-void InputReplay::carry_out(const command::PushBody& c) {
-    session_->push_body(c.handle, c.push);
-}
+
 void InputReplay::carry_out(const command::AddJoint& c) {
     session_->use_handle(c.handle);
     check(session_->add_joint(c.joint, c.first, c.second).handle == c.handle);
-}
-void InputReplay::carry_out(const command::RemoveJoint& c) {
-    session_->remove_joint(c.handle);
-}
-void InputReplay::carry_out(const command::SetGravity& c) {
-    session_->set_gravity(c.gravity);
-}
-void InputReplay::carry_out(const command::SetWorkspace& c) {
-    session_->set_workspace(c.handle, c.workspace);
-}
-void InputReplay::carry_out(const command::RemoveDevice& c) {
-    session_->remove_device(c.handle);
-}
-void InputReplay::carry_out(const command::SetProxy& c) {
-    session_->set_proxy(c.handle, c.description);
-}
-void InputReplay::carry_out(const command::SetField& c) {
-    session_->set_hand_field(c.handle, c.moment);
-}
-void InputReplay::carry_out(const command::RemoveProxy& c) {
-    session_->remove_proxy(c.handle);
-}
-void InputReplay::carry_out(const command::SetTool& c) {
-    session_->set_tool(c.handle, c.use);
-}
-void InputReplay::carry_out(const command::RemoveTool& c) {
-    session_->remove_tool(c.handle);
 }
 
 // --- what the loop has heard

@@ -15,6 +15,7 @@
 
 #include "session/input_file.hpp"
 #include "session/input_records.hpp"
+#include "session/plain_commands.hpp"
 
 namespace tactus {
 
@@ -70,29 +71,11 @@ private:
     void carry_out(const call::WriteRows& c);
     void carry_out(const call::RowsWritten& c);
     void drain_rows();
-    void carry_out(const command::RemoveBody& c);
-    void carry_out(const command::TeleportBody& c);
-    void carry_out(const command::MoveBody& c);
-    void carry_out(const command::SetBodyVelocity& c);
-    void carry_out(const command::SetTouchMaterial& c);
-    void carry_out(const command::SetBodySurface& c);
-    void carry_out(const command::SetBodyLayers& c);
-    void carry_out(const command::SetBodyMotion& c);
-    void carry_out(const command::SetBodyGravityScale& c);
-    void carry_out(const command::SetBodyDamping& c);
-    void carry_out(const command::SetBodyPush& c);
-    void carry_out(const command::SeeBody& c);
-    void carry_out(const command::PushBody& c);
     void carry_out(const command::AddJoint& c);
-    void carry_out(const command::RemoveJoint& c);
-    void carry_out(const command::SetGravity& c);
-    void carry_out(const command::SetWorkspace& c);
-    void carry_out(const command::RemoveDevice& c);
-    void carry_out(const command::SetProxy& c);
-    void carry_out(const command::SetField& c);
-    void carry_out(const command::RemoveProxy& c);
-    void carry_out(const command::SetTool& c);
-    void carry_out(const command::RemoveTool& c);
+    template <PlainCommand Command>
+    void carry_out(const Command& c) {
+        ask(*session_, c);
+    }
 
     void hear(const heard::Tick& h);
     void hear(const heard::Settle& h);

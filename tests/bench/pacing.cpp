@@ -1,15 +1,22 @@
-// How evenly this machine lets the tick loop tick: with an empty tick and with 50 µs of work, a bare sleeping
-// loop beside it, and, to choose the default by, with one means of staying on time taken away at a time.
+// How evenly this machine lets the tick loop tick: with an empty tick, with 50 µs of work and with a hand
+// among boxes, a bare sleeping loop beside it, and, to choose the default by, with one means of staying on
+// time taken away at a time.
 //
-//     pacing [--seconds=10] [--compare] [--output=build/bench/pacing.json]
+//     pacing [--seconds=10] [--rounds=1] [--compare] [--only=CASE] [--alone]
+//     [--output=build/bench/pacing.json]
+//
+// --alone leaves out the bare loop. CASE.lateness_counts are how many ticks began so many whole microseconds
+// after their deadline, from 0 on; the last is of all that were later.
 //
 // Runs are repeated in turns (--rounds) and each case reports its quietest round: what the rest of the
 // machine, or the other guests of a virtual one, take away varies from second to second, and `steal_share`
 // says how much it was.
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -23,6 +30,7 @@
 #include "platform/file.hpp"
 #include "realtime/baseline_loop.hpp"
 #include "realtime/tick_loop.hpp"
+#include "session/session.hpp"
 
 namespace {
 
@@ -32,6 +40,8 @@ struct Options {
     int seconds = 10;
     int rounds = 1;
     bool compare = false;
+    bool alone = false;
+    std::string only;
     std::filesystem::path output = "build/bench/pacing.json";
 };
 
@@ -39,12 +49,16 @@ struct Case {
     std::string name;
     Nanoseconds work;
     TickLoopSettings settings;
+    bool touches = false;
 };
+
+constexpr std::size_t most_late = 20'000;  // (unit: microseconds)
 
 struct Outcome {
     TickFigures loop;
     TickFigures baseline;
-    double steal_share = 0.0;  // of all processors' time: run by the hypervisor for somebody else
+    std::vector<std::uint64_t> lateness;  // ticks by whole microseconds
+    double steal_share = 0.0;             // of all processors' time: run by the hypervisor for somebody else
     std::string granted;
 };
 
@@ -53,6 +67,62 @@ TickStatus work_for(void* context, Nanoseconds) {
     while (monotonic_now() < until) {
     }
     return 0;
+}
+
+class MovedDevice final : public Device {
+public:
+    DeviceSample read(Nanoseconds now) override {
+        const double t = to_seconds(now);
+        const Vec3 place(0.3 * std::sin(4.0 * t), 0.06 + 0.05 * std::sin(7.0 * t), 0.1 * std::cos(3.0 * t));
+        return {place, {1.0, 0.0, 0.0, 0.0}, Vec3(0.0), 0, true};
+    }
+    void write(Nanoseconds, const Vec3&) override {}
+};
+
+// A hand that pushes boxes about on a table.
+class Touching {
+public:
+    Touching() {
+        Workspace workspace;
+        workspace.force_limit = 10.0;
+        ProxyDescription pointer;
+        pointer.device = session_.add_device(device_, workspace).handle;
+        session_.add_proxy(pointer);
+        add(PlaneShape{}, Vec3(0.0), Motion::Static);
+        for (int i = 0; i < 6; ++i) {
+            add(BoxShape{Vec3(0.04)}, {0.12 * i - 0.3, 0.04, 0.0}, Motion::Dynamic);
+        }
+        session_.settle();
+    }
+    static TickStatus tick(void* context, Nanoseconds now) {
+        return static_cast<Touching*>(context)->session_.tick(now);
+    }
+
+private:
+    void add(const Shape& shape, const Vec3& place, Motion motion) {
+        BodyAddition addition;
+        addition.description.shapes = {PlacedShape{shape, Pose{}}};
+        addition.description.pose.position = place;
+        addition.description.motion = motion;
+        addition.touch_material = {500.0, 1.0, 0.3, 0.2};
+        session_.add_body(addition);
+    }
+
+    MovedDevice device_;
+    Session session_{SessionSettings{}};
+};
+
+std::vector<std::uint64_t> by_microseconds(const DurationHistogram& durations) {
+    std::vector<std::uint64_t> counts;
+    const auto all = static_cast<double>(durations.count());
+    double before = 0.0;
+    for (const DurationHistogram::Step& step : durations.cumulative()) {
+        const auto whole = std::min(most_late, static_cast<std::size_t>(step.duration * 1e-3));
+        counts.resize(std::max(counts.size(), whole + 1));
+        counts[whole] += static_cast<std::uint64_t>(std::llround(all * (step.share - before)));
+        before = step.share;
+    }
+    return counts;
 }
 
 // The first line of /proc/stat: user nice system idle iowait irq softirq steal, in ticks since the machine
@@ -76,12 +146,17 @@ ProcessorTimes processor_times() {
     return times;
 }
 
-std::optional<Outcome> measure(const Case& what, int seconds) {
+std::optional<Outcome> measure(const Case& what, int seconds, bool alone) {
     Nanoseconds work = what.work;
+    std::optional<Touching> touching;
+    if (what.touches) {
+        touching.emplace();
+    }
     TickLoop loop;
     BaselineLoop baseline;
-    std::string error = loop.start(what.settings, &work_for, &work);
-    if (error.empty()) {
+    std::string error = touching ? loop.start(what.settings, &Touching::tick, &*touching)
+                                 : loop.start(what.settings, &work_for, &work);
+    if (error.empty() && !alone) {
         error = baseline.start(what.settings);
     }
     if (!error.empty()) {
@@ -99,6 +174,7 @@ std::optional<Outcome> measure(const Case& what, int seconds) {
     Outcome outcome;
     outcome.loop = loop.statistics().figures();
     outcome.baseline = baseline.statistics().figures();
+    outcome.lateness = by_microseconds(loop.statistics().lateness());
     const double all = after.all - before.all;
     outcome.steal_share = all > 0.0 ? (after.stolen - before.stolen) / all : 0.0;
     outcome.granted = loop.realtime_report().text;
@@ -132,6 +208,7 @@ std::vector<Case> cases(bool compare) {
                                         .timer_slack = 50'000};
         all.back().settings.sleep.spin_limit = 0;
     }
+    all.push_back({"touch", 0, {}, true});
     return all;
 }
 
@@ -153,7 +230,14 @@ void write_periods(std::FILE* file, const std::string& prefix, const TickFigures
 
 void write_outcome(std::FILE* file, const std::string& name, const Outcome& outcome) {
     write_periods(file, name + ".tick", outcome.loop);
-    write_periods(file, name + ".baseline", outcome.baseline);
+    if (outcome.baseline.ticks > 0) {
+        write_periods(file, name + ".baseline", outcome.baseline);
+    }
+    std::fprintf(file, ",\n  \"%s.lateness_counts\": [", name.c_str());
+    for (std::size_t i = 0; i < outcome.lateness.size(); ++i) {
+        std::fprintf(file, "%s%" PRIu64, i > 0 ? "," : "", outcome.lateness[i]);
+    }
+    std::fputs("]", file);
     write_number(file, name + ".mean_period_us", outcome.loop.mean_period_us);
     write_number(file, name + ".tick_compute_p99_us", outcome.loop.compute_p99_us);
     write_number(file, name + ".ticks", static_cast<double>(outcome.loop.ticks));
@@ -186,6 +270,10 @@ std::optional<Options> parse(int argc, char** argv) {
         bool known = true;
         if (argument == "--compare") {
             options.compare = true;
+        } else if (argument == "--alone") {
+            options.alone = true;
+        } else if (argument.starts_with("--only=")) {
+            options.only = argument.substr(7);
         } else if (argument.starts_with("--seconds=")) {
             known = read_number(argument.substr(10), options.seconds);
         } else if (argument.starts_with("--rounds=")) {
@@ -210,11 +298,12 @@ int main(int argc, char** argv) {
     if (!options) {
         return 2;
     }
-    const std::vector<Case> all = cases(options->compare);
+    std::vector<Case> all = cases(options->compare);
+    std::erase_if(all, [&](const Case& one) { return !options->only.empty() && one.name != options->only; });
     std::vector<std::optional<Outcome>> quietest(all.size());
     for (int round = 0; round < options->rounds; ++round) {
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const std::optional<Outcome> outcome = measure(all[i], options->seconds);
+            const std::optional<Outcome> outcome = measure(all[i], options->seconds, options->alone);
             if (!outcome) {
                 return 1;
             }

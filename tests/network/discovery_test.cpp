@@ -8,7 +8,7 @@
 #include "endpoint_rig.hpp"
 #include "network/discovery_receiver.hpp"
 #include "network/discovery_sender.hpp"
-#include "object_samples.hpp"
+#include "shared/object_samples.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {

@@ -8,7 +8,7 @@
 
 #include "endpoint_rig.hpp"
 #include "support/realtime_audit.hpp"
-#include "wire_samples.hpp"
+#include "shared/wire_samples.hpp"
 
 namespace tactus {
 namespace {

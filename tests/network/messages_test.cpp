@@ -14,7 +14,7 @@
 #include "network/plausibility.hpp"
 #include "published_vectors.hpp"
 #include "shared/random_values.hpp"
-#include "wire_samples.hpp"
+#include "shared/wire_samples.hpp"
 
 namespace tactus {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "network/messages.hpp"
-#include "object_samples.hpp"
+#include "shared/object_samples.hpp"
 #include "published_vectors.hpp"
 #include "shared/random_values.hpp"
 

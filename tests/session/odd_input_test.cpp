@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "session_rig.hpp"
+#include "shared/sound_snapshot.hpp"
 
 namespace tactus {
 namespace {
@@ -22,25 +23,8 @@ const std::vector<double> odd_numbers{std::numeric_limits<double>::quiet_NaN(),
                                       -1.0};
 const Quat upright{1.0, 0.0, 0.0, 0.0};
 
-bool is_sound(const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 void expect_sound(const SessionSnapshot& snapshot, const std::string& what) {
-    for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-        const BodyState& body = snapshot.bodies[i];
-        ASSERT_TRUE(is_sound(body.pose.position) && is_sound(body.linear_velocity) &&
-                    is_sound(body.angular_velocity) && std::abs(glm::length(body.pose.rotation) - 1.0) < 1e-6)
-            << what << ", body " << body.handle;
-    }
-    for (std::size_t i = 0; i < snapshot.proxy_count; ++i) {
-        const ProxyState& proxy = snapshot.proxies[i];
-        ASSERT_TRUE(is_sound(proxy.position) && is_sound(proxy.hand) && is_sound(proxy.force)) << what;
-    }
-    for (std::size_t i = 0; i < snapshot.device_count; ++i) {
-        const DeviceState& device = snapshot.devices[i];
-        ASSERT_TRUE(is_sound(device.position) && is_sound(device.velocity) && is_sound(device.force)) << what;
-    }
+    ASSERT_EQ(shared::unsound_in(snapshot), "") << what;
 }
 
 // A finger on a box on the ground, and another box beside.
@@ -58,7 +42,7 @@ struct Scene {
         for (int i = 0; i < ticks; ++i) {
             rig.tick();
             expect_sound(rig.newest(), what);
-            ASSERT_TRUE(is_sound(rig.device.force)) << what;
+            ASSERT_TRUE(shared::is_sound(rig.device.force)) << what;
         }
     }
     SessionRig rig;

@@ -6,6 +6,7 @@ import subprocess
 import typing
 
 import experiment
+import prove
 import pytest
 
 from setup import cache
@@ -15,7 +16,7 @@ FOLDER = cache.clone()
 DOCUMENTS = sorted([FOLDER / "README.md", *(FOLDER / "docs").rglob("*.md")])
 _COMMAND = re.compile(r"\./run (\w+)((?: [\w./=,{}-]+)*)")
 # In place of a name.
-_ANY = ("NAME", "NAME…", "FILTER", "SCENE", "SWEEPFILE", "BUNDLE")
+_ANY = ("NAME", "NAME…", "FILTER", "SCENE", "SWEEPFILE", "BUNDLE", "PART")
 
 
 def _commands() -> list[tuple[str, str, list[str]]]:
@@ -38,6 +39,13 @@ def _benches() -> set[str]:
 @pytest.mark.parametrize(("document", "verb", "words"), _commands())
 def test_a_command_of_the_documents_can_be_given(document: str, verb: str, words: list[str]):
     assert verb in _front_door(), document
+    if verb == "proof":
+        for option in words:
+            key, _, value = option.partition("=")
+            part, _, case = value.partition(".")
+            assert key in ("--only", "--page") and (not value or value in _ANY or part in prove.PARTS), f"{document}: {option}"
+            assert not case or case in prove.PARTS[part].CASES, f"{document}: {option}"
+        return
     if verb not in ("experiment", "bench") or not words or words[0] in _ANY or words[0].startswith("--"):
         return
     if words[0].startswith("/"):  # a bundle: test_replay.py plays the one of the page
