@@ -34,8 +34,7 @@ struct Form {
 
     static Form of(const ReadyBody& body) {
         const BodyAddition& source = body.source;
-        Form form{
-            source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr};
+        Form form{source.description, source.touch_shapes, source.touch_material, source.detail, {}, nullptr};
         if (source.soft) {
             form.soft = {source.soft, &source.soft->design};
             return form;

@@ -99,7 +99,7 @@ private:
         made.description = form.description;
         made.touch_shapes = form.touch_shapes;
         made.touch_material = form.touch_material;
-        made.texture = form.texture;
+        made.detail = form.detail;
         return made;
     }
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "endpoint_rig.hpp"
-#include "support/realtime_audit.hpp"
 #include "shared/wire_samples.hpp"
+#include "support/realtime_audit.hpp"
 
 namespace tactus {
 namespace {

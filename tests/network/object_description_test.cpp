@@ -7,8 +7,8 @@
 #include <string>
 
 #include "network/messages.hpp"
-#include "shared/object_samples.hpp"
 #include "published_vectors.hpp"
+#include "shared/object_samples.hpp"
 #include "shared/random_values.hpp"
 
 namespace tactus {
