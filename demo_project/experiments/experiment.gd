@@ -20,8 +20,9 @@ extends Node
 ##                      the far side stays until the operator has gone
 ## --device.NAME=VALUE  a property of the scene's HapticDevice
 ## --corrects=touch     the model is left as it is until it is touched
-## --inputs=1           all that enters the loop goes to CASE_inputs.tactus and how it was played to
-##                      CASE_settings.json: with these the output is a bundle
+## --inputs=1           all that enters the loop goes to CASE_inputs.tactus, the images of a camera to
+##                      CASE_images.oni and how it was played to CASE_settings.json: with these the output
+##                      is a bundle
 ## --watch=1            it is drawn as it is played
 ## --camera.NAME=VALUE  a property of the scene's DepthSensor
 ## --replay=BUNDLE      instead of all this: plays it again, see replay.gd
@@ -173,6 +174,9 @@ func _record_inputs(scene: Node, played: HapticWorld) -> void:
 	for world: HapticWorld in scene.find_children("*", "HapticWorld", true, false):
 		var of_whom := "" if world == played else "_" + String(world.name).to_snake_case()
 		world.inputs_path = _file(of_whom + "_inputs.tactus")
+	var camera := _first(scene, "DepthSensor") as DepthSensor
+	if camera != null:
+		camera.images_path = _file("_images.oni")
 
 
 ## How it was played, for whoever finds the bundle.
@@ -181,6 +185,7 @@ func _settings() -> Dictionary:
 		"options": _options,
 		"link": _link_options,
 		"device": _device_options,
+		"camera": _camera_options,
 		"godot": Engine.get_version_info().string,
 		"machine": "%s, %s" % [OS.get_processor_name(), OS.get_distribution_name()],
 		"utc": Time.get_datetime_string_from_system(true),

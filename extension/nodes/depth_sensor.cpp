@@ -15,6 +15,7 @@
 #include "nodes/mmt_link.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
+#include "nodes/whole_path.hpp"
 #include "platform/clock.hpp"
 
 namespace tactus {
@@ -179,7 +180,9 @@ void DepthSensor::open() {
             return;
         }
     }
+    const std::string images = whole_path(images_path_);
     choice.uri = uri.c_str();
+    choice.record_to = images.c_str();
     sensor_->open(choice);
 }
 

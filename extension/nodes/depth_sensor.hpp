@@ -89,6 +89,7 @@ private:
     Source source_ = SOURCE_CAMERA;
     godot::String camera_id_;
     godot::String recording_;
+    godot::String images_path_;
     bool repeats_ = true;
     godot::NodePath synthetic_scene_;
     double synthetic_error_percent_ = 1.0;

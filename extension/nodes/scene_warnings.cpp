@@ -13,6 +13,7 @@
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/depth_sensor.hpp"
+#include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_world.hpp"
@@ -134,10 +135,14 @@ bool has_world(const Node& scene) {
     return is_world(scene) || find_below(scene, is_world) != nullptr;
 }
 
-// A camera and a far side bring bodies while the scene runs; a robot has a real place in their stead.
+// A camera and a far side bring bodies while the scene runs; a robot has a real place in their stead, and a
+// script's force is felt without any.
 bool needs_no_bodies(const Node& node) {
     if (const auto* link = Object::cast_to<MMTLink>(&node)) {
         return link->is_networked() && (link->is_operator() || link->has_robots());
+    }
+    if (Object::cast_to<HapticEffect>(&node) != nullptr) {
+        return true;
     }
     const auto* sensor = Object::cast_to<DepthSensor>(&node);
     return sensor != nullptr && sensor->makes_bodies();

@@ -47,7 +47,8 @@ void Sensor::want(const Change& change) noexcept {
 
 void Sensor::open(const CameraChoice& choice) noexcept {
     want([&] {
-        wanted_.camera = Camera::Choice{choice.uri, choice.width, choice.repeats, choice.as_fast_as_read};
+        wanted_.camera = Camera::Choice{choice.uri, choice.width, choice.repeats, choice.as_fast_as_read,
+                                        choice.record_to};
         ++wanted_.camera_change;
     });
 }
@@ -138,18 +139,30 @@ void Sensor::follow(const Wanted& wanted) {
         camera_.reset();
         seen_ = {};
         last_frame_ = 0;
+        recordings_ = 0;
         observer_.forget();
         say(now_.camera ? SensorState::opening : SensorState::closed,
             now_.camera ? "opening the camera" : "closed");
     }
 }
 
+// One that was gone and is back does not write over what it has recorded before.
+std::string Sensor::next_recording(const std::string& path, int before) {
+    const std::size_t dot = path.rfind('.');
+    return path.empty() || before == 0 || dot == std::string::npos
+               ? path
+               : path.substr(0, dot) + "_" + std::to_string(before + 1) + path.substr(dot);
+}
+
 bool Sensor::try_to_open() {
     std::string error;
     if (const OpenNi* const openni = OpenNi::get(own_driver_, error)) {
         auto camera = std::make_unique<Camera>(*openni);
-        error = camera->open(*now_.camera);
+        Camera::Choice choice = *now_.camera;
+        choice.record_to = next_recording(choice.record_to, recordings_);
+        error = camera->open(choice);
         if (error.empty()) {
+            ++recordings_;
             say(SensorState::waiting, camera->name() + " is open, waiting for its first frame");
             camera_ = std::move(camera);
             clock_.forget();

@@ -41,10 +41,13 @@ class Sudden:
 class Airstream:
 	extends HapticEffect
 	var seen := Vector3.ZERO
+	var asked_at := -1.0
 
 	func _get_force(_hand: Vector3, velocity: Vector3, time: float) -> Vector3:
-		if time > 0.3:
+		# First of all it is asked about the hand itself.
+		if time > 0.3 and time != asked_at:
 			seen = velocity
+		asked_at = time
 		return -2.0 * velocity
 
 

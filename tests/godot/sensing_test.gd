@@ -138,6 +138,32 @@ func test_objects_are_found_moved_and_lost() -> void:
 	check(await until(func() -> bool: return told.object_lost > 0, 60.0), "gone, it is not lost")
 
 
+## Without the camera and without the scene.
+func test_what_was_recorded_is_seen_again() -> void:
+	var file := OS.get_temp_dir().path_join("images_%d.oni" % OS.get_process_id())
+	var sensor := _sensor(self)
+	sensor.meshes = PackedStringArray(["bracket"])
+	sensor.images_path = file
+	_drawn(HapticMesh.create_library_mesh("bracket"), Vector3(-0.12, 0.05, 0.02), get_node("Table"))
+	add_child(sensor)
+	var is_found := func(by: DepthSensor) -> bool: return _named(by, "bracket").size() > 0
+	check(await until(is_found.bind(sensor), 60.0), "it says: %s" % sensor.get_state_text())
+	var place: Transform3D = _named(sensor, "bracket").transform
+	await frames(30)
+	sensor.free()
+	get_node("Table").free()
+	sensor = _sensor(self)
+	sensor.meshes = PackedStringArray(["bracket"])
+	sensor.source = DepthSensor.SOURCE_RECORDING
+	sensor.recording = file
+	add_child(sensor)
+	get_node("Table").free()
+	check(await until(is_found.bind(sensor), 60.0), "played, it says: %s" % sensor.get_state_text())
+	check_near(_named(sensor, "bracket").transform.origin, place.origin, 0.003, "place")
+	sensor.free()
+	DirAccess.remove_absolute(file)
+
+
 func test_what_is_found_can_be_touched() -> void:
 	var world := add_world()
 	var sensor := _sensor(world)

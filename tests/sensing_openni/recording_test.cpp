@@ -44,33 +44,17 @@ protected:
     static void TearDownTestSuite() { fs::remove(path_); }
 
     static void record() {
-        const OpenNi& openni = testing::openni();
         Scene scene;
         scene.show(1);
-        OniDeviceHandle device = nullptr;
-        OniStreamHandle stream = nullptr;
-        OniRecorderHandle recorder = nullptr;
-        ASSERT_EQ(openni->device_open(scene.uri().c_str(), &device), ONI_STATUS_OK) << openni.last_error();
-        ASSERT_EQ(openni->device_create_stream(device, ONI_SENSOR_DEPTH, &stream), ONI_STATUS_OK);
-        ASSERT_EQ(openni->create_recorder(path_.c_str(), &recorder), ONI_STATUS_OK);
-        ASSERT_EQ(openni->recorder_attach_stream(recorder, stream, FALSE), ONI_STATUS_OK);
-        ASSERT_EQ(openni->recorder_start(recorder), ONI_STATUS_OK);
-        ASSERT_EQ(openni->stream_start(stream), ONI_STATUS_OK);
+        Camera camera(testing::openni());
+        ASSERT_EQ(camera.open({.uri = scene.uri(), .record_to = path_.string()}), "");
+        DepthImage image;
         for (int i = 0; i < frames; ++i) {
             scene.move(0.005 * i);
             scene.show(frame_time(i));
-            int index = 0;
-            OniFrame* frame = nullptr;
-            ASSERT_EQ(openni->wait_for_any_stream(&stream, 1, &index, 2000), ONI_STATUS_OK);
-            ASSERT_EQ(openni->stream_read_frame(stream, &frame), ONI_STATUS_OK);
-            openni->frame_release(frame);
+            ASSERT_EQ(camera.read(image, 2000), Camera::Reading::frame);
             images_.push_back(scene.image(frame_time(i)));
         }
-        openni->stream_stop(stream);
-        openni->recorder_stop(recorder);
-        openni->recorder_destroy(&recorder);
-        openni->stream_destroy(stream);
-        openni->device_close(device);
     }
     static std::uint64_t frame_time(int number) { return 33333u * static_cast<std::uint64_t>(number + 1); }
 
@@ -107,6 +91,15 @@ TEST_F(Recording, BeginsAgainWhereItRepeats) {
     for (int i = 0; i < 3 * frames; ++i) {
         ASSERT_EQ(camera.read(image, 2000), Camera::Reading::frame) << i;
     }
+}
+
+TEST_F(Recording, WhereNoFileCanBeIsSaidSo) {
+    Scene scene;
+    scene.show(1);
+    Camera camera(testing::openni());
+    const std::string error = camera.open({.uri = scene.uri(), .record_to = "/nowhere/images.oni"});
+    EXPECT_NE(error.find("cannot be recorded into '/nowhere/images.oni'"), std::string::npos) << error;
+    EXPECT_EQ(camera.open({.uri = scene.uri()}), "");
 }
 
 TEST_F(Recording, ThatIsMissingIsSaidSo) {

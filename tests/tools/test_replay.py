@@ -4,6 +4,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -44,8 +45,8 @@ def bundle(tmp_path_factory) -> Path:
 def test_a_bundle_has_what_its_page_says(bundle):
     described = re.findall(r"`CASE(_?[\w.]+)`", (cache.clone() / "docs/bundles.md").read_text())
     assert len(described) > 4
-    by_the_launcher = {"hand_force.svg", "hand_hand.svg"}
-    assert {f"hand{ending}" for ending in described} - by_the_launcher == {path.name for path in bundle.iterdir()}
+    of_others = {"hand_force.svg", "hand_hand.svg", "hand_images.oni"}  # by the launcher, of a camera
+    assert {f"hand{ending}" for ending in described} - of_others == {path.name for path in bundle.iterdir()}
     assert json.loads((bundle / "hand_settings.json").read_text())["options"]["duration"] == "2"
 
 
@@ -63,6 +64,17 @@ def test_the_exported_program_gives_them_too(bundle, exported, tmp_path):
     report = json.loads((tmp_path / "hand_replay.json").read_text())
     assert report["same"] and report["rows"] == "same" and report["problem"] == ""
     assert (tmp_path / "hand.csv").read_bytes() == (bundle / "hand.csv").read_bytes()
+
+
+def test_so_does_a_place_that_has_nothing_of_this_one(bundle, exported, tmp_path):
+    """Another home, another folder, no settings of anybody's; and the C library computes as on a processor without fused steps."""
+    place, taken = tmp_path / "elsewhere", tmp_path / "taken home"
+    shutil.copytree(exported[0].parent, place)
+    shutil.copytree(bundle, taken)
+    command = [place / exported[0].name, "--headless", "--", f"--replay={taken}"]
+    own = {"HOME": str(tmp_path), "PATH": "/usr/bin:/bin", "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4"}
+    done = subprocess.run(command, cwd="/", env=own, timeout=180, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    assert done.returncode == 0 and "the same to the bit" in done.stdout, done.stdout
 
 
 def launched(program: list, folder: Path, *options: str) -> None:

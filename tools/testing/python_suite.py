@@ -38,4 +38,6 @@ def _name(identity: str) -> str:
 def _result(case: ElementTree.Element) -> Result:
     troubles = [*case.findall("failure"), *case.findall("error")]
     why = "\n".join((trouble.text or trouble.get("message", ""))[-3000:] for trouble in troubles)
-    return Result(f"tools.{case.get('classname', '').rpartition('.')[2]}.{case.get('name')}", why)
+    skipped = case.find("skipped")
+    why_not = "" if skipped is None else skipped.get("message", "")
+    return Result(f"tools.{case.get('classname', '').rpartition('.')[2]}.{case.get('name')}", why, skipped=why_not)

@@ -17,7 +17,7 @@
 namespace tactus {
 
 // Both sides must have been built from the same file: another one has another number.
-inline constexpr int depth_sensing_version = 3;
+inline constexpr int depth_sensing_version = 4;
 
 // The one function that the library shows: const DepthSensing* (*)(int version); null where it is of another
 // version.
@@ -42,6 +42,7 @@ struct CameraChoice {
     int width = 320;       // of the image, as nearly as the camera has it (unit: pixels)
     bool repeats = true;   // a recording, when it has come to its end
     bool as_fast_as_read = false;  // a recording: every frame is looked at, however long that takes
+    const char* record_to = "";    // a file (.oni) that its images are written to as well; empty: none
 };
 
 struct SensorSettings {

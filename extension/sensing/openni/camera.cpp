@@ -53,6 +53,9 @@ std::string Camera::open(const Choice& choice) {
     if (error.empty()) {
         error = open_stream(choice.width);
     }
+    if (error.empty() && !choice.record_to.empty()) {
+        error = record(choice.record_to);
+    }
     if (!error.empty()) {
         close();
         return error;
@@ -160,6 +163,17 @@ std::string Camera::read_geometry() {
                                         : "";
 }
 
+// What the stream gives from its start on.
+std::string Camera::record(const std::string& path) {
+    const bool is_made = openni_->create_recorder(path.c_str(), &recorder_) == ONI_STATUS_OK;
+    if (is_made && openni_->recorder_attach_stream(recorder_, stream_, FALSE) == ONI_STATUS_OK &&
+        openni_->recorder_start(recorder_) == ONI_STATUS_OK) {
+        return "";
+    }
+    return "its images cannot be recorded into '" + path + "' (" + openni_.last_error() +
+           "): name another file, or none";
+}
+
 void Camera::play_recording(const Choice& choice) {
     if (!is_recording()) {
         return;
@@ -172,6 +186,11 @@ void Camera::play_recording(const Choice& choice) {
 }
 
 void Camera::close() {
+    if (recorder_ != nullptr) {
+        openni_->recorder_stop(recorder_);
+        openni_->recorder_destroy(&recorder_);
+        recorder_ = nullptr;
+    }
     if (stream_ != nullptr) {
         openni_->stream_stop(stream_);
         openni_->stream_destroy(stream_);

@@ -20,6 +20,7 @@ public:
         int width = 320;      // of the image, as nearly as the camera has it (unit: pixels)
         bool repeats = true;  // a recording, when it is at its end
         bool as_fast_as_read = false;  // a recording: drops no frame, waits for none
+        std::string record_to;         // a file (.oni) that its images are written to; empty: none
     };
 
     enum class Reading {
@@ -50,6 +51,7 @@ public:
 private:
     std::string open_device(const std::string& uri);
     std::string open_stream(int width);
+    std::string record(const std::string& path);
     std::string choose_mode(int width);
     std::string read_geometry();
     void play_recording(const Choice& choice);
@@ -61,6 +63,7 @@ private:
     const OpenNi& openni_;
     OniDeviceHandle device_ = nullptr;
     OniStreamHandle stream_ = nullptr;
+    OniRecorderHandle recorder_ = nullptr;
     OniCallbackHandle callbacks_ = nullptr;
     OniDeviceInfo info_{};
     std::string name_;
