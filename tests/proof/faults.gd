@@ -147,7 +147,7 @@ func test_hot_reload() -> void:
 	var refused := 0
 	for _time in 3:
 		# Another file, and the one that is in use stays as it is until it is closed.
-		check_equal(DirAccess.copy_absolute(library, library + ".new"), OK, "copy")
+		check_equal(OS.execute("cp", ["-p", library, library + ".new"]), 0, "copy")
 		check_equal(DirAccess.rename_absolute(library + ".new", library), OK, "rename")
 		expect_error("not marked as 'reloadable'")
 		refused += int(GDExtensionManager.reload_extension(EXTENSION) != GDExtensionManager.LOAD_STATUS_OK)
