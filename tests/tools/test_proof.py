@@ -25,7 +25,7 @@ def test_a_planted_defect_is_found_told_and_its_input_kept(tmp_path):
 def test_an_input_that_takes_for_ever_is_a_hang(tmp_path):
     (tmp_path / "corpus/planted").mkdir(parents=True)
     (tmp_path / "corpus/planted/input").write_bytes(b"wait for ever")
-    settings = fuzz.Settings(driver="plain", workers=1)
+    settings = fuzz.Settings(driver="plain", workers=1, longest=1.0)
     search = fuzz.play("planted", fuzz.Target(3, 64), settings, tmp_path, led=False)
     assert [one.kind for one in search.found] == ["hang"]
     assert search.found[0].input.read_bytes() == b"wait for ever"
@@ -47,8 +47,8 @@ def test_by_the_front_door_it_leaves_its_figures(tmp_path, capsys):
     arguments = ["--only=fuzz.meshes", "--runs=50", "--driver=plain", "--workers=2", f"--output={tmp_path}"]
     assert prove.main(arguments) == 0
     summary = json.loads((tmp_path / "summary.json").read_text())
-    assert summary["fuzz.meshes_runs"] == 50 and summary["fuzz.meshes_crashes"] == summary["fuzz.meshes_hangs"] == 0
-    assert summary["fuzz.meshes_driver"] == "plain" and "50 played, 0 crashes" in capsys.readouterr().out
+    assert summary["fuzz.meshes_runs"] >= 50 and summary["fuzz.meshes_crashes"] == summary["fuzz.meshes_hangs"] == 0
+    assert summary["fuzz.meshes_driver"] == "plain" and "played, 0 crashes" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -87,8 +87,8 @@ def test_a_fault_that_is_not_survived_is_told(tmp_path):
 
 
 def test_the_churn_in_short(tmp_path):
-    figures = soak.run(soak.CASES, soak.Settings(hours=0.05), tmp_path)
-    assert figures["soak.ticks"] == 2 * 180_000 and figures["soak.changes"] > 300
+    figures = soak.run(soak.CASES, soak.Settings(hours=0.02), tmp_path)
+    assert figures["soak.ticks"] == pytest.approx(2 * 72_000, abs=100) and figures["soak.changes"] > 100
     assert figures["soak.files_growth"] <= 0 and figures["soak.threads_growth"] <= 0
     assert (tmp_path / "memory.png").is_file()
 
@@ -133,7 +133,7 @@ def test_deadlines_are_drawn(tmp_path):
 def test_the_page_says_what_was_found_and_what_was_not_run():
     figures = {"fuzz.packets_runs": 12, "fuzz.packets_crashes": 3, "faults.disk_full.survived": False, "faults.disk_full.seen": "a hole"}
     written = page.text(figures | faults.totals(figures))
-    assert "| 12 | 3 |" in written and "| **no** | a hole |" in written
+    assert "| 12 | not run | 3 |" in written and "| **no** | a hole |" in written
     assert written.count(page.NOT_RUN) > 20 and "0 of 1" in written
 
 

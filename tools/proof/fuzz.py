@@ -5,7 +5,7 @@ It is chosen before AFL++ because it plays a million inputs in one process where
 comes with the clang that builds them. Where there is no clang, or with --driver=plain, the driver that every compiler
 makes plays the same targets with changes made blindly (tests/fuzz/driver/plain.cpp).
 
-Every input that ends a program, or takes it longer than LONGEST seconds of a processor, is kept in found/TARGET/.
+Every input that ends a program, or takes it longer than --longest seconds of a processor, is kept in found/TARGET/.
 """
 
 import re
@@ -61,6 +61,7 @@ class Settings:
     driver: Literal["best", "plain"] = "best"
     workers: int = options.option(0, "factor")  # processes; 0: one a processor
     seed: int = 1
+    longest: float = options.option(LONGEST, "s")  # that an input may take, of a processor
 
 
 @dataclass
@@ -126,7 +127,7 @@ def play(name: str, target: Target, settings: Settings, output: Path, led: bool)
     workers = settings.workers or cpu_count() or 1
     workers = min(workers, target.runs)
     share = [target.runs // workers + (number < target.runs % workers) for number in range(workers)]
-    command = [program(name, led), f"-max_len={target.max_len}", f"-timeout={LIMIT if led else round(LONGEST)}"]
+    command = [program(name, led), f"-max_len={target.max_len}", f"-timeout={LIMIT if led else round(settings.longest)}"]
     if led:
         command += [f"-rss_limit_mb={MOST_MEMORY}", "-print_final_stats=1", "-verbosity=1"]
     folders = [corpus, *([kept] if kept.is_dir() else [])]
@@ -134,7 +135,7 @@ def play(name: str, target: Target, settings: Settings, output: Path, led: bool)
     def work(number: int) -> Search:
         own = found / str(number)
         own.mkdir()
-        return _search(command, folders, share[number], settings.seed * workers + number, own)
+        return _search(command, folders, share[number], settings.seed * workers + number, own, settings.longest)
 
     with ThreadPoolExecutor(workers) as pool:
         searches = list(pool.map(work, range(workers)))
@@ -144,7 +145,7 @@ def play(name: str, target: Target, settings: Settings, output: Path, led: bool)
     return total
 
 
-def _search(command: list, folders: list[Path], runs: int, seed: int, found: Path) -> Search:
+def _search(command: list, folders: list[Path], runs: int, seed: int, found: Path, longest: float) -> Search:
     """One process after the other: each ends with the first input that ends it."""
     search = Search()
     while search.runs < runs and len(search.found) < MOST_FOUND:
@@ -157,7 +158,7 @@ def _search(command: list, folders: list[Path], runs: int, seed: int, found: Pat
         played = re.findall(r"stat::number_of_executed_units:\s*(\d+)", said)
         search.runs += int(played[-1]) if played else _number(new)
         search.reached = max([search.reached, *map(int, re.findall(r"\bft: (\d+)", said))])
-        search.found += [one for path in new if (one := judge(command[0], path))]
+        search.found += [one for path in new if (one := judge(command[0], path, longest))]
         if done.returncode != 0 and not new:
             raise RuntimeError(f"{command[0].name} ended with {done.returncode} and no input to show for it:\n{said[-3000:]}")
     (found / "log").unlink(missing_ok=True)
@@ -169,18 +170,18 @@ def _number(found: list[Path]) -> int:
     return max((int(path.name.rpartition("-")[2]) for path in found), default=0)
 
 
-def judge(program: Path, kept: Path) -> Found | None:
+def judge(program: Path, kept: Path, longest: float) -> Found | None:
     """What the input does when it is played alone, by its own processor time; nothing where it only was the machine that took long."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
-        done = subprocess.run([program, kept], text=True, errors="replace", capture_output=True, timeout=600)
+        done = subprocess.run([program, f"-timeout={round(2 * longest)}", kept], text=True, errors="replace", capture_output=True, timeout=600)
         said, code = done.stdout + done.stderr, done.returncode
     except subprocess.TimeoutExpired:
         said, code = "it has not come to its end", 1
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     used = after.ru_utime - before.ru_utime
     if kept.name.startswith("timeout-"):
-        return Found(kept, "hang", f"{used:.0f} s") if used > LONGEST or code != 0 else None
+        return Found(kept, "hang", f"{used:.0f} s") if used > longest or code != 0 else None
     lines = [line for line in said.splitlines() if re.search(r"ERROR: |runtime error|does not hold|SUMMARY|Assertion", line)]
     return Found(kept, "crash", " | ".join(lines[:3]) or f"it ended with {code}")
 

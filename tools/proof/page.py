@@ -25,6 +25,10 @@ def text(figures: dict) -> str:
     return "\n".join([*(section(figures) for section in sections), threats])
 
 
+def _picture(name: str, words: str) -> str:
+    return f"![{words}]({name})\n" if (PAGE.parent / name).is_file() else ""
+
+
 def _said(figures: dict, key: str, form: str = "{:,}") -> str:
     return form.format(figures[key]) if key in figures else NOT_RUN
 
@@ -59,11 +63,11 @@ def _fuzz(figures: dict) -> str:
         key = f"fuzz.{name}"
         rows.append(
             [
-                f"`{name}`", fuzz.WORDS[name], f"{target.runs:,}", _said(figures, f"{key}_runs"), _said(figures, f"{key}_crashes"),
+                f"`{name}`", fuzz.WORDS[name], f"{target.runs:,}", _said(figures, f"{key}_runs"), figures.get(f"{key}_driver", NOT_RUN), _said(figures, f"{key}_crashes"),
                 _said(figures, f"{key}_hangs"), _said(figures, f"{key}_reached"), _said(figures, f"{key}_seconds", "{:.0f} s"),
             ]  # fmt: skip
         )
-    head = ["Target", "What is thrown", "wanted", "runs", "crashes", "hangs", "reached", "took"]
+    head = ["Target", "What is thrown", "wanted", "runs", "by", "crashes", "hangs", "reached", "took"]
     return f"""## Bytes of others
 
     ./run proof --only=fuzz.packets
@@ -89,8 +93,7 @@ Twice a second something comes, goes or is exchanged: {said or NOT_RUN}. Growth 
 **{_said(figures, "soak.growth_mb", "{:+.2f} MB")}** of {_said(figures, "soak.memory_mb", "{:.0f} MB")}, {_said(figures, "soak.objects_growth", "{:+.0f}")} objects,
 {_said(figures, "soak.files_growth", "{:+.0f}")} open files, {_said(figures, "soak.threads_growth", "{:+.0f}")} threads.
 
-![Memory over virtual time](proof_memory.png)
-"""
+{_picture("proof_memory.png", "Memory over virtual time")}"""
 
 
 SOAK_WORDS = {
@@ -119,8 +122,7 @@ When a tick begins after its deadline, while a hand pushes boxes about, beside c
 and with an ordinary process that never rests on each processor. On {where}.
 
 {_table(head, rows)}
-![How late ticks begin](proof_lateness.png)
-"""
+{_picture("proof_lateness.png", "How late ticks begin")}"""
 
 
 def _faults(figures: dict) -> str:
