@@ -40,6 +40,11 @@ const SCENES := {
 	],
 	"deforming_mesh":
 	["A skin that moves", "Lay a finger on the skin: its wave lifts it and lets it down again."],
+	"tentacle":
+	[
+		"Bones and skin",
+		"Bones bend the arm and it swells: lay a finger on it and be carried along by what is drawn."
+	],
 	"dynamic_testbed":
 	[
 		"A box",
