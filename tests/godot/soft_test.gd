@@ -124,6 +124,9 @@ func test_what_cannot_give_says_why_and_the_rest_goes_on() -> void:
 	var nonsense := HapticSoftBody.new()
 	nonsense.points = PackedVector3Array([Vector3(NAN, 0, 0), Vector3.RIGHT, Vector3.UP, Vector3.BACK])
 	nonsense.tetrahedra = PackedInt32Array([0, 1, 2, 3])
+	var one := HapticSoftBody.new()
+	one.points = PackedVector3Array([Vector3.ZERO])
+	one.tetrahedra = PackedInt32Array([0, 0, 0, 0])
 	var large := _block(32)
 	var thrown := _block()
 	var words := {
@@ -131,6 +134,7 @@ func test_what_cannot_give_says_why_and_the_rest_goes_on() -> void:
 		none: "mesh",
 		turned: "inside out",
 		nonsense: "vertex 0",
+		one: "flat",
 		large: "fewer",
 		thrown: "StaticBody3D"
 	}
