@@ -40,10 +40,10 @@ const SCENES := {
 	],
 	"deforming_mesh":
 	["A skin that moves", "Lay a finger on the skin: its wave lifts it and lets it down again."],
-	"tentacle":
+	"seaweed":
 	[
 		"Bones and skin",
-		"Bones bend the arm and it swells: lay a finger on it and be carried along by what is drawn."
+		"Bones bend the leaf and it swells: lay a finger on it and be carried along by what is drawn."
 	],
 	"dynamic_testbed":
 	[

@@ -1,9 +1,9 @@
 extends Skeleton3D
-## An arm of bones that sways, with a mesh around them that a blend shape swells: drawn by the engine, and
+## A leaf of bones that sways, with a mesh around them that a blend shape swells: drawn by the engine, and
 ## touched as it is drawn by a HapticMesh that follows it.
 
 const LENGTH := 0.24  # metres
-const THICKNESS := 0.03  # radius at the foot, metres
+const HALF := Vector2(0.045, 0.012)  # of its width and its thickness, metres
 const BONES := 8
 const RINGS := 33
 const SIDES := 20
@@ -50,12 +50,12 @@ func _mesh() -> ArrayMesh:
 	for ring in RINGS:
 		var share := ring / (RINGS - 1.0)
 		var bone := clampf(share * BONES - 0.5, 0.0, BONES - 1.0)
-		var radius := THICKNESS * sqrt(1.0 - 0.98 * share * share)
+		var width := (0.25 + 0.75 * sin(PI * (0.2 + 0.8 * share))) * sqrt(1.0 - 0.97 * pow(share, 6.0))
 		for side in SIDES:
 			var out := Vector3(cos(TAU * side / SIDES), 0, -sin(TAU * side / SIDES))
-			corners.append(radius * out + Vector3(0, share * LENGTH, 0))
+			corners.append(width * Vector3(HALF.x * out.x, 0, HALF.y * out.z) + Vector3(0, share * LENGTH, 0))
 			swollen.append(SWELL * pow(sin(PI * share), 4.0) * out)
-			normals.append((out + Vector3(0, share, 0)).normalized())
+			normals.append(Vector3(out.x / HALF.x, 0, out.z / HALF.y).normalized())
 			bones.append_array([floori(bone), mini(ceili(bone), BONES - 1), 0, 0])
 			weights.append_array([1.0 - fmod(bone, 1.0), fmod(bone, 1.0), 0.0, 0.0])
 	corners.append(Vector3(0, LENGTH, 0))
