@@ -381,7 +381,7 @@ TEST(Soft, SeveralShareATickAndWhatIsPressedGoesFirst) {
         }
     }
     EXPECT_GE(steps[0], pressed);
-    EXPECT_GT(pressed, 150);
+    EXPECT_GT(pressed, 100);
     EXPECT_GT(rig.newest().slowed_bodies, 0u);
     const auto [least, most] = std::minmax_element(std::begin(steps) + 1, std::end(steps));
     EXPECT_GT(*least, 40);
