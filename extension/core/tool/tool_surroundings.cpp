@@ -261,7 +261,7 @@ double ToolSurroundings::share_until_entered(int body, const Pose& before, const
             continue;
         }
         for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
-            if (room_[i] > 0.0) {  // that already counts with the body's way
+            if (cannot_be_entered(i, depth)) {
                 continue;
             }
             const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
@@ -307,12 +307,15 @@ ToolSurroundings::Entering ToolSurroundings::entered_by_form(int body, const Pos
         const TouchPart& former = given.former->parts[part - given.first_part];
         const DeformSweep sweep(*former.tree(), *placed.part->tree());
         for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
+            if (cannot_be_entered(i, depth)) {
+                continue;
+            }
             const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
             const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
             const double room = (1.0 - depth) * shape_->spheres[i].radius;
             const double ball = std::max(former.radius, placed.part->radius);
-            if (room_[i] > 0.0 || glm::distance(to, placed.part->center) >
-                                      ball + room + glm::distance(from, to) + given.gave_by) {
+            if (glm::distance(to, placed.part->center) >
+                ball + room + glm::distance(from, to) + given.gave_by) {
                 continue;
             }
             const double share = share_until_near(sweep, from, to, room, entering.share, work);
