@@ -23,6 +23,8 @@ constexpr double arrival_share = 0.125;
 constexpr double same_share = 1e-3;  // distances that differ by less are the same
 constexpr double window_share = 4.0;
 
+constexpr double unknown = -std::numeric_limits<double>::infinity();  // of a sphere's room
+
 // Of its room, or of the skin: how far the way of a sphere may be from its chord.
 constexpr double sag_share = 0.25;
 
@@ -56,7 +58,7 @@ ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::
     : shape_(std::move(shape)),
       skin_(skin_share * shape_->reach),
       hoods_(shape_->spheres.size()),
-      room_(shape_->spheres.size(), 0.0) {
+      room_(shape_->spheres.size(), unknown) {
     parts_.reserve(max_parts);
     arms_.reserve(shape_->spheres.size());
     for (const ToolSphere& sphere : shape_->spheres) {
@@ -69,7 +71,7 @@ double ToolSurroundings::way_of(const RigidMotion& motion, double arm) {
 }
 
 void ToolSurroundings::forget() {
-    std::ranges::fill(room_, 0.0);
+    std::ranges::fill(room_, unknown);
     for (SphereHood& hood : hoods_) {
         hood.forget();
     }
