@@ -28,6 +28,11 @@ const SCENES := {
 	],
 	"mesh_library":
 	["Meshes", "Run along rims, through holes and over edges: every triangle is felt as it is drawn."],
+	"globe":
+	[
+		"A globe",
+		"Run over coasts and caps: land is raised and rough, the sea smooth, and the ice a material of its own."
+	],
 	"field":
 	[
 		"Volumes",
@@ -40,6 +45,11 @@ const SCENES := {
 	],
 	"deforming_mesh":
 	["A skin that moves", "Lay a finger on the skin: its wave lifts it and lets it down again."],
+	"seaweed":
+	[
+		"Bones and skin",
+		"Bones bend the leaf and it swells: lay a finger on it and be carried along by what is drawn."
+	],
 	"dynamic_testbed":
 	[
 		"A box",

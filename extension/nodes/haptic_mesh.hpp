@@ -40,6 +40,9 @@ public:
     // With texture coordinates where the body's material asks for them, or one of its own does.
     ShapeReading read(const SceneFrame& body_scale, bool by_uv = false) const;
 
+    // Takes over how `mesh_instance` is drawn now.
+    void follow_instance();
+
     // What its surfaces feel like where they are not as the body; none: all are.
     std::vector<std::optional<SurfaceFeel>> surface_feels() const;
     std::vector<godot::Ref<godot::Resource>> surface_resources() const;
@@ -63,7 +66,6 @@ private:
     // Null where nothing is named; a source with an error where it cannot be read.
     std::shared_ptr<TriangleSource> source() const;
     bool is_following() const { return mesh_.is_null() && field_.is_null() && !mesh_instance_.is_empty(); }
-    void follow_instance();
     void instance_changed();
     std::shared_ptr<const SurfaceMap> surfaces(bool by_uv) const;
     const LibraryEntry& entry() const;

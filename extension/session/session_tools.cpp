@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_way.hpp"
 #include "core/teleop/body_motion.hpp"
 #include "session/session_loop.hpp"
@@ -139,8 +140,8 @@ void SessionLoop::press_bodies(const ToolSlot& slot) {
         if ((pressed.motion != Motion::Dynamic && !pressed.soft) || force == Vec3(0.0)) {
             continue;
         }
-        const bool sticks =
-            (slot.state.status & tool_sliding) == 0 && scene_.body(touch.body).material.static_friction > 0.0;
+        const TouchMaterial& material = *feel_at(scene_, touch.body, touch.feature).material;
+        const bool sticks = (slot.state.status & tool_sliding) == 0 && material.static_friction > 0.0;
         const Vec3 velocity =
             slot.hand_velocity + glm::cross(slot.hand_spin, touch.point - slot.hand.position);
         SpringForce spring{-force, touch.point, touch.stiffness * slot.share, 0.0, velocity, sticks, {}};

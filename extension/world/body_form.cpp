@@ -59,7 +59,9 @@ BuiltDraft build_draft(const MeshDraft& draft, const ParallelRunner& run) {
     const BuiltMesh built = draft.source->built(draft.scaling, run);
     const bool closed = is_closed(*built.mesh);
     const bool one_sided = draft.one_sided && closed;
-    const auto surfaces = scaled(draft.surfaces, draft.scaling);
+    // A mesh may have changed, without saying so, between its triangles and what else was read of it.
+    const bool has_map = draft.surfaces && fits(*draft.surfaces, *built.mesh);
+    const auto surfaces = has_map ? scaled(draft.surfaces, draft.scaling) : nullptr;
     BuiltDraft result{{draft.pose, built.tree, built.tree->center(), built.tree->radius(), nullptr, closed,
                        one_sided, surfaces},
                       {MeshShape{built.mesh, draft.smooth_below, one_sided, surfaces}, draft.pose}};

@@ -49,6 +49,23 @@ func test_a_block_gives_by_as_much_as_it_is_pressed_and_comes_back() -> void:
 	check(absf(_highest(soft) - 0.04) < 1e-4, "shape is not back: %s" % _highest(soft))
 
 
+func test_a_tool_presses_a_block_and_feels_it() -> void:
+	var world := add_world()
+	var soft := _block()
+	world.add_child(_body_of(soft))
+	add_device(world, path(Vector3(0, 0.1, 0), Vector3(0, 0.04, 0)))
+	var tool := HapticTool.new()
+	var brick := BoxMesh.new()
+	brick.size = Vector3(0.05, 0.02, 0.05)
+	tool.mesh = brick
+	world.add_child(tool)
+	world.advance(1.5)
+	check_equal(tool.get_state_text(), "touching", "state")
+	check(tool.global_position.y < 0.0485, "the block does not give: %s" % tool.global_position)
+	check(tool.global_position.y > 0.0405, "the hand is in it: %s" % tool.global_position)
+	check(tool.get_force().y > 1.0, "nothing is felt: %s" % tool.get_force())
+
+
 func test_a_cloth_between_its_corners_bears_the_hand() -> void:
 	var world := add_world()
 	var mesh := PlaneMesh.new()
@@ -124,6 +141,9 @@ func test_what_cannot_give_says_why_and_the_rest_goes_on() -> void:
 	var nonsense := HapticSoftBody.new()
 	nonsense.points = PackedVector3Array([Vector3(NAN, 0, 0), Vector3.RIGHT, Vector3.UP, Vector3.BACK])
 	nonsense.tetrahedra = PackedInt32Array([0, 1, 2, 3])
+	var one := HapticSoftBody.new()
+	one.points = PackedVector3Array([Vector3.ZERO])
+	one.tetrahedra = PackedInt32Array([0, 0, 0, 0])
 	var large := _block(32)
 	var thrown := _block()
 	var words := {
@@ -131,6 +151,7 @@ func test_what_cannot_give_says_why_and_the_rest_goes_on() -> void:
 		none: "mesh",
 		turned: "inside out",
 		nonsense: "vertex 0",
+		one: "flat",
 		large: "fewer",
 		thrown: "StaticBody3D"
 	}

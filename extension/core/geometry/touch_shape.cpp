@@ -14,16 +14,6 @@ bool is_length(double value) {
     return value > 0.0 && value <= 1e9;
 }
 
-bool is_of(const SurfaceMap& map, const TriangleMesh& mesh) {
-    const auto is_sound = [](const SurfaceMap::Corners& corners) {
-        return std::ranges::all_of(
-            corners, [](const auto& at) { return std::abs(at[0]) <= 1e6f && std::abs(at[1]) <= 1e6f; });
-    };
-    return (map.surface.empty() || map.surface.size() == mesh.triangles.size()) &&
-           (map.uv.empty() || map.uv.size() == mesh.triangles.size()) &&
-           std::ranges::all_of(map.uv, is_sound);
-}
-
 // An empty text, or why the shape cannot be touched.
 struct Check {
     std::string operator()(const SphereShape& s) const {
@@ -58,7 +48,7 @@ struct Check {
             return "the angle below which facets are smoothed is not between 0 and 180 degrees: set it so";
         }
         std::string error = m.mesh ? check_mesh(*m.mesh) : "the shape has no mesh: assign one";
-        if (error.empty() && m.surfaces && !is_of(*m.surfaces, *m.mesh)) {
+        if (error.empty() && m.surfaces && !fits(*m.surfaces, *m.mesh)) {
             error =
                 "the mesh's surfaces or texture coordinates are not as many as its triangles, or no "
                 "numbers: make them anew";
@@ -130,6 +120,16 @@ bool is_sound(const Pose& pose) {
 }
 
 }  // namespace
+
+bool fits(const SurfaceMap& map, const TriangleMesh& mesh) {
+    const auto is_sound = [](const SurfaceMap::Corners& corners) {
+        return std::ranges::all_of(
+            corners, [](const auto& at) { return std::abs(at[0]) <= 1e6f && std::abs(at[1]) <= 1e6f; });
+    };
+    return (map.surface.empty() || map.surface.size() == mesh.triangles.size()) &&
+           (map.uv.empty() || map.uv.size() == mesh.triangles.size()) &&
+           std::ranges::all_of(map.uv, is_sound);
+}
 
 bool is_deformation(const TouchShape& from, const TouchShape& to) {
     return std::ranges::equal(from.parts, to.parts, [](const TouchPart& p, const TouchPart& q) {

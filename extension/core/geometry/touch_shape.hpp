@@ -41,6 +41,9 @@ struct TouchShape {
     double reach = 0.0;
 };
 
+// Whether what it says is of this mesh's triangles, and of numbers.
+bool fits(const SurfaceMap& map, const TriangleMesh& mesh);
+
 // True where both are made of the same meshes at the same places and only corners have moved: what touches
 // the one can be swept against the way to the other (see DeformSweep).
 bool is_deformation(const TouchShape& from, const TouchShape& to);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_way.hpp"
 #include "core/teleop/body_motion.hpp"
 
@@ -92,11 +93,13 @@ void ToolProxy::bound_slides(const Vector6& x) {
 NearestMotion ToolProxy::hold(const Vector6& goal, bool sliding) {
     for (int i = 0; i < contacts_.count; ++i) {
         const ToolContact& contact = contacts_.items[at(i)];
-        const TouchMaterial& material = scene_->body(contact.body).material;
+        const Feel feel = feel_at(*scene_, contact.body, contact.feature);
         const bool touches = contact.gap <= touching_gap * skin();
-        bounds_[at(i)].friction = !touches  ? 0.0
-                                  : sliding ? material.dynamic_friction
-                                            : material.static_friction;
+        bounds_[at(i)].friction =
+            touches ? friction_share(*scene_, feel, contact.body, contact.feature, contact.point,
+                                     contact.normal) *
+                          (sliding ? feel.material->dynamic_friction : feel.material->static_friction)
+                    : 0.0;
         bounds_[at(i)].slide = 0.0;
     }
     NearestMotion held = nearest(goal, cones_met);
@@ -130,7 +133,7 @@ ToolProxy::Plan ToolProxy::plan(const RigidMotion& pull) {
         std::span(plan.holding.pushes).first(at(plan.holding.push_count)), [&](const NearestMotion::Push& p) {
             const ToolContact& contact = contacts_.items[at(p.bound)];
             return contact.gap <= touching_gap * skin() &&
-                   scene_->body(contact.body).material.static_friction > 0.0;
+                   feel_at(*scene_, contact.body, contact.feature).material->static_friction > 0.0;
         });
     if (!plan.possible || !is_held) {
         return plan;

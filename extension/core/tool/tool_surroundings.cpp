@@ -23,6 +23,8 @@ constexpr double arrival_share = 0.125;
 constexpr double same_share = 1e-3;  // distances that differ by less are the same
 constexpr double window_share = 4.0;
 
+constexpr double unknown = -std::numeric_limits<double>::infinity();  // of a sphere's room
+
 // Of its room, or of the skin: how far the way of a sphere may be from its chord.
 constexpr double sag_share = 0.25;
 
@@ -56,7 +58,7 @@ ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::
     : shape_(std::move(shape)),
       skin_(skin_share * shape_->reach),
       hoods_(shape_->spheres.size()),
-      room_(shape_->spheres.size(), 0.0) {
+      room_(shape_->spheres.size(), unknown) {
     parts_.reserve(max_parts);
     arms_.reserve(shape_->spheres.size());
     for (const ToolSphere& sphere : shape_->spheres) {
@@ -69,7 +71,7 @@ double ToolSurroundings::way_of(const RigidMotion& motion, double arm) {
 }
 
 void ToolSurroundings::forget() {
-    std::ranges::fill(room_, 0.0);
+    std::ranges::fill(room_, unknown);
     for (SphereHood& hood : hoods_) {
         hood.forget();
     }
@@ -261,7 +263,7 @@ double ToolSurroundings::share_until_entered(int body, const Pose& before, const
             continue;
         }
         for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
-            if (room_[i] > 0.0) {  // that already counts with the body's way
+            if (cannot_be_entered(i, depth)) {
                 continue;
             }
             const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
@@ -307,12 +309,15 @@ ToolSurroundings::Entering ToolSurroundings::entered_by_form(int body, const Pos
         const TouchPart& former = given.former->parts[part - given.first_part];
         const DeformSweep sweep(*former.tree(), *placed.part->tree());
         for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
+            if (cannot_be_entered(i, depth)) {
+                continue;
+            }
             const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
             const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
             const double room = (1.0 - depth) * shape_->spheres[i].radius;
             const double ball = std::max(former.radius, placed.part->radius);
-            if (room_[i] > 0.0 || glm::distance(to, placed.part->center) >
-                                      ball + room + glm::distance(from, to) + given.gave_by) {
+            if (glm::distance(to, placed.part->center) >
+                ball + room + glm::distance(from, to) + given.gave_by) {
                 continue;
             }
             const double share = share_until_near(sweep, from, to, room, entering.share, work);

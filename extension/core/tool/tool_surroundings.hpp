@@ -93,6 +93,11 @@ private:
     bool has_stopped(std::uint32_t sphere, const HoodPlane& plane) const;
     void note_stop(const Stop& stop);
     double rest(std::uint32_t sphere) const { return shape_->spheres[sphere].radius + skin_; }
+    // By this share of its radius. Its room counts already with all ways of the tick, the bodies' and its
+    // own.
+    bool cannot_be_entered(std::uint32_t sphere, double depth) const {
+        return room_[sphere] > -depth * shape_->spheres[sphere].radius;
+    }
 
     std::shared_ptr<const ToolShape> shape_;
     double skin_;

@@ -130,6 +130,21 @@ TEST(ToolProxy, SticksWithinTheConeAndSlidesBeyond) {
     }
 }
 
+TEST(ToolProxy, AFrictionImageMakesAFloorSlippery) {
+    const TouchDetail detail{{nullptr, std::make_shared<const TouchImage>(TouchImage{1, 1, {0.5f}})}, {}};
+    TouchMaterial material{500.0, 0.0, 0.6, 0.6};
+    material.detail = &detail;
+    ToolRig rig = bar_over_floor(material);
+    settle(rig, {{0.0, 0.03, 0.0}, upright}, 2);
+    settle(rig, {{0.0, 0.005, 0.0}, upright});
+    const double pressed = rig.proxy().pose().position.y - 0.005;
+    for (int i = 1; i <= 100; ++i) {
+        rig.tick({{6e-5 * i, 0.005, 0.0}, upright});
+    }
+    settle(rig, {{0.006, 0.005, 0.0}, upright});
+    EXPECT_NEAR(0.006 - rig.proxy().pose().position.x, 0.3 * pressed, 0.02 * pressed);
+}
+
 // A bar longer than the room is wide is turned in it as fast as no hand can: all spheres stay inside.
 TEST(ToolProxy, FastTurnsInANarrowRoomLeadThroughNoWall) {
     ToolRig rig(shared::box({0.05, 0.01, 0.01}), {1e-3, 300});
