@@ -62,6 +62,14 @@ Motion motion_of(const CollisionObject3D& body) {
     return is_told ? Motion::Kinematic : Motion::Static;
 }
 
+std::vector<std::uint64_t> ids_of(const std::vector<Ref<Resource>>& resources) {
+    std::vector<std::uint64_t> ids;
+    for (const Ref<Resource>& resource : resources) {
+        ids.push_back(resource->get_instance_id());
+    }
+    return ids;
+}
+
 }  // namespace
 
 GodotBody::GodotBody(CollisionObject3D& node, const GodotScene& scene, std::shared_ptr<BodyNews> news)
@@ -134,7 +142,7 @@ ShapeKey GodotBody::shape_key() const {
 
 BodyValues GodotBody::values(const BodyDefaults& defaults) {
     const Ref<PhysicsMaterial> material = material_of(node_);
-    if (watch_ != nullptr && materials_ != material_resources()) {
+    if (watch_ != nullptr && materials_ != ids_of(material_resources())) {
         listen();
     }
     BodyValues values;
@@ -190,8 +198,9 @@ void GodotBody::listen() {
     for_each_shape(node_, [&resources](const Ref<Shape3D>& shape, const Transform3D&, Object*) {
         resources.push_back(shape);
     });
-    materials_ = material_resources();
-    resources.insert(resources.end(), materials_.begin(), materials_.end());
+    const std::vector<Ref<Resource>> materials = material_resources();
+    materials_ = ids_of(materials);
+    resources.insert(resources.end(), materials.begin(), materials.end());
     watch_->listen_to(std::move(resources));
 }
 

@@ -60,7 +60,8 @@ private:
     BodyWatch* watch_ = nullptr;      // null: Godot takes none at the moment, or it has gone
     bool is_in_tree_ = false;         // while there is a watch; likewise the next one
     bool is_below_world_ = false;     // directly
-    std::vector<godot::Ref<godot::Resource>> materials_;  // that it listens to
+    // That it listens to, by id: a body may be let go off the main thread, where Godot's objects must not be.
+    std::vector<std::uint64_t> materials_;
     const GodotScene& scene_;
     std::shared_ptr<BodyNews> news_;
 };
