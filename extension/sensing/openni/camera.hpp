@@ -20,7 +20,7 @@ public:
         int width = 320;      // of the image, as nearly as the camera has it (unit: pixels)
         bool repeats = true;  // a recording, when it is at its end
         bool as_fast_as_read = false;  // a recording: drops no frame, waits for none
-        std::string record_to{};         // a file (.oni) that its images are written to; empty: none
+        std::string record_to{};       // a file (.oni) that its images are written to; empty: none
     };
 
     enum class Reading {
