@@ -134,7 +134,7 @@ ShapeKey GodotBody::shape_key() const {
 
 BodyValues GodotBody::values(const BodyDefaults& defaults) {
     const Ref<PhysicsMaterial> material = material_of(node_);
-    if (watch_ != nullptr && materials_ != material_resources()) {
+    if (watch_ != nullptr && materials_ != material_ids()) {
         listen();
     }
     BodyValues values;
@@ -173,6 +173,14 @@ std::vector<Ref<Resource>> GodotBody::material_resources() const {
     return resources;
 }
 
+std::vector<std::uint64_t> GodotBody::material_ids() const {
+    std::vector<std::uint64_t> ids;
+    for (const Ref<Resource>& material : material_resources()) {
+        ids.push_back(material->get_instance_id());
+    }
+    return ids;
+}
+
 void GodotBody::hold_still() {
     if (rigid_ != nullptr) {
         tactus::hold_still(*rigid_, true);
@@ -190,8 +198,9 @@ void GodotBody::listen() {
     for_each_shape(node_, [&resources](const Ref<Shape3D>& shape, const Transform3D&, Object*) {
         resources.push_back(shape);
     });
-    materials_ = material_resources();
-    resources.insert(resources.end(), materials_.begin(), materials_.end());
+    const std::vector<Ref<Resource>> materials = material_resources();
+    resources.insert(resources.end(), materials.begin(), materials.end());
+    materials_ = material_ids();
     watch_->listen_to(std::move(resources));
 }
 
