@@ -62,14 +62,6 @@ Motion motion_of(const CollisionObject3D& body) {
     return is_told ? Motion::Kinematic : Motion::Static;
 }
 
-std::vector<std::uint64_t> ids_of(const std::vector<Ref<Resource>>& resources) {
-    std::vector<std::uint64_t> ids;
-    for (const Ref<Resource>& resource : resources) {
-        ids.push_back(resource->get_instance_id());
-    }
-    return ids;
-}
-
 }  // namespace
 
 GodotBody::GodotBody(CollisionObject3D& node, const GodotScene& scene, std::shared_ptr<BodyNews> news)
@@ -142,7 +134,7 @@ ShapeKey GodotBody::shape_key() const {
 
 BodyValues GodotBody::values(const BodyDefaults& defaults) {
     const Ref<PhysicsMaterial> material = material_of(node_);
-    if (watch_ != nullptr && materials_ != ids_of(material_resources())) {
+    if (watch_ != nullptr && materials_ != material_ids()) {
         listen();
     }
     BodyValues values;
@@ -181,6 +173,14 @@ std::vector<Ref<Resource>> GodotBody::material_resources() const {
     return resources;
 }
 
+std::vector<std::uint64_t> GodotBody::material_ids() const {
+    std::vector<std::uint64_t> ids;
+    for (const Ref<Resource>& material : material_resources()) {
+        ids.push_back(material->get_instance_id());
+    }
+    return ids;
+}
+
 void GodotBody::hold_still() {
     if (rigid_ != nullptr) {
         tactus::hold_still(*rigid_, true);
@@ -199,8 +199,8 @@ void GodotBody::listen() {
         resources.push_back(shape);
     });
     const std::vector<Ref<Resource>> materials = material_resources();
-    materials_ = ids_of(materials);
     resources.insert(resources.end(), materials.begin(), materials.end());
+    materials_ = material_ids();
     watch_->listen_to(std::move(resources));
 }
 

@@ -52,16 +52,16 @@ private:
     void has_changed() override { news_->changed.push_back(id_); }
     void is_in_tree(bool now) override;
     std::vector<godot::Ref<godot::Resource>> material_resources() const;
+    std::vector<std::uint64_t> material_ids() const;
     void watch_has_gone() override { watch_ = nullptr; }
 
     std::uint64_t id_;
-    godot::CollisionObject3D& node_;  // while it is there
-    godot::RigidBody3D* rigid_;       // the same; null where it is none
-    BodyWatch* watch_ = nullptr;      // null: Godot takes none at the moment, or it has gone
-    bool is_in_tree_ = false;         // while there is a watch; likewise the next one
-    bool is_below_world_ = false;     // directly
-    // That it listens to, by id: a body may be let go off the main thread, where Godot's objects must not be.
-    std::vector<std::uint64_t> materials_;
+    godot::CollisionObject3D& node_;        // while it is there
+    godot::RigidBody3D* rigid_;             // the same; null where it is none
+    BodyWatch* watch_ = nullptr;            // null: Godot takes none at the moment, or it has gone
+    bool is_in_tree_ = false;               // while there is a watch; likewise the next one
+    bool is_below_world_ = false;           // directly
+    std::vector<std::uint64_t> materials_;  // ids of those that it listens to; the watch holds them
     const GodotScene& scene_;
     std::shared_ptr<BodyNews> news_;
 };

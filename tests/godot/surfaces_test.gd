@@ -40,9 +40,15 @@ func _floor(world: HapticWorld, mesh: Mesh) -> HapticMesh:
 
 ## What a hand feels that is pressed 10 mm deep at x.
 func _pressed(world: HapticWorld, x: float, z := 0.3) -> ProxyPointer:
-	var way := path(Vector3(x, 0.05, z), Vector3(x, 0.0, z), 0.2)
-	way.points_times = PackedFloat64Array([0.0, 0.2])
-	return add_hand(world, way)
+	var device := HapticDevice.new()
+	device.name = "DeviceAt%d" % roundi(1000.0 * x)
+	device.path = path(Vector3(x, 0.05, z), Vector3(x, 0.0, z), 0.2)
+	world.add_child(device)
+	var proxy := ProxyPointer.new()
+	proxy.radius = 0.01
+	world.add_child(proxy)
+	proxy.device = proxy.get_path_to(device)
+	return proxy
 
 
 func test_each_surface_feels_as_its_own_material() -> void:
