@@ -230,7 +230,7 @@ func test_the_dock_shows_what_a_scene_says() -> void:
 		"bodies": 3,
 		"awake": 1
 	}
-	figures.devices["Scene/HapticDevice"] = {"text": "working", "force_n": 0.5}
+	figures.devices["Scene/HapticDevice"] = {"text": "working", "force_n": 0.5, "energy_mj": 0.1}
 	dock.show_figures(figures)
 	check(dock.get_node("%Panel").visible, "the panel is hidden")
 	check(dock.get_node("%Panel").get_node("%Said").text.contains("3 bodies, 1 awake"), "what is said")

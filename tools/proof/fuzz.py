@@ -174,7 +174,7 @@ def judge(program: Path, kept: Path, longest: float) -> Found | None:
     """What the input does when it is played alone, by its own processor time; nothing where it only was the machine that took long."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
-        done = subprocess.run([program, f"-timeout={round(2 * longest)}", kept], text=True, errors="replace", capture_output=True, timeout=600)
+        done = subprocess.run([program, f"-timeout={round(2 * longest)}", f"-artifact_prefix={kept.parent}/again-", kept], text=True, errors="replace", capture_output=True, timeout=600)
         said, code = done.stdout + done.stderr, done.returncode
     except subprocess.TimeoutExpired:
         said, code = "it has not come to its end", 1
