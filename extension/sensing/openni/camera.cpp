@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <span>
 
@@ -163,15 +165,24 @@ std::string Camera::read_geometry() {
                                         : "";
 }
 
-// What the stream gives from its start on.
+// What the stream gives from its start on. OpenNI2's recorder may end the program where it cannot write: the
+// file is tried before.
 std::string Camera::record(const std::string& path) {
-    const bool is_made = openni_->create_recorder(path.c_str(), &recorder_) == ONI_STATUS_OK;
-    if (is_made && openni_->recorder_attach_stream(recorder_, stream_, FALSE) == ONI_STATUS_OK &&
-        openni_->recorder_start(recorder_) == ONI_STATUS_OK) {
-        return "";
+    const auto refused = [&](const std::string& why) {
+        return "its images cannot be recorded into '" + path + "' (" + why + "): name another file, or none";
+    };
+    std::FILE* const file = std::fopen(path.c_str(), "wb");
+    if (file == nullptr) {
+        return refused(std::strerror(errno));
     }
-    return "its images cannot be recorded into '" + path + "' (" + openni_.last_error() +
-           "): name another file, or none";
+    std::fclose(file);
+    if (openni_->create_recorder(path.c_str(), &recorder_) != ONI_STATUS_OK) {
+        recorder_ = nullptr;
+        return refused(openni_.last_error());
+    }
+    const bool runs = openni_->recorder_attach_stream(recorder_, stream_, FALSE) == ONI_STATUS_OK &&
+                      openni_->recorder_start(recorder_) == ONI_STATUS_OK;
+    return runs ? "" : refused(openni_.last_error());
 }
 
 void Camera::play_recording(const Choice& choice) {
