@@ -86,7 +86,7 @@ BodyForm read_form(CollisionObject3D& body) {
     for_each_shape(body, [&](const Ref<Shape3D>& shape, const Transform3D& place, Object* owner) {
         take(read_shape(shape, compose(scaling, frame_of(place))), owner, form, form.meshes);
     });
-    if (const HapticMesh* mesh = haptic_mesh_of(body)) {
+    if (HapticMesh* mesh = haptic_mesh_of(body)) {
         mesh->follow_instance();
         const auto* material = Object::cast_to<HapticMaterial>(material_of(body).ptr());
         take(mesh->read(scaling, material != nullptr && material->is_laid_by_uv()), mesh, form, form.touched);
