@@ -1,6 +1,6 @@
 extends HapticMesh
-## A globe of two surfaces: the caps of ice have a material of their own, and over the rest lie images by its
-## texture coordinates: what is land is raised and rough. "Look" beside it shows the same mesh and the same map.
+## A globe of two surfaces: the caps of ice have a material of their own, and over the rest lie images by
+## its texture coordinates: what is land is raised and rough. "Look" beside it shows the same mesh and map.
 
 const RADIUS := 0.11  # metres
 const RINGS := 48
