@@ -13,7 +13,7 @@ const SCENES := {
 	"textures":
 	[
 		"Materials",
-		"Stroke the slabs: rubber clings, ice glides, sandpaper is rough, steel rings, sponge gives and bottoms out."
+		"Stroke the slabs: rubber clings, ice glides, sandpaper is rough, steel rings, sponge gives and hardens."
 	],
 	"magnet":
 	[
