@@ -240,28 +240,33 @@ struct SoftToolRig : SoftRig {
     }
 };
 
+// Pressed in by about 10 mm and let go, while it turns in the hand, at 0.1 and at 0.3 m/s.
 TEST(SoftTool, ABlockGivesUnderAToolWhichNeverEntersIt) {
-    SoftToolRig rig({.stiffness = 1e4}, foot);
-    rig.session.set_gravity(Vec3(0.0));
-    rig.ticks(10);
-    double deepest = 1.0;
-    for (int i = 0; i < 300; ++i) {
-        rig.device.rotation = glm::angleAxis(0.3 * std::sin(0.02 * i), glm::normalize(Vec3(1.0, 0.0, 0.4)));
-        const TriangleMesh touched = rig.surface();  // it takes its next form after the tool has moved
-        rig.draw(rig.device.position + Vec3(0.0, i < 150 ? -3e-4 : 3e-4, 0.0), 1);
-        ASSERT_EQ(rig.tool().status & tool_squeezed, 0u) << i;
-        if (i % 5 == 0) {
-            ASSERT_GT(rig.least_room(touched), 0.5) << i;
+    for (const double step : {1e-4, 3e-4}) {
+        SoftToolRig rig({.stiffness = 1e4}, foot);
+        rig.session.set_gravity(Vec3(0.0));
+        rig.ticks(10);
+        const int ticks = static_cast<int>(0.054 / step);
+        double deepest = 1.0;
+        for (int i = 0; i < ticks; ++i) {
+            rig.device.rotation =
+                glm::angleAxis(0.3 * std::sin(70.0 * step * i), glm::normalize(Vec3(1.0, 0.0, 0.4)));
+            const TriangleMesh touched = rig.surface();  // it takes its next form after the tool has moved
+            rig.draw(rig.device.position + Vec3(0.0, 2 * i < ticks ? -step : step, 0.0), 1);
+            ASSERT_EQ(rig.tool().status & tool_squeezed, 0u) << i;
+            if (i % 5 == 0) {
+                ASSERT_GT(rig.least_room(touched), 0.5) << i;
+            }
+            deepest = std::min(deepest, rig.tool().pose.position.y - 0.01);
         }
-        deepest = std::min(deepest, rig.tool().pose.position.y - 0.01);
-    }
-    EXPECT_LT(deepest, 0.07);  // it gave by 10 mm
-    EXPECT_EQ(rig.tool().contact_count, 0);
-    rig.ticks(3000);
-    const TriangleMesh after = rig.surface();
-    for (std::size_t i = 0; i < after.vertices.size(); ++i) {
-        ASSERT_LT(glm::distance(after.vertices[i], rig.model->surface.vertices[i] + Vec3(0.0, 0.04, 0.0)),
-                  1e-4);
+        EXPECT_LT(deepest, 0.072);
+        EXPECT_EQ(rig.tool().contact_count, 0);
+        rig.ticks(6000);
+        const TriangleMesh after = rig.surface();
+        for (std::size_t i = 0; i < after.vertices.size(); ++i) {
+            ASSERT_LT(glm::distance(after.vertices[i], rig.model->surface.vertices[i] + Vec3(0.0, 0.04, 0.0)),
+                      1e-4);
+        }
     }
 }
 

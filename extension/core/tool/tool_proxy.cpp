@@ -29,6 +29,7 @@ constexpr int slide_rounds = 4;  // of the pressure and the friction that goes w
 // lifts the tool out of less), and where the tool is let go since it could come out on the other side.
 constexpr double entered = 0.5;
 constexpr double lost = 0.9;
+constexpr int takes_along = 6;         // by what gives, in a tick: each sphere that it enters most
 constexpr double farthest_ride = 0.2;  // of the tool's reach: how far bodies may take it in a tick
 
 constexpr std::size_t at(int i) {
@@ -283,7 +284,7 @@ bool ToolProxy::ride_forms(double& taken) {
     const Pose before = pose_;
     const auto take_along = [&](const RigidMotion& motion, int index) {
         taken += around_.farthest_way(motion);
-        if (taken <= farthest_ride * shape().reach) {
+        if (motion.way != Vec3(0.0) && taken <= farthest_ride * shape().reach) {
             const double straight = around_.straight_share(motion);
             go(motion * (straight * around_.free_share(pose_, motion * straight, work_, index)));
         }
@@ -297,11 +298,14 @@ bool ToolProxy::ride_forms(double& taken) {
         if (const RigidMotion rests = way_of_form(index); rests.way != Vec3(0.0)) {
             take_along(rests, index);
         }
-        const auto entering = around_.entered_by_form(index, before, pose_, entered, work_);
-        if (entering.share < 1.0) {
+        double share = 0.0;
+        for (int i = 0; i < takes_along && share < 1.0; ++i) {
+            const auto entering = around_.entered_by_form(index, before, pose_, entered, work_);
+            share = entering.share;
             take_along({entering.way, Vec3(0.0)}, index);
-            has_room = has_room && around_.entered_by_form(index, before, pose_, lost, work_).share == 1.0;
         }
+        has_room = has_room &&
+                   (share == 1.0 || around_.entered_by_form(index, before, pose_, lost, work_).share == 1.0);
     }
     return has_room;
 }
@@ -344,7 +348,8 @@ ToolTick ToolProxy::move(const TouchScene& scene, const Pose& hand) {
         return appear(hand);
     }
     const Pose start = pose_;
-    work_ = WorkBudget(settings_.max_work);
+    // What gives comes nearer everywhere, tick after tick, and most spheres have to look again.
+    work_ = WorkBudget(settings_.max_work * (scene.deformed_bodies().empty() ? 1 : 2));
     if (!scene.only_gives_since(std::exchange(revision_, scene.revision()))) {
         touch_count_ = 0;
     }

@@ -147,7 +147,7 @@ void ToolSurroundings::look_at_sphere(std::uint32_t index, const Pose& pose, dou
     SphereHood& hood = hoods_[index];
     const double others = hood.others(center) - rest;
     // A hood that is full sees no farther from here: sweeps do, and what stops one makes it look anew.
-    if (others < window && (!hood.is_full() || hood.is_worn(window))) {
+    if (others < window && (!hood.is_full() || hood.is_worn(0.5 * hood_share * shape_->reach))) {
         const double around =
             std::clamp(4.0 * window, hood_share * shape_->reach, farthest_share * shape_->reach);
         hood.gather(*scene_, parts_, center, rest + around, same_share * skin_, work);
