@@ -141,6 +141,9 @@ void HapticMesh::instance_changed() {
 // As it is drawn in this frame. What it has been is given to workers to be put in that pose, and to bodies to
 // be swept against the way there.
 void HapticMesh::follow_instance() {
+    if (!is_following() && followed_.is_null()) {
+        return;
+    }
     auto* instance = is_following() && is_inside_tree()
                          ? Object::cast_to<MeshInstance3D>(get_node_or_null(mesh_instance_))
                          : nullptr;
