@@ -122,18 +122,9 @@ func test_a_surface_pressed_harder_than_it_bears_lets_the_finger_through() -> vo
 	check_near(_at_rest(look, Vector3(0, -0.05, 0)), Vector3.ZERO, 1e-6, "force after it broke")
 
 
-func _image(width: int, height: int, at: Callable) -> ImageTexture:
-	var image := Image.create_empty(width, height, false, Image.FORMAT_L8)
-	for y in height:
-		for x in width:
-			var value: float = at.call(x, y)
-			image.set_pixel(x, y, Color(value, value, value))
-	return ImageTexture.create_from_image(image)
-
-
 func test_a_texture_raises_the_surface_by_its_height() -> void:
 	var look := material(500.0)
-	look.texture_image = _image(4, 4, func(_x: int, _y: int) -> float: return 1.0)
+	look.texture_image = image_of(4, 4, func(_x: int, _y: int) -> float: return 1.0)
 	look.texture_depth = 0.002
 	check_near(_at_rest(look), Vector3(0, 5.0 + 500.0 * 0.002, 0), 1e-3, "force on the raised surface")
 	look.texture_depth = 0.0
@@ -142,7 +133,7 @@ func test_a_texture_raises_the_surface_by_its_height() -> void:
 
 func test_a_texture_pushes_downhill() -> void:
 	var look := material(500.0)
-	look.texture_image = _image(2, 2, func(x: int, _y: int) -> float: return float(x))
+	look.texture_image = image_of(2, 2, func(x: int, _y: int) -> float: return float(x))
 	look.texture_size = 0.2
 	look.texture_depth = 0.002
 	var along_x := _at_rest(look, Vector3(0.05, 0, 0.05))
@@ -156,10 +147,10 @@ func test_a_texture_pushes_downhill() -> void:
 func test_a_texture_that_changes_while_running_is_felt() -> void:
 	var look := material(500.0)
 	look.texture_depth = 0.002
-	look.texture_image = _image(4, 4, func(_x: int, _y: int) -> float: return 0.0)
+	look.texture_image = image_of(4, 4, func(_x: int, _y: int) -> float: return 0.0)
 	var proxy := _stroke(look, Vector3.ZERO, Vector3.ZERO)
 	check_near(proxy.get_force().y, 5.0, 1e-3, "force before")
-	look.texture_image = _image(4, 4, func(_x: int, _y: int) -> float: return 1.0)
+	look.texture_image = image_of(4, 4, func(_x: int, _y: int) -> float: return 1.0)
 	_world_of(proxy).advance(0.01)
 	check_near(proxy.get_force().y, 6.0, 1e-3, "force after")
 
@@ -191,7 +182,7 @@ func test_an_effect_switched_off_while_running_is_gone() -> void:
 func test_the_default_material_brings_its_effects_and_texture() -> void:
 	var world := add_world()
 	var look := material(500.0)
-	look.texture_image = _image(4, 4, func(_x: int, _y: int) -> float: return 1.0)
+	look.texture_image = image_of(4, 4, func(_x: int, _y: int) -> float: return 1.0)
 	look.texture_depth = 0.002
 	world.default_material = look
 	add_floor(world).physics_material_override = null

@@ -84,3 +84,13 @@ func add_hand(world: HapticWorld, way: HapticPath, radius := 0.01) -> ProxyPoint
 	proxy.device = NodePath("../Device")
 	world.add_child(proxy)
 	return proxy
+
+
+## Grey by `at` of each pixel, 0 to 1.
+func image_of(width: int, height: int, at: Callable) -> ImageTexture:
+	var image := Image.create_empty(width, height, false, Image.FORMAT_L8)
+	for y in height:
+		for x in width:
+			var value: float = at.call(x, y)
+			image.set_pixel(x, y, Color(value, value, value))
+	return ImageTexture.create_from_image(image)

@@ -78,21 +78,12 @@ func test_a_surface_takes_over_what_changes_while_running() -> void:
 	check_near(right.get_force().y, 5.0, 1e-2, "after it was taken away")
 
 
-func _image(width: int, height: int, at: Callable) -> ImageTexture:
-	var image := Image.create_empty(width, height, false, Image.FORMAT_L8)
-	for y in height:
-		for x in width:
-			var value: float = at.call(x, y)
-			image.set_pixel(x, y, Color(value, value, value))
-	return ImageTexture.create_from_image(image)
-
-
 func test_an_image_lies_by_the_texture_coordinates() -> void:
 	var world := add_world()
 	var touched := _floor(world, _halves())
 	var look := material(500.0)
 	# Four pixels of 25 mm along x: the second is raised.
-	look.texture_image = _image(4, 1, func(x: int, _y: int) -> float: return 1.0 if x == 1 else 0.0)
+	look.texture_image = image_of(4, 1, func(x: int, _y: int) -> float: return 1.0 if x == 1 else 0.0)
 	look.texture_depth = 0.002
 	look.texture_mapping = HapticMaterial.TEXTURE_MAPPING_UV
 	(touched.get_parent() as StaticBody3D).physics_material_override = look
@@ -113,7 +104,7 @@ func test_a_friction_image_makes_a_surface_slippery() -> void:
 	var look := material(500.0)
 	look.static_friction = 0.8
 	look.dynamic_friction = 0.8
-	look.friction_image = _image(1, 1, func(_x: int, _y: int) -> float: return 0.25)
+	look.friction_image = image_of(1, 1, func(_x: int, _y: int) -> float: return 0.25)
 	touched.surface_materials = [look]
 	var way := path(Vector3.ZERO, Vector3.ZERO)
 	way.points_positions = PackedVector3Array(

@@ -96,6 +96,23 @@ TEST(Soft, HeldInItPressesSteadily) {
     EXPECT_NEAR(rig.device.force.y, held.force.y, 1e-4);
 }
 
+Vec3 mean_place(const TriangleMesh& mesh) {
+    Vec3 sum(0.0);
+    for (const Vec3& vertex : mesh.vertices) {
+        sum += vertex;
+    }
+    return sum / static_cast<double>(mesh.vertices.size());
+}
+
+// Of its surface, once the hand is far away (unit: meters per second).
+Vec3 speed_when_let_go(SoftRig& rig) {
+    const Vec3 before = mean_place(rig.surface());
+    rig.device.position.y = 2.0;
+    rig.device.velocity = Vec3(0.0);
+    rig.ticks(101);
+    return (mean_place(rig.surface()) - before) / 0.101;
+}
+
 // What the hand gives a block that floats freely, the block has: both sides feel opposite forces.
 TEST(Soft, WhatAHandGivesItHas) {
     SoftRig rig({.stiffness = 1e5, .damping = 0.005, .drag = 0.0}, {}, 1.0);
@@ -105,19 +122,7 @@ TEST(Soft, WhatAHandGivesItHas) {
         rig.draw(rig.device.position - Vec3(0.0, 2e-4, 0.0), 1);
         given += 1e-3 * rig.proxy_state().force.y;
     }
-    const auto mean = [](const TriangleMesh& mesh) {
-        Vec3 sum(0.0);
-        for (const Vec3& vertex : mesh.vertices) {
-            sum += vertex;
-        }
-        return sum / static_cast<double>(mesh.vertices.size());
-    };
-    const Vec3 before = mean(rig.surface());
-    rig.device.position.y = 2.0;
-    rig.device.velocity = Vec3(0.0);
-    rig.ticks(101);
-    const Vec3 speed = (mean(rig.surface()) - before) / 0.101;
-    EXPECT_NEAR(-speed.y * rig.model->total_mass(), given, 0.05 * given);
+    EXPECT_NEAR(-speed_when_let_go(rig).y * rig.model->total_mass(), given, 0.05 * given);
     EXPECT_GT(given, 0.01);
 }
 
@@ -289,19 +294,7 @@ TEST(SoftTool, WhatAToolGivesItHas) {
         rig.draw(rig.device.position - Vec3(0.0, 2e-4, 0.0), 1);
         given += 1e-3 * rig.tool().force.y;
     }
-    const auto mean = [](const TriangleMesh& mesh) {
-        Vec3 sum(0.0);
-        for (const Vec3& vertex : mesh.vertices) {
-            sum += vertex;
-        }
-        return sum / static_cast<double>(mesh.vertices.size());
-    };
-    const Vec3 before = mean(rig.surface());
-    rig.device.position.y = 2.0;
-    rig.device.velocity = Vec3(0.0);
-    rig.ticks(101);
-    const Vec3 speed = (mean(rig.surface()) - before) / 0.101;
-    EXPECT_NEAR(-speed.y * rig.model->total_mass(), given, 0.05 * given);
+    EXPECT_NEAR(-speed_when_let_go(rig).y * rig.model->total_mass(), given, 0.05 * given);
     EXPECT_GT(given, 0.01);
 }
 
