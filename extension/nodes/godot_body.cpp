@@ -62,6 +62,14 @@ Motion motion_of(const CollisionObject3D& body) {
     return is_told ? Motion::Kinematic : Motion::Static;
 }
 
+std::vector<std::uint64_t> ids_of(const std::vector<Ref<Resource>>& resources) {
+    std::vector<std::uint64_t> ids;
+    for (const Ref<Resource>& resource : resources) {
+        ids.push_back(resource->get_instance_id());
+    }
+    return ids;
+}
+
 }  // namespace
 
 GodotBody::GodotBody(CollisionObject3D& node, const GodotScene& scene, std::shared_ptr<BodyNews> news)
@@ -134,13 +142,14 @@ ShapeKey GodotBody::shape_key() const {
 
 BodyValues GodotBody::values(const BodyDefaults& defaults) {
     const Ref<PhysicsMaterial> material = material_of(node_);
-    if (watch_ != nullptr && materials_ != material_ids()) {
+    const HapticMesh* const mesh = haptic_mesh_of(node_);
+    if (watch_ != nullptr && materials_ != ids_of(material_resources(mesh))) {
         listen();
     }
     BodyValues values;
     values.motion = motion_of(node_);
     read_touch(material, defaults, values);
-    if (const HapticMesh* mesh = haptic_mesh_of(node_)) {
+    if (mesh != nullptr) {
         read_surfaces(*mesh, values);
     }
     if (material.is_valid()) {
@@ -162,23 +171,15 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
     return values;
 }
 
-std::vector<Ref<Resource>> GodotBody::material_resources() const {
+std::vector<Ref<Resource>> GodotBody::material_resources(const HapticMesh* mesh) const {
     std::vector<Ref<Resource>> resources;
-    if (const HapticMesh* mesh = haptic_mesh_of(node_)) {
+    if (mesh != nullptr) {
         resources = mesh->surface_resources();
     }
     if (const Ref<PhysicsMaterial> material = material_of(node_); material.is_valid()) {
         resources.push_back(material);
     }
     return resources;
-}
-
-std::vector<std::uint64_t> GodotBody::material_ids() const {
-    std::vector<std::uint64_t> ids;
-    for (const Ref<Resource>& material : material_resources()) {
-        ids.push_back(material->get_instance_id());
-    }
-    return ids;
 }
 
 void GodotBody::hold_still() {
@@ -198,9 +199,9 @@ void GodotBody::listen() {
     for_each_shape(node_, [&resources](const Ref<Shape3D>& shape, const Transform3D&, Object*) {
         resources.push_back(shape);
     });
-    const std::vector<Ref<Resource>> materials = material_resources();
+    const std::vector<Ref<Resource>> materials = material_resources(haptic_mesh_of(node_));
     resources.insert(resources.end(), materials.begin(), materials.end());
-    materials_ = material_ids();
+    materials_ = ids_of(materials);
     watch_->listen_to(std::move(resources));
 }
 

@@ -51,8 +51,7 @@ private:
     void has_moved() override { news_->moved.push_back(id_); }
     void has_changed() override { news_->changed.push_back(id_); }
     void is_in_tree(bool now) override;
-    std::vector<godot::Ref<godot::Resource>> material_resources() const;
-    std::vector<std::uint64_t> material_ids() const;
+    std::vector<godot::Ref<godot::Resource>> material_resources(const HapticMesh* mesh) const;
     void watch_has_gone() override { watch_ = nullptr; }
 
     std::uint64_t id_;
