@@ -52,7 +52,7 @@ public:
     explicit ValueReader(std::span<const std::byte> from) : from_(from) {}
     void bytes(void* into, std::size_t size) {
         good_ = good_ && size <= from_.size();
-        if (good_) {
+        if (good_ && size > 0) {
             std::memcpy(into, from_.data(), size);
             from_ = from_.subspan(size);
         }

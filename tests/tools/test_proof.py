@@ -89,12 +89,13 @@ def test_a_fault_that_is_not_survived_is_told(tmp_path):
 def test_the_churn_in_short(tmp_path):
     figures = soak.run(soak.CASES, soak.Settings(hours=0.02), tmp_path)
     assert figures["soak.ticks"] == pytest.approx(2 * 72_000, abs=100) and figures["soak.changes"] > 100
+    assert figures["soak.pointer_pressed_frames"] > 100 and figures["soak.tool_pressed_frames"] > 0
     assert figures["soak.files_growth"] < 10  # what is open at a moment comes and goes by five
     assert (tmp_path / "memory.png").is_file()
 
 
 def test_memory_that_grows_is_told():
-    steady = {"files": 9, "threads": 3, "objects": 700, "ticks": 1, "changes": {"body": 2}}
+    steady = {"files": 9, "threads": 3, "objects": 700, "ticks": 1, "changes": {"body": 2}, "pressed": {"pointer": 3}}
     samples = [{"time": 60.0 * i, "resident_mb": 200.0 + max(0.0, 30.0 - i) + 0.01 * i} | steady for i in range(480)]
     assert soak.judge(samples)["soak.growth_mb"] == pytest.approx(2.4, abs=0.1)
 

@@ -21,7 +21,7 @@ from typing import Literal
 
 import build
 from measuring import options
-from setup import cache
+from setup import cache, jolt
 
 sys.path.insert(0, str(cache.clone() / "site_scons"))
 import toolchain  # noqa: E402
@@ -89,9 +89,11 @@ class Search:
 
 
 def run(cases: list[str], settings: Settings, output: Path) -> dict[str, object]:
-    led = settings.driver == "best" and bool(toolchain.fuzzing_compiler())
+    compiler = toolchain.fuzzing_compiler() if settings.driver == "best" else ""
+    led = bool(compiler)
     build.build("template_debug", "fuzzers")
     if led:
+        jolt.ready(compiler=compiler) or jolt.fetch_and_build(compiler=compiler)
         build.build("template_debug", "fuzzers", f"sanitize={WATCHED_BY}")
     figures: dict[str, object] = {}
     for name in cases:

@@ -88,7 +88,8 @@ def _soak(figures: dict) -> str:
 
     ./run proof --only=soak
 
-Two worlds in one program, each a side of the other's link, in virtual time: {_said(figures, "soak.hours", "{:.2f}")} hours, {_said(figures, "soak.ticks")} ticks.
+Two worlds in one program, each a side of the other's link, in virtual time: {_said(figures, "soak.hours", "{:.2f}")} hours, {_said(figures, "soak.ticks")} ticks,
+of whose frames (60 a second) a pointer pressed on something in {_said(figures, "soak.pointer_pressed_frames")} and a tool in {_said(figures, "soak.tool_pressed_frames")}.
 Twice a second something comes, goes or is exchanged: {said or NOT_RUN}. Growth is the median of the last quarter above that of the second:
 **{_said(figures, "soak.growth_mb", "{:+.2f} MB")}** of {_said(figures, "soak.memory_mb", "{:.0f} MB")}, {_said(figures, "soak.objects_growth", "{:+.0f}")} objects,
 {_said(figures, "soak.files_growth", "{:+.0f}")} open files, {_said(figures, "soak.threads_growth", "{:+.0f}")} threads.

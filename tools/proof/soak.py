@@ -65,6 +65,7 @@ def judge(samples: list[dict]) -> dict[str, object]:
         "soak.ticks": samples[-1]["ticks"],
         "soak.changes": sum(samples[-1]["changes"].values()),
         **{f"soak.changes_of_{name}": count for name, count in samples[-1]["changes"].items()},
+        **{f"soak.{name}_pressed_frames": count for name, count in samples[-1]["pressed"].items()},
     }
 
 

@@ -46,26 +46,29 @@ def installed() -> Jolt | None:
     return jolt
 
 
-def ready(fast: bool = False, platform: Platform | None = None) -> Jolt | None:
+def ready(fast: bool = False, platform: Platform | None = None, compiler: str = "") -> Jolt | None:
+    """`compiler` is that of the code that calls Jolt, where it is not the platform's own: gcc and clang hand a vector of
+    32 bytes within a union over in different places."""
     platform = platform or platforms.host()
-    own = None if platform.is_foreign else installed()
+    own = None if platform.is_foreign or compiler else installed()
     if own:
         return None if fast else own
     source = _source_folder()
     if not cache.is_done(source, CRATE_SHA256):
         return None
-    folder = _library_folder(fast, platform)
+    folder = _library_folder(fast, platform, compiler or platform.compiler)
     return _built(folder, fast, platform) if cache.is_done(folder, folder.name) else None
 
 
-def fetch_and_build(fast: bool = False, platform: Platform | None = None) -> Jolt:
+def fetch_and_build(fast: bool = False, platform: Platform | None = None, compiler: str = "") -> Jolt:
     platform = platform or platforms.host()
+    compiler = compiler or platform.compiler
     if not cache.is_done(_source_folder(), CRATE_SHA256):
         crates.fetch(CRATE, CRATE_SHA256, "tools/jolt/Cargo.toml", _source_folder())
-    folder = cache.emptied(_library_folder(fast, platform))
+    folder = cache.emptied(_library_folder(fast, platform, compiler))
     units = [*_write_chunks(folder), cache.clone() / "tools/jolt/register_types.cpp"]
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
-        objects = list(pool.map(lambda unit: _compile(unit, folder, fast, platform), units))
+        objects = list(pool.map(lambda unit: _compile(compiler, unit, folder, fast, platform), units))
     subprocess.run([platform.tool("ar"), "rcs", folder / "libJolt.a", *objects], check=True)
     for path in objects:
         path.unlink()
@@ -111,13 +114,12 @@ def _flags(fast: bool, platform: Platform) -> list[str]:
     return ["-std=c++20", "-O3", *platform.machine, contraction, *language]
 
 
-def _library_folder(fast: bool, platform: Platform) -> Path:
-    version = subprocess.run([platform.compiler, "--version"], check=True, text=True, capture_output=True).stdout
-    compiler = version.splitlines()[0]
+def _library_folder(fast: bool, platform: Platform, compiler: str) -> Path:
+    version = subprocess.run([compiler, "--version"], check=True, text=True, capture_output=True).stdout
     ours = [cache.clone() / "tools/jolt/register_types.cpp", *sorted(_stand_ins(platform).rglob("*.h"))]
     own = "".join(path.read_text() for path in ours)
     defines = FAST_DEFINES if fast else DEFINES
-    key = cache.digest(compiler, *_flags(fast, platform), *defines, own, str(CHUNKS), *map(str, _sources()))
+    key = cache.digest(version.splitlines()[0], *_flags(fast, platform), *defines, own, str(CHUNKS), *map(str, _sources()))
     return cache.root() / f"jolt-{VERSION}-{key}"
 
 
@@ -132,11 +134,11 @@ def _write_chunks(folder: Path) -> list[Path]:
     return units
 
 
-def _compile(unit: Path, folder: Path, fast: bool, platform: Platform) -> Path:
+def _compile(compiler: str, unit: Path, folder: Path, fast: bool, platform: Platform) -> Path:
     target = folder / f"{unit.stem}.o"
     defines = [f"-D{define}" for define in (FAST_DEFINES if fast else DEFINES)]
     includes = [word for folder in _includes(platform) for word in ("-isystem", folder)]
-    command = [platform.compiler, *_flags(fast, platform), *defines, *includes, "-c", unit, "-o", target]
+    command = [compiler, *_flags(fast, platform), *defines, *includes, "-c", unit, "-o", target]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:
         raise RuntimeError(f"compiling {unit.name} failed:\n{done.stderr[:3000]}")

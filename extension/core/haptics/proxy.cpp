@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/haptics/hand_place.hpp"
+
 namespace tactus {
 
 namespace {
@@ -246,11 +248,7 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand, double se
     ProxyTick tick;
     scene_ = &scene;
     seconds_ = seconds;
-    // Devices do send numbers that are none: the hand stays where it was last.
-    constexpr double farthest = 1e9;
-    const Vec3 size = glm::abs(given_hand);
-    const bool is_place = size.x <= farthest && size.y <= farthest && size.z <= farthest;
-    const Vec3 hand_before = std::exchange(hand_, is_place ? given_hand : hand_);
+    const Vec3 hand_before = std::exchange(hand_, is_hand_place(given_hand) ? given_hand : hand_);
     if (!present_) {
         put(hand_);
     }

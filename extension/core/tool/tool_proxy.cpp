@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/haptics/hand_place.hpp"
 #include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_way.hpp"
 #include "core/teleop/body_motion.hpp"
@@ -342,8 +343,9 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
     tick.status |= ended ? 0u : static_cast<std::uint32_t>(tool_unfinished);
 }
 
-ToolTick ToolProxy::move(const TouchScene& scene, const Pose& hand) {
+ToolTick ToolProxy::move(const TouchScene& scene, const Pose& given_hand) {
     scene_ = &scene;
+    const Pose hand = hand_ = is_hand_pose(given_hand) ? given_hand : hand_;
     if (!present_) {
         return appear(hand);
     }

@@ -101,6 +101,7 @@ private:
     ToolSurroundings around_;
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
+    Pose hand_;  // that was given last and is one
     Pose pose_;
     bool present_ = false;
     bool sliding_ = false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -47,6 +48,23 @@ TEST(ToolProxy, InTheAirItIsTheHand) {
         EXPECT_EQ(tick.status, 0u);
         EXPECT_LT(glm::length(tick.force), 1e-9);
         EXPECT_LT(glm::length(tick.torque), 1e-9);
+    }
+}
+
+TEST(ToolProxy, AHandThatIsNoPlaceIsWhereItWasLast) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    ToolRig rig = bar_over_floor();
+    const Pose pressing{{0.0, 0.005, 0.0}, upright};
+    settle(rig, {{0.0, 0.02, 0.0}, upright}, 2);
+    const ToolTick before = settle(rig, pressing);
+    for (const Pose& nonsense :
+         {Pose{{none, 0.0, 0.0}, upright}, Pose{{0.0, 1e300, 0.0}, upright},
+          Pose{{0.0, 0.0, 0.0}, {none, 0, 0, 0}}, Pose{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 0.0}},
+          Pose{{0.0, 0.0, 0.0}, {1e200, 0.0, 0.0, 0.0}}}) {
+        const ToolTick tick = rig.tick(nonsense);
+        EXPECT_EQ(tick.pose.position, before.pose.position);
+        EXPECT_EQ(tick.force, before.force);
+        EXPECT_EQ(tick.torque, before.torque);
     }
 }
 
