@@ -98,10 +98,10 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
         const PackBound before = seen_[i].tangents;
         const PackBound& last = look_at(i, tree, to, odometer + length * hit.t);
         set_clear(i, odometer + smallest(least_distances(last, to)) - length * hit.t);
-        if (!any(least_between(before, last, from, to) <= splat(reach))) {
+        if (!may_come_within(before, last, from, to, reach)) {
             continue;
         }
-        const PackHit met = sweep_to_triangles(tree.pack(packs_[i]), way, hit.t);
+        const PackHit met = sweep_to_triangles(tree.pack(packs_[i]), way, hit.t, &last);
         work.spend(met.looks * cost::pack_look);
         if (met.found()) {
             hit.t = met.t;

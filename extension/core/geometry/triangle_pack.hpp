@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "core/geometry/hit.hpp"
+#include "core/geometry/pack_bound.hpp"
 #include "core/math/lanes.hpp"
 
 namespace tactus {
@@ -92,57 +93,53 @@ inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& 
     return {select(inside, plane.offset, best.offset), select(inside, plane.squared, best.squared)};
 }
 
-// What is known of a pack after one look: no triangle of lane i is nearer to a point x than normal_i . x +
-// offset_i. Distance to a convex set lies above its tangents, so this stays true wherever x goes, and nearly
-// exact while x slides along the surface.
-struct PackBound {
-    LanesVec3 normal;
-    Lanes offset;  // (unit: meters)
-};
-
 inline PackBound bound_from(const PackOffset& seen, const LanesVec3& from) {
     const Lanes distance = lanes_sqrt(seen.squared);
     const LanesVec3 normal = seen.offset * (splat(1.0) / lanes_max(distance, splat(1e-150)));
     return {normal, distance - dot(normal, from)};
 }
 
-inline Lanes least_distances(const PackBound& bound, const LanesVec3& point) {
-    return dot(bound.normal, point) + bound.offset;
-}
-
-// A lower bound of the distances on the way between two points, from any tangents and those at the end: the
-// distance lies above both, and the lowest place of the larger is at an end or where they cross.
-inline Lanes least_between(const PackBound& first, const PackBound& last, const LanesVec3& from,
-                           const LanesVec3& to) {
-    const Lanes first_from = least_distances(first, from);
-    const Lanes first_to = least_distances(first, to);
-    const Lanes last_from = least_distances(last, from);
-    const Lanes last_to = least_distances(last, to);
-    const Lanes apart = first_from - last_from;
-    const Lanes crossing =
-        multiply_add(first_to - first_from, apart / (apart + (last_to - first_to)), first_from);
-    const Lanes lowest =
-        select(first_to >= first_from, first_from, select(last_to <= last_from, last_to, crossing));
-    return select(first_from > last_from, lowest, lanes_min(last_from, last_to));
-}
-
-// No earlier than this (a share of the way) does a point come within `distance` of a triangle of the pack;
-// infinite where it only moves away. `at` may be tangents from anywhere.
-inline double earliest_below(const PackBound& at, const LanesVec3& from, const LanesVec3& motion,
-                             double distance) {
+// Whether a way stays farther from the planes of the triangles than that, on one side. Where the plane of a
+// sliver is turned by rounding, what lies highest of it counts.
+inline LaneMask planes_are_farther(const TrianglePack& t, const LanesVec3& from, const LanesVec3& to,
+                                   const Lanes& distance) {
     const Lanes zero = splat(0.0);
-    const Lanes gap = least_distances(at, from) - splat(distance);
-    const Lanes rate = dot(at.normal, motion);
-    const Lanes never = splat(std::numeric_limits<double>::infinity());
-    const Lanes later = select(rate < zero, lanes_max(-gap / rate, zero), never);
-    return smallest(select(gap <= zero, zero, later));
+    const LanesVec3 ab = t.b - t.a;
+    const LanesVec3 ac = t.c - t.a;
+    const LanesVec3 up = cross(ab, ac);
+    const Lanes start = dot(up, from - t.a);
+    const Lanes finish = dot(up, to - t.a);
+    const Lanes b = dot(up, ab);
+    const Lanes c = dot(up, ac);
+    const Lanes above = lanes_min(start, finish) - lanes_max(lanes_max(b, c), zero);
+    const Lanes below = lanes_min(lanes_min(b, c), zero) - lanes_max(start, finish);
+    const Lanes height = lanes_max(above, below);
+    return (height > zero) & (height * height > distance * distance * dot(up, up));
 }
 
-// How far the moving point is from being stopped, and how fast that changes.
+// How far the triangles are from the moving point, in which direction, and how fast that changes.
 struct SweepLook {
-    Lanes gap;   // (unit: meters)
-    Lanes rate;  // (unit: meters per unit of t)
+    Lanes distance;    // (unit: meters)
+    Lanes rate;        // (unit: meters per unit of t)
+    LanesVec3 normal;  // unit, from the triangle
 };
+
+namespace pack_detail {
+
+inline SweepLook look_of(const PackBound& known, const LanesVec3& point, const LanesVec3& direction) {
+    return {least_distances(known, point), dot(known.normal, direction), known.normal};
+}
+
+// The tangents of a look at the start of a way, and of one at its end, from the start on.
+inline TangentHeight ahead_of(const SweepLook& start, const Lanes& duration) {
+    return {start.distance, start.rate * duration};
+}
+inline TangentHeight behind(const SweepLook& end, const Lanes& duration) {
+    const Lanes change = end.rate * duration;
+    return {end.distance - change, change};
+}
+
+}  // namespace pack_detail
 
 struct PackHit {
     double t = 0.0;
@@ -153,44 +150,52 @@ struct PackHit {
 };
 
 // The earliest t in [0, limit] at which the sphere comes within way.distance (+ way.slack) of a triangle of
-// the pack. Starting within the distance counts at t = 0 when moving closer, not when moving away.
+// the pack. Starting within the distance counts at t = 0 when moving closer, not when moving away. Tangents
+// at the end, where somebody has them, save a look.
 //
 // Distance to a convex set is a convex function of t. Newton's iterates from the far side therefore never
 // step past the first root: the answer is conservative at every iteration, and a graze that converges slowly
-// ends early, not late.
-inline PackHit sweep_to_triangles(const TrianglePack& triangles, const SphereWay& way, double limit) {
+// ends early, not late. Most triangles are only passed by: then what is known from an iterate and from the
+// end leaves no room for a hit between them.
+inline PackHit sweep_to_triangles(const TrianglePack& triangles, const SphereWay& way, double limit,
+                                  const PackBound* at_end = nullptr) {
+    using namespace pack_detail;
     constexpr int max_looks = 30;
     const LanesVec3 direction = splat(way.motion);
     const LanesVec3 origin = splat(way.start);
-    const Lanes zero = splat(0.0);
+    const Lanes end = splat(limit);
     const Lanes slack = splat(way.slack);
+    const Lanes reach = splat(way.distance + way.slack);
     const auto look = [&](const Lanes& t) {
         const PackOffset at = offset_from_triangles(triangles, along(origin, direction, t));
         const Lanes length = lanes_sqrt(lanes_max(at.squared, splat(1e-300)));
-        return SweepLook{length - splat(way.distance), dot(at.offset, direction) / length};
+        return SweepLook{length, dot(at.offset, direction) / length, at.offset * (splat(1.0) / length)};
     };
-    // Most triangles are only passed by: from both ends of the way, the tangents of a convex function leave
-    // no room for a hit between them.
-    const SweepLook first = look(zero);
-    const SweepLook last = look(splat(limit));
-    const Lanes crossing = (first.gap - last.gap + last.rate * splat(limit)) / (last.rate - first.rate);
-    const Lanes lowest = select(last.rate > zero, first.gap + first.rate * crossing, last.gap);
-    LaneMask open = (first.rate < zero) & ~(lanes_min(lowest, first.gap) > slack);
-
-    const Lanes never = splat(std::numeric_limits<double>::infinity());
-    Lanes hit = select(open & (first.gap <= slack), zero, never);
-    open &= first.gap > slack;
-    Lanes t = select(open, -first.gap / first.rate, zero);
-    open &= t <= splat(limit);
-    int looks = 2;
-    for (; looks < max_looks && any(open); ++looks) {
+    Lanes hit = splat(std::numeric_limits<double>::infinity());
+    Lanes t = splat(0.0);
+    LaneMask open = end >= t;
+    SweepLook last{};
+    int looks = 0;
+    while (any(open) && looks < max_looks) {
         const SweepLook at = look(t);
-        const LaneMask approaching = at.rate < zero;
-        const LaneMask reached = open & approaching & (at.gap <= slack);
+        const Lanes gap = at.distance - splat(way.distance);
+        open &= at.rate < splat(0.0);
+        const LaneMask reached = open & (gap <= slack);
         hit = select(reached, t, hit);
-        open &= approaching & ~reached;
-        t = select(open, t - at.gap / at.rate, t);
-        open &= t <= splat(limit);
+        const Lanes next = t - gap / at.rate;
+        open &= ~reached & (next <= end);
+        ++looks;
+        if (!any(open)) {
+            break;
+        }
+        if (looks == 1) {
+            const LanesVec3 place = along(origin, direction, end);
+            last = at_end != nullptr ? look_of(*at_end, place, direction) : look(end);
+            looks += at_end == nullptr;
+            open &= ~planes_are_farther(triangles, origin, place, reach);
+        }
+        open &= may_come_within(ahead_of(at, end - t), behind(last, end - t), at.normal, last.normal, reach);
+        t = select(open, next, t);
     }
     hit = select(open, t, hit);
     const double earliest = smallest(hit);

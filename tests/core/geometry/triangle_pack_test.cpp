@@ -191,6 +191,87 @@ TEST(TrianglePackSweep, GrazingWaysEndEarlyNotLate) {
     }
 }
 
+// The least distance on the way: it is convex.
+double least_distance(const Corners& t, const Vec3& start, const Vec3& motion) {
+    long double low = 0.0L, high = 1.0L;
+    const auto at = [&](long double share) {
+        return shared::slow_closest(shared::SlowVec3(start) + shared::SlowVec3(motion) * share, t).distance;
+    };
+    for (int i = 0; i < 200; ++i) {
+        const long double third = (high - low) / 3.0L;
+        (at(low + third) < at(high - third) ? high : low) +=
+            (at(low + third) < at(high - third) ? -third : third);
+    }
+    return static_cast<double>(at(low));
+}
+
+// A sphere that goes by an edge, a corner or a face by a hair: by tangents alone it takes a look for every
+// halving of the way, and on a floor of small triangles these were most of all looks.
+TEST(TrianglePackSweep, WhatIsPassedByAHairIsToldFromBothEnds) {
+    RandomValues random(24);
+    int passed = 0, looks = 0;
+    for (int i = 0; i < 4'000; ++i) {
+        const Corners t = any_triangle(random);
+        const double size = largest_coordinate(t, Vec3(0.0));
+        const Vec3 start = random.in_ball(2.0 * size);
+        const Vec3 motion = random.in_ball(2.0 * size);
+        const double least = least_distance(t, start, motion);
+        if (least < 1e-2 * size) {
+            continue;
+        }
+        const double hair = random.magnitude(1e-10, 1e-2);
+        const double slack = 1e-12 * size;
+        const PackHit none =
+            sweep_to_triangles(pack_of(t), {start, motion, least * (1.0 - hair), slack}, 1.0);
+        ASSERT_FALSE(none.found()) << "case " << i;
+        const double within = least * (1.0 + hair);
+        const PackHit some = sweep_to_triangles(pack_of(t), {start, motion, within, slack}, 1.0);
+        const bool touches_from_afar = static_cast<double>(shared::slow_distance(start, t)) > within;
+        const bool goes_on = static_cast<double>(shared::slow_distance(start + motion, t)) > within;
+        ASSERT_TRUE(some.found() || !(touches_from_afar && goes_on)) << "case " << i;
+        ++passed;
+        looks += none.looks;
+    }
+    ASSERT_GT(passed, 2'000);
+    EXPECT_LE(2 * looks, 5 * passed);
+}
+
+TEST(TrianglePackSweep, WhatSlidesOverAFloorLooksAtItsTrianglesTwiceAtMost) {
+    RandomValues random(25);
+    for (int i = 0; i < 1'000; ++i) {
+        const Corners t{random.in_box(0.01), random.in_box(0.01), random.in_box(0.01)};
+        Corners flat = t;
+        for (Vec3& corner : flat) {
+            corner.y = 0.0;
+        }
+        const Vec3 start = Vec3(random.between(-0.1, 0.1), 0.1 + 1e-9, random.between(-0.1, 0.1));
+        const Vec3 motion(random.between(-0.2, 0.2), 0.0, random.between(-0.2, 0.2));
+        const PackHit hit = sweep_to_triangles(pack_of(flat), {start, motion, 0.1, 1e-10}, 1.0);
+        ASSERT_FALSE(hit.found());
+        ASSERT_LE(hit.looks, 2);
+    }
+}
+
+TEST(TrianglePackSweep, WhatIsKnownOfTheEndSavesALook) {
+    RandomValues random(26);
+    int saved = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        const Corners t = any_triangle(random);
+        const double size = largest_coordinate(t, Vec3(0.0));
+        const SphereWay way{random.in_ball(2.0 * size), random.in_ball(2.0 * size),
+                            size * random.magnitude(1e-3, 1.0), 1e-9 * size};
+        const LanesVec3 to = splat(way.start + way.motion);
+        const PackBound end = bound_from(offset_from_triangles(pack_of(t), to), to);
+        const PackHit alone = sweep_to_triangles(pack_of(t), way, 1.0);
+        const PackHit told = sweep_to_triangles(pack_of(t), way, 1.0, &end);
+        ASSERT_EQ(alone.found(), told.found()) << "case " << i;
+        ASSERT_EQ(alone.t, told.t) << "case " << i;
+        saved += alone.looks - told.looks;
+        ASSERT_LE(told.looks, alone.looks);
+    }
+    EXPECT_GT(saved, 200);
+}
+
 TEST(TrianglePackSweep, MovingAwayFromWithinIsNoHitMovingCloserIsAtOnce) {
     const Corners t{Vec3(0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.0, 1.0)};
     const Vec3 start(0.2, 0.05, 0.2);
