@@ -66,16 +66,16 @@ def generated(api):
 
 
 def class_bindings():
-    """The sources that bind the classes whose table is the class reference."""
+    """The sources that bind and register the classes whose table is the class reference."""
     import bind_classes
 
     output = Path("build/classes")
-    sources = []
-    for table in map(bind_classes.ClassTable, sorted(Path("extension/doc_classes").glob("*.xml"))):
-        if table.is_bound():
-            _write_if_changed(output / f"{table.name}.cpp", table.source().encode())
-            sources.append(str(output / f"{table.name}.cpp"))
-    return sources
+    tables = [table for table in map(bind_classes.ClassTable, sorted(Path("extension/doc_classes").glob("*.xml"))) if table.is_bound()]
+    sources = {f"{table.name}.cpp": table.source() for table in tables}
+    sources["register_classes.cpp"] = bind_classes.ClassTable.registration(tables)
+    for name, source in sources.items():
+        _write_if_changed(output / name, source.encode())
+    return [str(output / name) for name in sources]
 
 
 def class_reference(target):

@@ -36,6 +36,8 @@ def linked(layer):
 SEES_JOLT = ["physics"]
 SEES_GODOT = ["binding", "nodes"]
 HAS_TEST_PROGRAM = [*_ENGINE_FREE, "sensing"]
+# What tests share stands on it, also where the layer that they are of does not.
+STANDS_UNDER_TESTS = {"platform"}
 # They divide themselves into processes as only Unix does, or forge packets.
 BENCHES_OF_LINUX = ["stress", "teleop_stress"]
 

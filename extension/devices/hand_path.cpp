@@ -128,6 +128,18 @@ HandSample sample_keyframes(const KeyframePath& path, Nanoseconds time) {
 
 }  // namespace
 
+KeyframePath at_speed(const std::vector<Vec3>& places, double speed, bool loop) {
+    KeyframePath path;
+    path.interpolation = PathInterpolation::linear;
+    path.loop = loop;
+    double way = 0.0;
+    for (const Vec3& place : places) {
+        way += path.keyframes.empty() ? 0.0 : glm::distance(place, path.keyframes.back().position);
+        path.keyframes.push_back({from_seconds(way / speed), place});
+    }
+    return path;
+}
+
 std::string problem_with(const HandPath& path) {
     const auto* circle = std::get_if<CircleWave>(&path);
     return circle != nullptr ? problem_with_circle(*circle)

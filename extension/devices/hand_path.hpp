@@ -46,6 +46,9 @@ struct KeyframePath {
 
 using HandPath = std::variant<CircleWave, KeyframePath>;
 
+// Straight from place to place, at that speed all along (unit: meters per second).
+KeyframePath at_speed(const std::vector<Vec3>& places, double speed, bool loop);
+
 // Empty, or what has to be put right before the path can be followed.
 std::string problem_with(const HandPath& path);
 

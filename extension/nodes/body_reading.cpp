@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/physics_server3d.hpp>
 #include <godot_cpp/classes/static_body3d.hpp>
 
+#include "nodes/body_parts.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_soft_body.hpp"
@@ -66,15 +67,6 @@ void hold_still(const RigidBody3D& body, bool held) {
     }
 }
 
-HapticMesh* haptic_mesh_of(const CollisionObject3D& body) {
-    for (int i = 0; i < body.get_child_count(); ++i) {
-        if (auto* mesh = Object::cast_to<HapticMesh>(body.get_child(i))) {
-            return mesh;
-        }
-    }
-    return nullptr;
-}
-
 BodyForm read_form(CollisionObject3D& body) {
     BodyForm form;
     const SceneFrame frame = frame_of(body.get_global_transform());
@@ -86,12 +78,12 @@ BodyForm read_form(CollisionObject3D& body) {
     for_each_shape(body, [&](const Ref<Shape3D>& shape, const Transform3D& place, Object* owner) {
         take(read_shape(shape, compose(scaling, frame_of(place))), owner, form, form.meshes);
     });
-    if (HapticMesh* mesh = haptic_mesh_of(body)) {
+    if (HapticMesh* mesh = part_of<HapticMesh>(body)) {
         mesh->follow_instance();
         const auto* material = Object::cast_to<HapticMaterial>(material_of(body).ptr());
         take(mesh->read(scaling, material != nullptr && material->is_laid_by_uv()), mesh, form, form.touched);
     }
-    if (const HapticSoftBody* soft = haptic_soft_body_of(body)) {
+    if (const HapticSoftBody* soft = part_of<HapticSoftBody>(body)) {
         const String problem = soft->problem();
         if (problem.is_empty()) {
             form.soft = soft->plan(scaling);

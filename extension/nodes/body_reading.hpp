@@ -11,16 +11,12 @@
 
 namespace tactus {
 
-class HapticMesh;
-
 // Whether a world mirrors this object at all: areas are not solid.
 bool is_solid_body(const godot::Object* object);
 
 // Static, for the engine's own physics: it then neither moves the body nor calls back with a place of its
 // own, and what is outside the world still finds the body where it is. Or as it would have it by itself.
 void hold_still(const godot::RigidBody3D& body, bool held);
-
-HapticMesh* haptic_mesh_of(const godot::CollisionObject3D& body);
 
 // Of any of the bodies that can have one.
 godot::Ref<godot::PhysicsMaterial> material_of(const godot::CollisionObject3D& body);

@@ -2,12 +2,16 @@
 // scaled: only the precision changes (Godot's vectors are single precision in its official builds).
 #pragma once
 
+#include <algorithm>
 #include <godot_cpp/variant/basis.hpp>
+#include <godot_cpp/variant/packed_string_array.hpp>
+#include <godot_cpp/variant/packed_vector3_array.hpp>
 #include <godot_cpp/variant/quaternion.hpp>
 #include <godot_cpp/variant/string.hpp>
 #include <godot_cpp/variant/transform3d.hpp>
 #include <godot_cpp/variant/vector3.hpp>
 #include <string>
+#include <vector>
 
 #include "world/scene_frame.hpp"
 
@@ -20,6 +24,23 @@ inline Vec3 from_godot(const godot::Vector3& v) {
 inline godot::Vector3 to_godot(const Vec3& v) {
     return {static_cast<godot::real_t>(v.x), static_cast<godot::real_t>(v.y),
             static_cast<godot::real_t>(v.z)};
+}
+
+inline std::vector<Vec3> from_godot(const godot::PackedVector3Array& packed) {
+    std::vector<Vec3> places(static_cast<std::size_t>(packed.size()));
+    std::transform(packed.ptr(), packed.ptr() + packed.size(), places.begin(),
+                   [](const godot::Vector3& place) { return from_godot(place); });
+    return places;
+}
+
+// Of places in single or double precision.
+template <class Places>
+godot::PackedVector3Array packed(const Places& places) {
+    godot::PackedVector3Array all;
+    all.resize(static_cast<int64_t>(places.size()));
+    std::transform(places.begin(), places.end(), all.ptrw(),
+                   [](const auto& place) { return to_godot(Vec3(place)); });
+    return all;
 }
 
 // Normalised again in double precision: Godot's is a unit quaternion to single precision only.
@@ -67,6 +88,14 @@ inline godot::String to_godot(const std::string& text) {
 
 inline std::string from_godot(const godot::String& text) {
     return text.utf8().get_data();
+}
+
+inline godot::PackedStringArray to_godot(const std::vector<std::string>& texts) {
+    godot::PackedStringArray all;
+    for (const std::string& text : texts) {
+        all.push_back(to_godot(text));
+    }
+    return all;
 }
 
 }  // namespace tactus

@@ -13,7 +13,4 @@ namespace tactus {
 // is no curve of two points.
 std::vector<Vec3> places_along(const godot::Ref<godot::Curve3D>& curve);
 
-// So many of them, evenly along the way; the first and the last are its ends.
-std::vector<Vec3> even_places_along(const godot::Ref<godot::Curve3D>& curve, std::size_t count);
-
 }  // namespace tactus

@@ -1,8 +1,6 @@
 #include "nodes/depth_sensor.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/project_settings.hpp>
 #include <godot_cpp/classes/scene_tree.hpp>
@@ -29,20 +27,6 @@ constexpr double never = -1.0;
 // What a synthetic camera sees is to stand as worlds show it in this frame.
 constexpr int after_worlds = 1;
 
-const char* word_of(SightState state) {
-    switch (state) {
-        case SightState::found:
-            return "found";
-        case SightState::tracked:
-            return "tracked";
-        case SightState::hidden:
-            return "hidden";
-        case SightState::lost:
-            break;
-    }
-    return "lost";
-}
-
 }  // namespace
 
 // --- properties
@@ -68,13 +52,10 @@ void DepthSensor::pictures_changed() {
 
 void DepthSensor::show() {
     if (sensor_ != nullptr) {
-        seen_.update(*this, sight(), library_,
-                     {static_cast<SeenAs>(bodies_), show_objects_, show_cloud_, touches_cloud()}, age());
+        SeenBodies::Looks looks = looks_;
+        looks.touch_cloud = touches_cloud();
+        seen_.update(*this, sight(), library_, looks, age());
     }
-}
-
-PackedStringArray DepthSensor::library_names() const {
-    return meshes_.is_empty() ? mesh_library_names() : meshes_;
 }
 
 String DepthSensor::problem() const {
@@ -91,7 +72,7 @@ String DepthSensor::problem() const {
     if (is_inside_tree() && makes_bodies()) {
         return problem_of_touch();
     }
-    return to_godot(library_error_);
+    return to_godot(library_.error());
 }
 
 // What is found is to be touched.
@@ -103,17 +84,17 @@ String DepthSensor::problem_of_touch() const {
     }
     const std::vector<MMTLink*> links = MMTLink::of(*world);
     const bool is_far = !links.empty() && !links.front()->is_operator();
-    if (is_far && bodies_ == BODIES_HELD && links.front()->has_robots()) {
+    if (is_far && looks_.objects == SeenAs::held_bodies && links.front()->has_robots()) {
         return "nothing holds bodies at a far side with a robot, where nothing is simulated: set 'bodies' to "
                "free";
     }
-    return is_far && touch_cloud_
+    return is_far && looks_.touch_cloud
                ? String("the cloud does not travel over the link: switch 'touch_cloud' off")
-               : to_godot(library_error_);
+               : to_godot(library_.error());
 }
 
 bool DepthSensor::touches_cloud() const {
-    const HapticWorld* const world = touch_cloud_ ? HapticWorld::above(this) : nullptr;
+    const HapticWorld* const world = looks_.touch_cloud ? HapticWorld::above(this) : nullptr;
     return world != nullptr && MMTLink::of(*world).empty();
 }
 
@@ -156,19 +137,16 @@ void DepthSensor::open() {
         return;
     }
     CameraChoice choice;
-    choice.width = width_;
+    choice.width = synthetic_.width;
     choice.repeats = repeats_;
     std::string uri = from_godot(camera_id_);
     if (source_ == SOURCE_RECORDING) {
         uri = from_godot(ProjectSettings::get_singleton()->globalize_path(recording_));
     } else if (source_ == SOURCE_SYNTHETIC) {
-        SyntheticCamera camera;
-        camera.width = width_;
-        camera.height = width_ * 3 / 4;
-        camera.rate = rate_;
+        SyntheticCamera camera = synthetic_;
+        camera.height = camera.width * 3 / 4;
+        camera.rate = settings_.max_rate;
         camera.depth_error = 0.01 * synthetic_error_percent_;
-        camera.noise = synthetic_noise_;
-        camera.seed = static_cast<std::uint64_t>(synthetic_seed_);
         std::string ignored;
         Node* const root =
             synthetic_scene_.is_empty() ? get_tree()->get_root() : get_node_or_null(synthetic_scene_);
@@ -187,41 +165,24 @@ void DepthSensor::open() {
 }
 
 void DepthSensor::pass_on_library() {
-    library_.clear();
-    library_error_.clear();
-    std::vector<KnownMesh> known;
-    std::vector<std::string> known_names;
-    known_names.reserve(static_cast<std::size_t>(library_names().size()));
-    const PackedStringArray names = library_names();
+    library_ = {};
+    const PackedStringArray names = meshes_.is_empty() ? mesh_library_names() : meshes_;
     for (int64_t i = 0; i < names.size(); ++i) {
-        const TriangleSource::Checked loaded = load_library_mesh(names[i])->triangles();
-        if (loaded.mesh == nullptr) {
-            library_error_ = loaded.error;
-            continue;
-        }
-        library_.push_back({names[i], loaded.mesh, mesh_library_entry(names[i]).mass});
-        known_names.push_back(from_godot(names[i]));
-        known.push_back({known_names.back().c_str(),
-                         {loaded.mesh->vertices, loaded.mesh->triangles},
-                         library_.back().mass});
+        library_.add(from_godot(names[i]), load_library_mesh(names[i])->triangles(),
+                     mesh_library_entry(names[i]).mass);
     }
-    sensor_->set_library(known);
+    sensor_->set_library(library_.known());
 }
 
 void DepthSensor::pass_on_settings() {
     if (sensor_ == nullptr) {
         return;
     }
-    SensorSettings settings;
-    settings.camera = pose_of(get_global_transform());
-    settings.min_confidence = min_confidence_;
-    settings.max_rate = rate_;
-    settings.camera_delay = source_ == SOURCE_CAMERA ? 1e-3 * camera_delay_ : 0.0;
-    settings.wants_cloud = show_cloud_;
-    settings.wants_surface = touches_cloud();
-    settings.knows_support = knows_support_;
-    settings.support_height = support_height_;
-    sensor_->set_settings(settings);
+    settings_.camera = pose_of(get_global_transform());
+    settings_.camera_delay = source_ == SOURCE_CAMERA ? 1e-3 * camera_delay_ : 0.0;
+    settings_.wants_cloud = looks_.show_cloud;
+    settings_.wants_surface = touches_cloud();
+    sensor_->set_settings(settings_);
 }
 
 void DepthSensor::end() {
@@ -268,7 +229,7 @@ void DepthSensor::tell(bool is_new) {
     }
     for (const SightChange& change : changes_.since_last(now)) {
         const auto id = static_cast<int64_t>(change.id);
-        const String name = name_of_mesh(change.mesh, library_);
+        const String name = to_godot(library_.name_of(change.mesh));
         switch (change.kind) {
             case SightChange::Kind::found:
                 post_signal(*this, "object_found", {id, name});
@@ -284,10 +245,6 @@ void DepthSensor::tell(bool is_new) {
 }
 
 // --- what it says
-
-DepthSensor::State DepthSensor::get_state() const {
-    return static_cast<State>(sight().state);
-}
 
 String DepthSensor::get_state_text() const {
     if (const String wrong = problem(); !wrong.is_empty()) {
@@ -306,7 +263,7 @@ String DepthSensor::get_state_text() const {
 Dictionary DepthSensor::describe(const SightedObject& object) const {
     Dictionary d;
     d["id"] = static_cast<int64_t>(object.id);
-    d["name"] = name_of_mesh(object.mesh, library_);
+    d["name"] = to_godot(library_.name_of(object.mesh));
     d["is_known"] = object.mesh >= 0;
     d["state"] = word_of(object.state);
     d["transform"] = to_godot(object.pose);
@@ -328,14 +285,6 @@ TypedArray<Dictionary> DepthSensor::get_objects() const {
     return objects;
 }
 
-double DepthSensor::get_lowest_confidence() const {
-    double lowest = sight().objects.empty() ? 0.0 : 1.0;
-    for (const SightedObject& object : sight().objects) {
-        lowest = std::min(lowest, object.confidence);
-    }
-    return lowest;
-}
-
 Dictionary DepthSensor::get_plane() const {
     Dictionary d;
     if (const SupportPlane& plane = sight().plane; plane.is_found) {
@@ -349,23 +298,13 @@ Dictionary DepthSensor::get_plane() const {
 Dictionary DepthSensor::find_cameras() {
     Dictionary cameras;
     std::string error;
-    const DepthSensing* const sensing = depth_sensing(error);
-    std::array<FoundCamera, 16> found;
-    std::array<char, 512> why{};
-    const int count = sensing != nullptr ? sensing->scan(found, why) : never;
-    if (count < 0) {
-        UtilityFunctions::push_warning(
-            "DepthSensor: ", to_godot(sensing != nullptr ? std::string(why.data()) : error), ".");
-    }
-    for (int i = 0; i < std::min(count, static_cast<int>(found.size())); ++i) {
-        const FoundCamera& one = found[static_cast<std::size_t>(i)];
+    for (const FoundCamera& one : found_cameras(error)) {
         cameras[String::utf8(one.uri.data())] = String::utf8(one.name.data());
     }
+    if (!error.empty()) {
+        UtilityFunctions::push_warning("DepthSensor: ", to_godot(error), ".");
+    }
     return cameras;
-}
-
-void DepthSensor::set_plugged(bool is_plugged) {
-    view_.set_plugged(is_plugged);
 }
 
 // --- where the camera is

@@ -25,38 +25,27 @@ class DepthSensor : public godot::Node3D {
 
 public:
     enum Source : int64_t { SOURCE_CAMERA, SOURCE_RECORDING, SOURCE_SYNTHETIC };
-    enum State : int64_t {
-        STATE_CLOSED = static_cast<int64_t>(SensorState::closed),
-        STATE_OPENING = static_cast<int64_t>(SensorState::opening),
-        STATE_WAITING = static_cast<int64_t>(SensorState::waiting),
-        STATE_SEEING = static_cast<int64_t>(SensorState::seeing),
-        STATE_ENDED = static_cast<int64_t>(SensorState::ended)
-    };
-    enum Bodies : int64_t {
-        BODIES_NONE = static_cast<int64_t>(SeenAs::pictures),
-        BODIES_HELD = static_cast<int64_t>(SeenAs::held_bodies),
-        BODIES_FREE = static_cast<int64_t>(SeenAs::free_bodies)
-    };
+    using State = SensorState;
 
     TACTUS_PROPERTIES(DepthSensor)
 
-    State get_state() const;
+    State get_state() const { return sight().state; }
     godot::String get_state_text() const;
     godot::TypedArray<godot::Dictionary> get_objects() const;
     godot::Dictionary get_plane() const;
     godot::Dictionary get_statistics() const;
     double get_frame_ms() const { return 1e3 * sight().times.frame; }
-    double get_lowest_confidence() const;
+    double get_lowest_confidence() const { return lowest_confidence(sight()); }
     static godot::Dictionary find_cameras();
     double calibrate_from_plane(double height);
     double calibrate_from_object(int64_t id, const godot::Transform3D& place);
     // Synthetic camera only.
-    void set_plugged(bool is_plugged);
+    void set_plugged(bool is_plugged) { view_.set_plugged(is_plugged); }
 
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // Whether what it finds is to be touched.
-    bool makes_bodies() const { return bodies_ != BODIES_NONE || touch_cloud_; }
+    bool makes_bodies() const { return looks_.objects != SeenAs::pictures || looks_.touch_cloud; }
 
 protected:
     static void _bind_methods();
@@ -73,7 +62,6 @@ private:
     godot::String problem() const;
     godot::String problem_of_touch() const;
     bool touches_cloud() const;
-    godot::PackedStringArray library_names() const;
     void begin();
     void make_sensor();
     void end();
@@ -93,24 +81,15 @@ private:
     bool repeats_ = true;
     godot::NodePath synthetic_scene_;
     double synthetic_error_percent_ = 1.0;
-    double synthetic_noise_ = 1.0;
-    int synthetic_seed_ = 1;
-    int width_ = 320;
+    SyntheticCamera synthetic_;  // with the width of any camera
     godot::PackedStringArray meshes_;
-    double min_confidence_ = 0.5;
-    double rate_ = 30.0;
+    SensorSettings settings_;    // as far as they are properties
     double camera_delay_ = 0.0;  // (unit: milliseconds)
-    bool knows_support_ = false;
-    double support_height_ = 0.0;
-    Bodies bodies_ = BODIES_NONE;
-    bool show_objects_ = true;
-    bool show_cloud_ = false;
-    bool touch_cloud_ = false;
+    SeenBodies::Looks looks_;
 
     OwnedSensor sensor_;  // null: nothing is looked at
     std::string load_error_;
-    std::vector<SeenMesh> library_;
-    std::string library_error_;
+    SeenLibrary library_;
     SyntheticView view_;
     SeenBodies seen_;
     SightChanges changes_;
@@ -121,6 +100,4 @@ private:
 
 }  // namespace tactus
 
-VARIANT_ENUM_CAST(tactus::DepthSensor::Source);
 VARIANT_ENUM_CAST(tactus::DepthSensor::State);
-VARIANT_ENUM_CAST(tactus::DepthSensor::Bodies);

@@ -1,7 +1,6 @@
 #include "nodes/ghost_view.hpp"
 
 #include <algorithm>
-#include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/sphere_mesh.hpp>
 
 #include "nodes/conversions.hpp"
@@ -21,12 +20,7 @@ MeshInstance3D* make_picture(Node& parent) {
     ball.instantiate();
     ball->set_radius(1.0f);
     ball->set_height(2.0f);
-    MeshInstance3D* const picture = memnew(MeshInstance3D);
-    picture->set_mesh(ball);
-    picture->set_material_override(see_through_material(ghost_color));
-    picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
-    parent.add_child(picture, false, Node::INTERNAL_MODE_BACK);
-    return picture;
+    return add_picture(parent, Ref<Mesh>(ball), see_through_material(ghost_color));
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void read_touch(const Ref<PhysicsMaterial>& material, const BodyDefaults& defaul
 }
 
 void read_surfaces(const HapticMesh& mesh, BodyValues& values) {
-    std::vector<std::optional<SurfaceFeel>> feels = mesh.surface_feels();
+    SurfaceFeels feels = mesh.surface_feels();
     if (!feels.empty()) {
         values.detail = std::make_shared<const TouchDetail>(
             TouchDetail{values.detail ? values.detail->images : TouchImages(), std::move(feels)});
@@ -105,7 +105,7 @@ SceneSpeed GodotBody::speed() const {
 
 BodyMakings GodotBody::makings() const {
     BodyMakings makings;
-    const HapticMesh* mesh = haptic_mesh_of(node_);
+    const HapticMesh* mesh = part_of<HapticMesh>(node_);
     if (mesh != nullptr) {
         const auto* material = Object::cast_to<HapticMaterial>(material_of(node_).ptr());
         makings.textured_by_uv = material != nullptr && material->is_laid_by_uv();
@@ -142,7 +142,7 @@ ShapeKey GodotBody::shape_key() const {
 
 BodyValues GodotBody::values(const BodyDefaults& defaults) {
     const Ref<PhysicsMaterial> material = material_of(node_);
-    const HapticMesh* const mesh = haptic_mesh_of(node_);
+    const HapticMesh* const mesh = part_of<HapticMesh>(node_);
     if (watch_ != nullptr && materials_ != ids_of(material_resources(mesh))) {
         listen();
     }
@@ -174,7 +174,11 @@ BodyValues GodotBody::values(const BodyDefaults& defaults) {
 std::vector<Ref<Resource>> GodotBody::material_resources(const HapticMesh* mesh) const {
     std::vector<Ref<Resource>> resources;
     if (mesh != nullptr) {
-        resources = mesh->surface_resources();
+        for (const Ref<HapticMaterial>& material : mesh->surface_materials()) {
+            if (material.is_valid()) {
+                resources.push_back(material);
+            }
+        }
     }
     if (const Ref<PhysicsMaterial> material = material_of(node_); material.is_valid()) {
         resources.push_back(material);
@@ -199,7 +203,7 @@ void GodotBody::listen() {
     for_each_shape(node_, [&resources](const Ref<Shape3D>& shape, const Transform3D&, Object*) {
         resources.push_back(shape);
     });
-    const std::vector<Ref<Resource>> materials = material_resources(haptic_mesh_of(node_));
+    const std::vector<Ref<Resource>> materials = material_resources(part_of<HapticMesh>(node_));
     resources.insert(resources.end(), materials.begin(), materials.end());
     materials_ = ids_of(materials);
     watch_->listen_to(std::move(resources));

@@ -11,6 +11,8 @@
 
 namespace tactus {
 
+class HapticMesh;
+
 // What the bodies of a world share.
 struct GodotScene {
     const godot::Node3D& world;  // that they stand below

@@ -8,6 +8,7 @@
 #include <godot_cpp/core/object.hpp>
 
 #include "nodes/body_reading.hpp"
+#include "world/joint_limits.hpp"
 
 namespace tactus {
 
@@ -20,21 +21,12 @@ using godot::NodePath;
 using godot::Object;
 using godot::SliderJoint3D;
 
-// Lower above upper means free to Godot as to us.
-JointRange range(bool limited, double lower, double upper) {
-    return limited ? JointRange{lower, upper} : JointRange::free();
-}
-
-JointRange turned(const JointRange& of_a) {
-    return of_a.lower > of_a.upper ? JointRange::free() : JointRange{-of_a.upper, -of_a.lower};
-}
-
 void read(const HingeJoint3D& node, JointReading& reading) {
     JointDescription& joint = reading.joint;
     joint.kind = JointKind::Hinge;
-    joint.angular[2] = turned(range(node.get_flag(HingeJoint3D::FLAG_USE_LIMIT),
-                                    node.get_param(HingeJoint3D::PARAM_LIMIT_LOWER),
-                                    node.get_param(HingeJoint3D::PARAM_LIMIT_UPPER)));
+    joint.angular[2] = turned(limits(node.get_flag(HingeJoint3D::FLAG_USE_LIMIT),
+                                     node.get_param(HingeJoint3D::PARAM_LIMIT_LOWER),
+                                     node.get_param(HingeJoint3D::PARAM_LIMIT_UPPER)));
     if (node.get_flag(HingeJoint3D::FLAG_ENABLE_MOTOR)) {
         const double steps = godot::Engine::get_singleton()->get_physics_ticks_per_second();
         joint.motor_speed = -node.get_param(HingeJoint3D::PARAM_MOTOR_TARGET_VELOCITY);
@@ -76,11 +68,11 @@ void read(const Generic6DOFJoint3D& node, JointReading& reading) {
     for (std::size_t i = 0; i < 3; ++i) {
         const auto& [param, flag] = six_axes[i];
         joint.linear[i] =
-            range(flag(node, Joint::FLAG_ENABLE_LINEAR_LIMIT), param(node, Joint::PARAM_LINEAR_LOWER_LIMIT),
-                  param(node, Joint::PARAM_LINEAR_UPPER_LIMIT));
-        joint.angular[i] = turned(range(flag(node, Joint::FLAG_ENABLE_ANGULAR_LIMIT),
-                                        param(node, Joint::PARAM_ANGULAR_LOWER_LIMIT),
-                                        param(node, Joint::PARAM_ANGULAR_UPPER_LIMIT)));
+            limits(flag(node, Joint::FLAG_ENABLE_LINEAR_LIMIT), param(node, Joint::PARAM_LINEAR_LOWER_LIMIT),
+                   param(node, Joint::PARAM_LINEAR_UPPER_LIMIT));
+        joint.angular[i] = turned(limits(flag(node, Joint::FLAG_ENABLE_ANGULAR_LIMIT),
+                                         param(node, Joint::PARAM_ANGULAR_LOWER_LIMIT),
+                                         param(node, Joint::PARAM_ANGULAR_UPPER_LIMIT)));
         for (const Joint::Flag more : {Joint::FLAG_ENABLE_LINEAR_SPRING, Joint::FLAG_ENABLE_ANGULAR_SPRING,
                                        Joint::FLAG_ENABLE_MOTOR, Joint::FLAG_ENABLE_LINEAR_MOTOR}) {
             has_more |= flag(node, more);

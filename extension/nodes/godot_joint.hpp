@@ -1,7 +1,4 @@
 // One of Godot's joints as what mirrors it sees it (world/joint_mirror.hpp). Main thread only.
-//
-// Godot's limits of angles count the other way round than ours: how far node A has turned against node B,
-// about the joint's axis. Those of lengths count as ours do, B against A.
 #pragma once
 
 #include <godot_cpp/classes/joint3d.hpp>

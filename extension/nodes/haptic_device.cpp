@@ -19,6 +19,7 @@
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
+#include "world/hand_events.hpp"
 
 namespace tactus {
 
@@ -167,14 +168,12 @@ std::shared_ptr<Device> HapticDevice::port() {
 }
 
 HandPlan HapticDevice::plan() const {
-    HandPlan plan;
+    HandPlan plan = plan_;
     plan.kind = kind();
     plan.start = start();
-    plan.arm = arm_settings_;
-    plan.table_height = table_height_;
-    plan.tip = kind() == HandKind::robot_tip ? robot_node()->tip_ : tip_;
-    plan.driver.id = from_godot(device_id_);
-    plan.driver.weight = gravity_compensation_;
+    if (plan.kind == HandKind::robot_tip) {
+        plan.tip = robot_node()->plan_.tip;
+    }
     if (path_.is_valid()) {
         plan.path = path_->hand_path();
     }
@@ -194,31 +193,22 @@ void HapticDevice::take_state(const DeviceState& state) {
     if (before.radius != state.radius) {
         draw_box();
     }
-    if (before.connected != state.connected) {
-        post_signal(*this, state.connected ? "connected" : "disconnected");
-    }
-    if (before.limited == 0 && state.limited != 0) {
-        post_signal(*this, "force_limited");
-    }
-    const std::uint32_t changed = before.buttons ^ state.buttons;
-    for (int64_t button = 0; changed >> button != 0; ++button) {
-        if ((changed >> button & 1u) != 0) {
-            const bool pressed = (state.buttons >> button & 1u) != 0;
-            post_signal(*this, pressed ? "button_pressed" : "button_released", {button});
+    for (const HandEvent& event : hand_events(before, state)) {
+        std::vector<SignalArgument> arguments;
+        if (event.button >= 0) {
+            arguments.push_back(event.button);
         }
+        post_signal(*this, event.name, arguments);
     }
 }
 
 Workspace HapticDevice::workspace() const {
     const SceneFrame frame = frame_of(get_global_transform());
-    return {pose_of(frame),
-            mean_scale(frame),
-            std::min(force_limit_, project_force_limit()),
-            clutch_,
-            static_cast<std::uint32_t>(dead_man_buttons_),
-            force_scale_,
-            edge_speed_,
-            applied_torque_};
+    Workspace workspace = workspace_;
+    workspace.pose = pose_of(frame);
+    workspace.scale = mean_scale(frame);
+    workspace.force_limit = std::min(workspace.force_limit, project_force_limit());
+    return workspace;
 }
 
 Vec3 HapticDevice::start() const {

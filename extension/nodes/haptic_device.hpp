@@ -22,27 +22,6 @@ class HapticDevice : public godot::Node3D {
     GDCLASS(HapticDevice, godot::Node3D)
 
 public:
-    enum Driver : int64_t {
-        DRIVER_PATH = static_cast<int64_t>(HandKind::path),
-        DRIVER_MOUSE = static_cast<int64_t>(HandKind::mouse),
-        DRIVER_ARM = static_cast<int64_t>(HandKind::arm),
-        DRIVER_AUTOMATIC = static_cast<int64_t>(HandKind::automatic),
-        DRIVER_KEYBOARD = static_cast<int64_t>(HandKind::keyboard),
-        DRIVER_GAMEPAD = static_cast<int64_t>(HandKind::gamepad),
-        DRIVER_NODE = static_cast<int64_t>(HandKind::node),
-        DRIVER_SPACE_MOUSE = static_cast<int64_t>(HandKind::space_mouse),
-        DRIVER_FALCON = static_cast<int64_t>(HandKind::falcon),
-        DRIVER_FORCE_DIMENSION = static_cast<int64_t>(HandKind::force_dimension),
-        DRIVER_OPENHAPTICS = static_cast<int64_t>(HandKind::openhaptics),
-        DRIVER_INVERSE3 = static_cast<int64_t>(HandKind::inverse3),
-        DRIVER_EMULATED_ROBOT = static_cast<int64_t>(HandKind::emulated_robot),
-        DRIVER_ROBOT_TIP = static_cast<int64_t>(HandKind::robot_tip),
-    };
-    enum Steering : int64_t {
-        STEERING_RATE = static_cast<int64_t>(SteeringMode::rate),
-        STEERING_POSITION = static_cast<int64_t>(SteeringMode::position)
-    };
-
     TACTUS_PROPERTIES(HapticDevice)
 
     bool is_device_connected() const { return state_.connected; }
@@ -86,7 +65,7 @@ private:
     godot::String problem() const;
     void changed();
     void driver_changed();
-    void arm_changed() { hand_.change(arm_settings_); }
+    void arm_changed() { hand_.change(plan_.arm); }
     // The one that is meant where that is left open.
     HandKind kind() const;
     HandPlan plan() const;
@@ -105,27 +84,15 @@ private:
     int gamepad_ = 0;
     SteeringSettings steering_;
     godot::NodePath target_;
-    ArmSettings arm_settings_;
     godot::String firmware_;
-    godot::String device_id_;
-    double gravity_compensation_ = 0.0;
-    double table_height_ = -0.01;
-    double force_limit_ = 8.0;
-    double force_scale_ = 1.0;
-    double edge_speed_ = 0.0;
-    Vec3 applied_torque_{0.0};  // (unit: newton meters)
+    HandPlan plan_;        // as far as they are properties; its tip is that of an emulated robot
+    Workspace workspace_;  // likewise
     bool show_workspace_ = false;
-    bool clutch_ = false;
-    int dead_man_buttons_ = 0;
 
     SceneHand hand_;
-    std::unique_ptr<SpaceMouse> space_mouse_;                             // of that driver alone
-    std::shared_ptr<TipExchange> tip_ = std::make_shared<TipExchange>();  // as an emulated robot
+    std::unique_ptr<SpaceMouse> space_mouse_;  // of that driver alone
     DeviceState state_;
     godot::MeshInstance3D* box_ = nullptr;  // made when it is first seen
 };
 
 }  // namespace tactus
-
-VARIANT_ENUM_CAST(tactus::HapticDevice::Driver);
-VARIANT_ENUM_CAST(tactus::HapticDevice::Steering);

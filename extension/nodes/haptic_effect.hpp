@@ -4,8 +4,9 @@
 #include <godot_cpp/variant/node_path.hpp>
 #include <optional>
 
-#include "core/haptics/hand_field.hpp"
+#include "core/haptics/measured_field.hpp"
 #include "nodes/properties.hpp"
+#include "world/frame_budget.hpp"
 
 namespace tactus {
 
@@ -37,8 +38,7 @@ protected:
 
 private:
     void enabled_changed();
-    bool ask(const HandMotion& hand, double time, Vec3& force);
-    void watch_time();
+    std::optional<Vec3> ask(const HandMotion& hand, double time);
     void switch_off(const godot::String& why);
 
     godot::NodePath proxy_;
@@ -48,7 +48,7 @@ private:
 
     godot::String why_off_;  // by itself; empty: it is not
     Nanoseconds taken_ = 0;  // by the script, for one frame
-    int late_ = 0;           // frames in a row
+    FrameBudget budget_;
 };
 
 }  // namespace tactus

@@ -8,17 +8,12 @@
 #include "core/geometry/iso_surface.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/red_channel.hpp"
-#include "realtime/workers.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
 namespace {
-
-// Facets of a surface that bends less than this from one to the next are drawn as one round surface (unit:
-// radians).
-constexpr double crease = 0.7;
 
 // Some samples are on the surface: each costs about as much as a triangle does.
 constexpr std::size_t samples_a_triangle = 4;
@@ -29,16 +24,8 @@ std::uint32_t as_count(int64_t number) {
 
 }  // namespace
 
-// Millions of triangles take longer to let go than a frame has.
-HapticField::~HapticField() {
-    Workers::discard([surface = std::move(surface_), former = std::move(former_)] {});
-}
-
 void HapticField::samples_changed() {
-    if (surface_ != nullptr) {
-        former_ = std::move(surface_);
-    }
-    surface_.reset();
+    surface_.forget();
     emit_changed();
 }
 
@@ -68,7 +55,7 @@ HapticField::Samples HapticField::samples() const {
 }
 
 std::shared_ptr<TriangleSource> HapticField::surface() const {
-    if (surface_ == nullptr) {
+    if (surface_.get() == nullptr) {
         const Samples taken = samples();
         auto read = [taken, spacing = voxel_size_, iso = iso_value_, above = solid_above_] {
             const std::span<const float> values(taken.values.ptr(),
@@ -77,13 +64,9 @@ std::shared_ptr<TriangleSource> HapticField::surface() const {
             return TriangleSource::Read(std::move(made.mesh), std::move(made.error));
         };
         const auto count = static_cast<std::size_t>(taken.values.size()) / samples_a_triangle;
-        surface_ = std::make_shared<TriangleSource>(std::move(read), count);
-        if (former_ != nullptr) {
-            surface_->succeed(former_);
-            former_.reset();
-        }
+        surface_.succeed_by(std::make_shared<TriangleSource>(std::move(read), count));
     }
-    return surface_;
+    return surface_.get();
 }
 
 String HapticField::get_problem() const {
@@ -92,7 +75,7 @@ String HapticField::get_problem() const {
 
 Ref<ArrayMesh> HapticField::create_mesh() const {
     const TriangleSource::Checked& triangles = surface()->triangles();
-    return drawn_mesh(triangles.mesh != nullptr ? Drawing{*triangles.mesh, crease} : Drawing{});
+    return drawn_mesh(triangles.mesh != nullptr ? Drawing{*triangles.mesh, round_crease} : Drawing{});
 }
 
 }  // namespace tactus

@@ -19,8 +19,6 @@ class HapticField : public godot::Resource {
     GDCLASS(HapticField, godot::Resource)
 
 public:
-    ~HapticField() override;
-
     TACTUS_PROPERTIES(HapticField)
 
     godot::String get_problem() const;
@@ -47,8 +45,7 @@ private:
     Vec3 voxel_size_{0.001};  // (unit: meters)
     double iso_value_ = 0.0;
     bool solid_above_ = false;
-    mutable std::shared_ptr<TriangleSource> surface_;  // null: to be made when somebody asks
-    mutable std::shared_ptr<TriangleSource> former_;   // until then: the one before the samples changed
+    mutable OwnSource surface_;  // made when somebody asks
 };
 
 }  // namespace tactus

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/geometry/places_along.hpp"
 #include "nodes/curve_reading.hpp"
 #include "nodes/mesh_drawing.hpp"
 
@@ -10,21 +11,17 @@ namespace tactus {
 using namespace godot;
 
 std::vector<Vec3> HapticGuide::places() const {
-    if (curve_.is_valid() && form_ == FORM_WAY) {
-        return even_places_along(curve_, HandGuide::max_points);
+    if (curve_.is_valid() && form_ == HandGuide::Form::way) {
+        return evenly_along(places_along(curve_), HandGuide::max_points);
     }
-    std::vector<Vec3> places;
-    for (const Vector3& point : points_) {
-        places.push_back(from_godot(point));
-    }
-    return places;
+    return from_godot(points_);
 }
 
 // Of too many points as many are taken as show that.
 HandGuide HapticGuide::described() const {
     const std::vector<Vec3> places = this->places();
     HandGuide guide;
-    guide.form = static_cast<HandGuide::Form>(form_);
+    guide.form = form_;
     guide.count = places.size();
     const std::size_t taken = std::min(guide.count, HandGuide::max_points);
     std::copy_n(places.begin(), taken, guide.points.begin());

@@ -16,13 +16,6 @@ class HapticGuide : public godot::Resource {
     GDCLASS(HapticGuide, godot::Resource)
 
 public:
-    enum Form : int64_t {
-        FORM_POINT = static_cast<int64_t>(HandGuide::Form::point),
-        FORM_LINE = static_cast<int64_t>(HandGuide::Form::line),
-        FORM_PLANE = static_cast<int64_t>(HandGuide::Form::plane),
-        FORM_WAY = static_cast<int64_t>(HandGuide::Form::way)
-    };
-
     TACTUS_PROPERTIES(HapticGuide)
 
     godot::String get_problem() const { return to_godot(check_guide(described())); }
@@ -40,7 +33,7 @@ private:
     // In the world: its own points, or those along its curve.
     std::vector<Vec3> places() const;
 
-    Form form_ = FORM_WAY;
+    HandGuide::Form form_ = HandGuide::Form::way;
     godot::PackedVector3Array points_;
     godot::Ref<godot::Curve3D> curve_;
     double stiffness_ = 200.0;
@@ -48,5 +41,3 @@ private:
 };
 
 }  // namespace tactus
-
-VARIANT_ENUM_CAST(tactus::HapticGuide::Form);

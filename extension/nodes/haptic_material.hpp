@@ -63,4 +63,3 @@ private:
 }  // namespace tactus
 
 VARIANT_ENUM_CAST(tactus::HapticMaterial::Preset);
-VARIANT_ENUM_CAST(tactus::HapticMaterial::TextureMapping);

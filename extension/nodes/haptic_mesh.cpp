@@ -1,46 +1,25 @@
 #include "nodes/haptic_mesh.hpp"
 
-#include <algorithm>
 #include <glm/matrix.hpp>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/collision_object3d.hpp>
 
+#include "nodes/body_parts.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
-#include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_source.hpp"
 #include "nodes/messages.hpp"
-#include "nodes/scene_warnings.hpp"
 #include "nodes/skin_reading.hpp"
-#include "realtime/workers.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
-namespace {
-
-std::uint64_t change_count = 0;
-
-}  // namespace
-
-std::uint64_t HapticMesh::changes() {
-    return change_count;
-}
-
-// Millions of triangles take longer to let go than a frame has.
-HapticMesh::~HapticMesh() {
-    Workers::discard([source = std::move(source_), former = std::move(former_)] {});
-}
-
 void HapticMesh::forget_triangles() {
-    if (source_ != nullptr) {
-        former_ = std::move(source_);
-    }
-    source_.reset();
+    source_.forget();
     surfaces_.reset();
-    ++change_count;
+    note_part_changed();
     update_configuration_warnings();
 }
 
@@ -53,10 +32,6 @@ void HapticMesh::mesh_changed() {
 void HapticMesh::library_changed() {
     entry_.reset();
     forget_triangles();
-}
-
-void HapticMesh::form_changed() {
-    ++change_count;
 }
 
 const LibraryEntry& HapticMesh::entry() const {
@@ -74,58 +49,47 @@ double HapticMesh::library_mass(const Mat3& body_scale) const {
 std::shared_ptr<TriangleSource> HapticMesh::source() const {
     static KnownSources<std::uint64_t> by_mesh;
     static KnownSources<std::string> by_name;
-    const bool is_of_field = mesh_.is_null() && field_.is_valid();
-    if (source_ == nullptr && is_of_field) {
-        source_ = field_->surface();
-        former_.reset();
+    if (source_.get() != nullptr || is_following()) {
+        return source_.get();
     }
-    if (source_ != nullptr || is_following() || (mesh_.is_null() && library_mesh_.is_empty())) {
-        return source_;
+    if (mesh_.is_valid()) {
+        source_.set(
+            by_mesh.get(mesh_->get_instance_id(), source_.former(), [this] { return source_of(mesh_); }));
+    } else if (field_.is_valid()) {
+        source_.set(field_->surface());
+    } else if (!library_mesh_.is_empty()) {
+        source_.set(by_name.get(from_godot(library_mesh_), source_.former(),
+                                [this] { return load_library_mesh(library_mesh_); }));
     }
-    source_ = mesh_.is_valid()
-                  ? by_mesh.get(mesh_->get_instance_id(), former_, [this] { return source_of(mesh_); })
-                  : by_name.get(from_godot(library_mesh_), former_,
-                                [this] { return load_library_mesh(library_mesh_); });
-    former_.reset();
-    return source_;
+    return source_.get();
 }
 
-std::vector<std::optional<SurfaceFeel>> HapticMesh::surface_feels() const {
-    std::vector<std::optional<SurfaceFeel>> feels(static_cast<std::size_t>(surface_materials_.size()));
+std::vector<Ref<HapticMaterial>> HapticMesh::surface_materials() const {
+    std::vector<Ref<HapticMaterial>> materials;
     for (int64_t i = 0; i < surface_materials_.size(); ++i) {
-        const Ref<HapticMaterial> material = surface_materials_[i];
-        if (material.is_valid()) {
-            feels[static_cast<std::size_t>(i)] = SurfaceFeel{material->touch(), material->images()};
-        }
+        materials.push_back(Ref<HapticMaterial>(surface_materials_[i]));
+    }
+    return materials;
+}
+
+SurfaceFeels HapticMesh::surface_feels() const {
+    SurfaceFeels feels;
+    for (const Ref<HapticMaterial>& material : surface_materials()) {
+        feels.push_back(material.is_valid()
+                            ? std::optional(SurfaceFeel{material->touch(), material->images()})
+                            : std::nullopt);
     }
     return feels;
 }
 
-std::vector<Ref<Resource>> HapticMesh::surface_resources() const {
-    std::vector<Ref<Resource>> resources;
-    for (int64_t i = 0; i < surface_materials_.size(); ++i) {
-        if (const Ref<HapticMaterial> material = surface_materials_[i]; material.is_valid()) {
-            resources.push_back(material);
-        }
-    }
-    return resources;
-}
-
-// Read where somebody asks for it, and for nothing else: a mesh of one material without texture coordinates
-// has none.
-std::shared_ptr<const SurfaceMap> HapticMesh::surfaces(bool by_uv) const {
-    const auto feels = surface_feels();
-    const auto is_by_uv = [](const std::optional<SurfaceFeel>& feel) {
-        return feel && feel->material.by_uv && feel->images != TouchImages();
-    };
-    const bool has_surfaces = std::ranges::any_of(feels, [](const auto& feel) { return feel.has_value(); });
-    const bool has_uv = by_uv || std::ranges::any_of(feels, is_by_uv);
-    if (mesh_.is_null() || !(has_surfaces || has_uv)) {
+// Read where somebody asks for it, and for nothing else.
+std::shared_ptr<const SurfaceMap> HapticMesh::surfaces(const SurfaceFeels& feels, bool by_uv) const {
+    const SurfaceParts parts = parts_for(feels, by_uv);
+    if (mesh_.is_null() || parts == SurfaceParts()) {
         return nullptr;
     }
-    if (surfaces_ == nullptr || surfaces_->surface.empty() == has_surfaces ||
-        surfaces_->uv.empty() == has_uv) {
-        surfaces_ = surface_map_of(mesh_, has_surfaces, has_uv);
+    if (surfaces_ == nullptr || parts_of(*surfaces_) != parts) {
+        surfaces_ = surface_map_of(mesh_, parts);
     }
     return surfaces_;
 }
@@ -154,23 +118,18 @@ void HapticMesh::follow_instance() {
         skin_ = mesh.is_valid() ? skinned_mesh_of(mesh) : nullptr;
     }
     if (skin_ == nullptr) {
-        if (source_ != nullptr) {
+        if (source_.get() != nullptr) {
             forget_triangles();
         }
         return;
     }
     SkinPose pose = skin_pose_of(*instance, *this);
-    if (source_ != nullptr && !is_other && pose == pose_) {
+    if (source_.get() != nullptr && !is_other && pose == pose_) {
         return;
     }
     pose_ = std::move(pose);
-    const std::shared_ptr<TriangleSource> before = source_ != nullptr ? source_ : former_;
-    source_ = source_of(skin_, pose_);
-    if (before != nullptr) {
-        source_->succeed(before);
-    }
-    former_.reset();
-    ++change_count;
+    source_.succeed_by(source_of(skin_, pose_));
+    note_part_changed();
 }
 
 ShapeReading HapticMesh::read(const SceneFrame& body_scale, bool by_uv) const {
@@ -194,7 +153,7 @@ ShapeReading HapticMesh::read(const SceneFrame& body_scale, bool by_uv) const {
                                   smoothing_angle_,
                                   one_sided_,
                                   {},
-                                  surfaces(by_uv)});
+                                  surfaces(surface_feels(), by_uv)});
     }
     return reading;
 }
@@ -217,29 +176,13 @@ String HapticMesh::problem() const {
     if (!is_solid_body(get_parent())) {
         return "it belongs to no body: make it a child of a StaticBody3D, AnimatableBody3D or RigidBody3D";
     }
-    return is_inside_tree() && HapticWorld::above(this) == nullptr
-               ? String("its body stands outside of every HapticWorld: put the body below one")
-               : String();
+    return problem_of_part(*this);
 }
 
 String HapticMesh::problem_of_surfaces() const {
     const auto feels = surface_feels();
-    if (feels.empty()) {
-        return String();
-    }
-    if (mesh_.is_null() || static_cast<std::size_t>(mesh_->get_surface_count()) < feels.size()) {
-        return "they are more than 'mesh' has surfaces: take the last ones away";
-    }
-    const auto map = surfaces(false);
-    const bool is_by_uv = std::ranges::any_of(feels, [](const std::optional<SurfaceFeel>& feel) {
-        return feel && feel->material.by_uv && feel->images != TouchImages();
-    });
-    const bool has_uv = map != nullptr && std::ranges::any_of(map->uv, [](const auto& corners) {
-                            return corners[0] != corners[1];
-                        });
-    return is_by_uv && !has_uv ? "'mesh' has no texture coordinates for their images: give it some, or set "
-                                 "their 'texture_mapping' to Frame"
-                               : String();
+    const auto count = mesh_.is_valid() ? static_cast<std::size_t>(mesh_->get_surface_count()) : 0;
+    return to_godot(problem_of(feels, count, surfaces(feels, false).get()));
 }
 
 PackedStringArray HapticMesh::_get_configuration_warnings() const {
@@ -259,16 +202,12 @@ PackedStringArray HapticMesh::_get_configuration_warnings() const {
 }
 
 void HapticMesh::_notification(int what) {
+    keep_part(*this, what);
     if (what == NOTIFICATION_ENTER_TREE) {
-        set_notify_local_transform(true);
         set_process_internal(is_following());
-        watch_warnings(*this);
         follow_instance();
-        ++change_count;
     } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
         follow_instance();
-    } else if (what == NOTIFICATION_EXIT_TREE || what == NOTIFICATION_LOCAL_TRANSFORM_CHANGED) {
-        ++change_count;
     }
 }
 

@@ -7,12 +7,14 @@
 #include <optional>
 #include <string>
 
+#include "nodes/body_parts.hpp"
 #include "nodes/haptic_field.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/mesh_library.hpp"
 #include "nodes/properties.hpp"
 #include "nodes/shape_reading.hpp"
 #include "world/skinned_mesh.hpp"
+#include "world/surface_feels.hpp"
 
 namespace tactus {
 
@@ -22,8 +24,6 @@ class HapticMesh : public godot::Node3D {
     GDCLASS(HapticMesh, godot::Node3D)
 
 public:
-    ~HapticMesh() override;
-
     TACTUS_PROPERTIES(HapticMesh)
 
     double get_library_mass() const { return entry().mass; }
@@ -44,8 +44,8 @@ public:
     void follow_instance();
 
     // What its surfaces feel like where they are not as the body; none: all are.
-    std::vector<std::optional<SurfaceFeel>> surface_feels() const;
-    std::vector<godot::Ref<godot::Resource>> surface_resources() const;
+    SurfaceFeels surface_feels() const;
+    std::vector<godot::Ref<HapticMaterial>> surface_materials() const;  // null: as the body
 
     // Whether a rigid body takes its mass from here, and how much at this scale of the body (unit:
     // kilograms).
@@ -53,9 +53,6 @@ public:
         return use_library_mass_ && mesh_.is_null() && field_.is_null() && entry().mass > 0.0;
     }
     double library_mass(const Mat3& body_scale) const;
-
-    // Rises whenever any HapticMesh comes, goes, moves in its body or changes its triangles.
-    static std::uint64_t changes();
 
 protected:
     static void _bind_methods();
@@ -67,12 +64,12 @@ private:
     std::shared_ptr<TriangleSource> source() const;
     bool is_following() const { return mesh_.is_null() && field_.is_null() && !mesh_instance_.is_empty(); }
     void instance_changed();
-    std::shared_ptr<const SurfaceMap> surfaces(bool by_uv) const;
+    std::shared_ptr<const SurfaceMap> surfaces(const SurfaceFeels& feels, bool by_uv) const;
     const LibraryEntry& entry() const;
     godot::String problem_of_surfaces() const;
     void mesh_changed();
     void library_changed();
-    void form_changed();
+    void form_changed() { note_part_changed(); }
     void forget_triangles();
 
     godot::Ref<godot::Mesh> mesh_;
@@ -83,9 +80,8 @@ private:
     bool one_sided_ = false;
     godot::Array surface_materials_;
     bool use_library_mass_ = false;
-    mutable std::optional<LibraryEntry> entry_;       // of the library's mesh, looked up once
-    mutable std::shared_ptr<TriangleSource> source_;  // read once, when somebody asks
-    mutable std::shared_ptr<TriangleSource> former_;  // until then: the one before the mesh changed
+    mutable std::optional<LibraryEntry> entry_;  // of the library's mesh, looked up once
+    mutable OwnSource source_;                   // read once, when somebody asks
     // What it follows, as it was when it was looked at last.
     godot::Ref<godot::Mesh> followed_;
     std::shared_ptr<const SkinnedMesh> skin_;

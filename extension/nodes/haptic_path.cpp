@@ -18,27 +18,14 @@ HandPath HapticPath::hand_path() const {
         return circle_;
     }
     if (form_ == FORM_CURVE) {
-        return along_curve();
+        return at_speed(places_along(curve_), curve_speed_, curve_loop_);
     }
     KeyframePath path;
-    path.interpolation =
-        interpolation_ == INTERPOLATION_SMOOTH ? PathInterpolation::catmull_rom : PathInterpolation::linear;
+    path.interpolation = interpolation_;
     path.loop = loop_;
     for (int64_t i = 0; i < points_.size(); ++i) {
         const double time = i < times_.size() ? times_[i] : static_cast<double>(i);
         path.keyframes.push_back({from_seconds(time), from_godot(points_[i])});
-    }
-    return path;
-}
-
-KeyframePath HapticPath::along_curve() const {
-    KeyframePath path;
-    path.interpolation = PathInterpolation::linear;
-    path.loop = curve_loop_;
-    double way = 0.0;
-    for (const Vec3& place : places_along(curve_)) {
-        way += path.keyframes.empty() ? 0.0 : glm::distance(place, path.keyframes.back().position);
-        path.keyframes.push_back({from_seconds(way / curve_speed_), place});
     }
     return path;
 }

@@ -18,7 +18,6 @@ class HapticPath : public godot::Resource {
 
 public:
     enum Form : int64_t { FORM_CIRCLE_WAVE, FORM_POINTS, FORM_CURVE };
-    enum Interpolation : int64_t { INTERPOLATION_LINEAR, INTERPOLATION_SMOOTH };
 
     TACTUS_PROPERTIES(HapticPath)
 
@@ -36,14 +35,13 @@ protected:
 
 private:
     void form_changed();
-    KeyframePath along_curve() const;
     HandSample sample_at(double time) const;  // at rest where the path cannot be followed
 
     Form form_ = FORM_CIRCLE_WAVE;
     CircleWave circle_;
     godot::PackedVector3Array points_;
     godot::PackedFloat64Array times_;
-    Interpolation interpolation_ = INTERPOLATION_SMOOTH;
+    PathInterpolation interpolation_ = PathInterpolation::catmull_rom;
     bool loop_ = false;
     godot::Ref<godot::Curve3D> curve_;
     double curve_speed_ = 0.1;  // (unit: meters per second)
@@ -51,6 +49,3 @@ private:
 };
 
 }  // namespace tactus
-
-VARIANT_ENUM_CAST(tactus::HapticPath::Form);
-VARIANT_ENUM_CAST(tactus::HapticPath::Interpolation);

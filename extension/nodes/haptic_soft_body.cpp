@@ -3,25 +3,19 @@
 #include <algorithm>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 
+#include "nodes/body_parts.hpp"
 #include "nodes/body_reading.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/mesh_source.hpp"
 #include "nodes/messages.hpp"
-#include "nodes/scene_warnings.hpp"
-#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
 namespace {
-
-std::uint64_t change_count = 0;
-
-// Facets that bend less than this are drawn as one round surface (unit: radians).
-constexpr double crease = 0.7;
 
 const Color flesh(0.86f, 0.52f, 0.46f);
 
@@ -34,42 +28,28 @@ std::vector<std::uint32_t> as_indices(const PackedInt32Array& from) {
 
 }  // namespace
 
-HapticSoftBody* haptic_soft_body_of(const CollisionObject3D& body) {
-    for (int i = 0; i < body.get_child_count(); ++i) {
-        if (auto* soft = Object::cast_to<HapticSoftBody>(body.get_child(i))) {
-            return soft;
-        }
-    }
-    return nullptr;
-}
-
-std::uint64_t HapticSoftBody::changes() {
-    return change_count;
-}
-
 void HapticSoftBody::form_changed() {
     plan_.reset();
-    ++change_count;
+    note_part_changed();
     update_configuration_warnings();
 }
 
 void HapticSoftBody::look_changed() {
     if (picture_ != nullptr) {
         Ref<StandardMaterial3D> plain = lit_material(flesh);
-        plain->set_cull_mode(form_ == FORM_SHEET ? BaseMaterial3D::CULL_DISABLED : BaseMaterial3D::CULL_BACK);
+        plain->set_cull_mode(form_ == SoftDescription::Form::sheet ? BaseMaterial3D::CULL_DISABLED
+                                                                   : BaseMaterial3D::CULL_BACK);
         picture_->set_material_override(look_.is_valid() ? look_ : Ref<Material>(plain));
     }
 }
 
 SoftDescription HapticSoftBody::described() const {
     SoftDescription description;
-    description.form = form_ == FORM_SHEET ? SoftDescription::Form::sheet : SoftDescription::Form::volume;
+    description.form = form_;
     if (tetrahedra_.is_empty() && mesh_.is_valid()) {
         description.source = source_of(mesh_);
     }
-    for (int64_t i = 0; i < points_.size(); ++i) {
-        description.points.push_back(from_godot(points_[i]));
-    }
+    description.points = from_godot(points_);
     const std::vector<std::uint32_t> corners = as_indices(tetrahedra_);
     for (std::size_t i = 0; i + 3 < corners.size(); i += 4) {
         description.tetrahedra.push_back({corners[i], corners[i + 1], corners[i + 2], corners[i + 3]});
@@ -109,9 +89,7 @@ String HapticSoftBody::problem() const {
         return "it belongs to no body that stays where it is put: make it a child of a StaticBody3D or an "
                "AnimatableBody3D";
     }
-    return is_inside_tree() && HapticWorld::above(this) == nullptr
-               ? String("its body stands outside of every HapticWorld: put the body below one")
-               : String();
+    return problem_of_part(*this);
 }
 
 String HapticSoftBody::get_problem() const {
@@ -125,15 +103,12 @@ int HapticSoftBody::get_element_count() const {
 }
 
 PackedVector3Array HapticSoftBody::get_surface() const {
-    PackedVector3Array places;
     const SoftPlan::Built built = plan(scale_of_body())->built_so_far();
-    if (built.view != nullptr) {
-        built.view->refresh();
-        places.resize(static_cast<int64_t>(built.view->places().size()));
-        std::ranges::transform(built.view->places(), places.ptrw(),
-                               [](const Vec3& place) { return to_godot(place); });
+    if (built.view == nullptr) {
+        return PackedVector3Array();
     }
-    return places;
+    built.view->refresh();
+    return packed(built.view->places());
 }
 
 PackedStringArray HapticSoftBody::_get_configuration_warnings() const {
@@ -151,7 +126,7 @@ void HapticSoftBody::show() {
         return;
     }
     if (picture_ == nullptr) {
-        picture_ = add_picture(*this, {}, Ref<Material>());
+        picture_ = add_picture(*this, Ref<Mesh>(), Ref<Material>());
         picture_->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_ON);
         picture_->set_as_top_level(true);
         look_changed();
@@ -160,18 +135,16 @@ void HapticSoftBody::show() {
     const bool is_other = shown_ != built.view;
     if (built.view->refresh() || is_other) {
         shown_ = built.view;
-        picture_->set_mesh(drawn_mesh({{built.view->places(), built.model->surface.triangles}, crease}));
+        picture_->set_mesh(
+            drawn_mesh({{built.view->places(), built.model->surface.triangles}, round_crease}));
     }
 }
 
 void HapticSoftBody::_notification(int what) {
+    keep_part(*this, what);
     if (what == NOTIFICATION_ENTER_TREE) {
-        set_notify_local_transform(true);
         set_process_internal(true);
-        watch_warnings(*this);
         form_changed();
-    } else if (what == NOTIFICATION_EXIT_TREE || what == NOTIFICATION_LOCAL_TRANSFORM_CHANGED) {
-        ++change_count;
     } else if (what == NOTIFICATION_INTERNAL_PROCESS) {
         show();
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <godot_cpp/classes/collision_object3d.hpp>
 #include <godot_cpp/classes/material.hpp>
 #include <godot_cpp/classes/mesh.hpp>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
@@ -22,8 +21,6 @@ class HapticSoftBody : public godot::Node3D {
     GDCLASS(HapticSoftBody, godot::Node3D)
 
 public:
-    enum Form : int64_t { FORM_VOLUME = 0, FORM_SHEET = 1 };
-
     TACTUS_PROPERTIES(HapticSoftBody)
 
     godot::String get_problem() const;
@@ -36,9 +33,6 @@ public:
     godot::String problem() const;
     // The body's own scale is what `body_scale` says. Whether it can be built shows when it is.
     std::shared_ptr<SoftPlan> plan(const SceneFrame& body_scale) const;
-
-    // Rises whenever one comes, goes, moves in its body or is to be built anew.
-    static std::uint64_t changes();
 
 protected:
     static void _bind_methods();
@@ -54,7 +48,7 @@ private:
     godot::Ref<godot::Mesh> mesh_;
     godot::PackedVector3Array points_;
     godot::PackedInt32Array tetrahedra_;
-    Form form_ = FORM_VOLUME;
+    SoftDescription::Form form_ = SoftDescription::Form::volume;
     int cells_ = 8;
     SoftMaterial material_;
     godot::AABB held_;
@@ -65,9 +59,4 @@ private:
     godot::MeshInstance3D* picture_ = nullptr;
 };
 
-// Of the body; null where it does not give.
-HapticSoftBody* haptic_soft_body_of(const godot::CollisionObject3D& body);
-
 }  // namespace tactus
-
-VARIANT_ENUM_CAST(tactus::HapticSoftBody::Form);

@@ -173,10 +173,11 @@ std::unique_ptr<InputRecording> HapticWorld::record_inputs(const SessionSettings
 TickLoopSettings HapticWorld::loop_settings() const {
     TickLoopSettings settings;
     settings.period = nanoseconds_per_second / tick_rate_;
-    const bool is_wanted = project_wants_real_time();
-    settings.realtime.fifo_priority = is_wanted ? realtime_priority_ : 0;
-    settings.realtime.lock_memory = is_wanted && lock_memory_;
-    settings.realtime.cpu = processor_;
+    settings.realtime = realtime_;
+    if (!project_wants_real_time()) {
+        settings.realtime.fifo_priority = 0;
+        settings.realtime.lock_memory = false;
+    }
     return settings;
 }
 
@@ -366,13 +367,7 @@ Dictionary HapticWorld::get_baseline_period_distribution() const {
 }
 
 PackedStringArray HapticWorld::get_problems() const {
-    PackedStringArray problems;
-    if (run_ != nullptr) {
-        for (const std::string& problem : run_->problems()) {
-            problems.push_back(to_godot(problem));
-        }
-    }
-    return problems;
+    return run_ != nullptr ? to_godot(run_->problems()) : PackedStringArray();
 }
 
 PackedStringArray HapticWorld::_get_configuration_warnings() const {

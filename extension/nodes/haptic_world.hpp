@@ -116,9 +116,7 @@ private:
     godot::Vector3 gravity_;
     godot::Ref<HapticMaterial> default_material_;
     int max_bodies_ = 1024;
-    int realtime_priority_ = 70;
-    int processor_ = last_processor;
-    bool lock_memory_ = true;
+    RealtimeRequest realtime_;  // as the project permits it
     bool measure_baseline_ = false;
     godot::String inputs_path_;
     int starts_ = 0;  // with inputs that are recorded
@@ -131,5 +129,3 @@ private:
 };
 
 }  // namespace tactus
-
-VARIANT_ENUM_CAST(tactus::HapticWorld::Clock);

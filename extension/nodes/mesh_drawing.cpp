@@ -1,34 +1,34 @@
 #include "nodes/mesh_drawing.hpp"
 
-#include <algorithm>
 #include <godot_cpp/variant/array.hpp>
+
+#include "nodes/conversions.hpp"
 
 namespace tactus {
 
 using namespace godot;
 
-namespace {
-
-PackedVector3Array packed(const std::vector<glm::vec3>& from) {
-    PackedVector3Array to;
-    to.resize(static_cast<int64_t>(from.size()));
-    std::ranges::transform(from, to.ptrw(), [](const glm::vec3& v) { return Vector3(v.x, v.y, v.z); });
-    return to;
+void add_surface(ArrayMesh& mesh, Mesh::PrimitiveType kind, const SurfaceArrays& arrays) {
+    if (arrays.places.is_empty()) {
+        return;
+    }
+    Array all;
+    all.resize(Mesh::ARRAY_MAX);
+    all[Mesh::ARRAY_VERTEX] = arrays.places;
+    if (!arrays.normals.is_empty()) {
+        all[Mesh::ARRAY_NORMAL] = arrays.normals;
+    }
+    if (!arrays.indices.is_empty()) {
+        all[Mesh::ARRAY_INDEX] = arrays.indices;
+    }
+    mesh.add_surface_from_arrays(kind, all);
 }
-
-}  // namespace
 
 Ref<ArrayMesh> drawn_mesh(const Drawing& drawing) {
     const DrawnCorners corners = corners_of(drawing);
     Ref<ArrayMesh> drawn;
     drawn.instantiate();
-    if (!corners.places.empty()) {
-        Array arrays;
-        arrays.resize(Mesh::ARRAY_MAX);
-        arrays[Mesh::ARRAY_VERTEX] = packed(corners.places);
-        arrays[Mesh::ARRAY_NORMAL] = packed(corners.normals);
-        drawn->add_surface_from_arrays(Mesh::PRIMITIVE_TRIANGLES, arrays);
-    }
+    add_surface(**drawn, Mesh::PRIMITIVE_TRIANGLES, {packed(corners.places), packed(corners.normals)});
     return drawn;
 }
 
@@ -48,13 +48,17 @@ Ref<StandardMaterial3D> see_through_material(const Color& color) {
     return material;
 }
 
-MeshInstance3D* add_picture(Node& to, const Drawing& drawing, const Ref<Material>& look) {
+MeshInstance3D* add_picture(Node& to, const Ref<Mesh>& mesh, const Ref<Material>& look) {
     MeshInstance3D* picture = memnew(MeshInstance3D);
-    picture->set_mesh(drawn_mesh(drawing));
+    picture->set_mesh(mesh);
     picture->set_material_override(look);
     picture->set_cast_shadows_setting(GeometryInstance3D::SHADOW_CASTING_SETTING_OFF);
     to.add_child(picture, false, Node::INTERNAL_MODE_BACK);
     return picture;
+}
+
+MeshInstance3D* add_picture(Node& to, const Drawing& drawing, const Ref<Material>& look) {
+    return add_picture(to, Ref<Mesh>(drawn_mesh(drawing)), look);
 }
 
 }  // namespace tactus

@@ -7,9 +7,8 @@
 #include <godot_cpp/variant/array.hpp>
 #include <godot_cpp/variant/dictionary.hpp>
 
-#include "core/geometry/mesh_check.hpp"
-#include "core/geometry/obj_text.hpp"
 #include "nodes/conversions.hpp"
+#include "world/mesh_file.hpp"
 
 namespace tactus {
 
@@ -22,11 +21,6 @@ constexpr const char* extension_file = "tactus.gdextension";
 
 String all_names() {
     return String(", ").join(mesh_library_names());
-}
-
-// A name, not a way out of the folder.
-bool is_plain_name(const String& name) {
-    return !name.is_empty() && !name.contains("/") && !name.contains("\\") && !name.contains(":");
 }
 
 }  // namespace
@@ -57,28 +51,24 @@ godot::PackedStringArray mesh_library_names() {
 }
 
 std::shared_ptr<TriangleSource> load_library_mesh(const String& name) {
-    const auto failed = [](const std::string& why) {
-        return std::make_shared<TriangleSource>(TriangleSource::Checked{nullptr, why});
+    const auto failed = [](std::string why) {
+        return std::make_shared<TriangleSource>(TriangleSource::Checked{nullptr, std::move(why)});
     };
     const String path = mesh_library_folder().path_join(name + String(".obj"));
-    if (!is_plain_name(name) || !FileAccess::file_exists(path)) {
+    if (!is_mesh_name(from_godot(name)) || !FileAccess::file_exists(path)) {
         return failed(from_godot("the mesh library has no mesh '" + name + "': choose one of " + all_names() +
                                  ", or put " + name + ".obj into " + mesh_library_folder()));
     }
     // As bytes, not as a string of the engine's: that would take four times as much, and again for its UTF-8.
     const godot::Ref<FileAccess> file = FileAccess::open(path, FileAccess::READ);
     const auto size = file.is_valid() ? static_cast<std::int64_t>(file->get_length()) : 0;
-    if (const auto limit = static_cast<std::int64_t>(ObjLimits{}.bytes); size > limit) {
-        return failed(from_godot(path) + ": the file has " + std::to_string(size) + " bytes, the limit is " +
-                      std::to_string(limit) + ": split it into several meshes");
+    if (std::string too_large = problem_of_size(from_godot(path), size); !too_large.empty()) {
+        return failed(std::move(too_large));
     }
     const godot::PackedByteArray bytes = size > 0 ? file->get_buffer(size) : godot::PackedByteArray();
-    ObjResult read =
-        read_obj_text({reinterpret_cast<const char*>(bytes.ptr()), static_cast<std::size_t>(bytes.size())});
-    const std::string wrong = read.error.empty() ? check_mesh(read.mesh) : read.error;
-    return wrong.empty() ? std::make_shared<TriangleSource>(TriangleSource::Checked{
-                               std::make_shared<TriangleMesh>(std::move(read.mesh)), {}})
-                         : failed(from_godot(path) + ": " + wrong);
+    return std::make_shared<TriangleSource>(
+        read_mesh_file(from_godot(path),
+                       {reinterpret_cast<const char*>(bytes.ptr()), static_cast<std::size_t>(bytes.size())}));
 }
 
 LibraryEntry mesh_library_entry(const String& name) {

@@ -1,6 +1,5 @@
 #include "nodes/mesh_source.hpp"
 
-#include <algorithm>
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/primitive_mesh.hpp>
 #include <godot_cpp/classes/rendering_server.hpp>
@@ -21,17 +20,13 @@ using namespace godot;
 
 namespace {
 
-constexpr int32_t max_surfaces = 256;      // of a mesh, in Godot
 constexpr std::int64_t known_version = 1;  // of the layout of a surface's bytes: Godot 4.2 to 4.6
 
-static_assert(sizeof(Vector3) == sizeof(PackedPlace), "a Godot of single precision");
-
-std::span<const PackedPlace> places(const PackedVector3Array& corners) {
-    return {reinterpret_cast<const PackedPlace*>(corners.ptr()), static_cast<std::size_t>(corners.size())};
-}
-
-std::span<const std::uint8_t> bytes_of(const PackedByteArray& bytes) {
-    return {bytes.ptr(), static_cast<std::size_t>(bytes.size())};
+// What a packed array holds. Vectors are seen as the floats that they are made of.
+template <class Value, class Packed>
+std::span<const Value> span_of(const Packed& packed) {
+    static_assert(sizeof(Value) == sizeof(*packed.ptr()), "a Godot of single precision");
+    return {reinterpret_cast<const Value*>(packed.ptr()), static_cast<std::size_t>(packed.size())};
 }
 
 PackedPlace place_of(const Vector3& v) {
@@ -41,7 +36,7 @@ PackedPlace place_of(const Vector3& v) {
 LateSurface surface_of(const PackedVector3Array& corners, const PackedInt32Array& indices) {
     const auto named = static_cast<std::size_t>(indices.is_empty() ? corners.size() : indices.size());
     return {named / 3, [corners, indices](MeshCollector& collector) {
-                collector.add(places(corners), {indices.ptr(), static_cast<std::size_t>(indices.size())});
+                collector.add(span_of<PackedPlace>(corners), span_of<std::int32_t>(indices));
             }};
 }
 
@@ -62,8 +57,8 @@ std::optional<LateSurface> raw_surface(const Ref<Mesh>& mesh, int surface) {
     const AABB box = data.get("aabb", AABB());
     const std::int64_t corner_count = data.get("vertex_count", 0);
     const std::int64_t index_count = data.get("index_count", 0);
-    const SurfaceBytes bytes{.corners = bytes_of(corners),
-                             .indices = bytes_of(indices),
+    const SurfaceBytes bytes{.corners = span_of<std::uint8_t>(corners),
+                             .indices = span_of<std::uint8_t>(indices),
                              .corner_count = static_cast<std::size_t>(corner_count),
                              .index_count = static_cast<std::size_t>(index_count),
                              .compressed = (format & RenderingServer::ARRAY_FLAG_COMPRESS_ATTRIBUTES) != 0,
@@ -110,28 +105,19 @@ std::shared_ptr<TriangleSource> source_of(const Ref<Mesh>& mesh) {
     return source_of(std::move(surfaces));
 }
 
-std::shared_ptr<const SurfaceMap> surface_map_of(const Ref<Mesh>& mesh, bool surfaces, bool uv) {
+std::shared_ptr<const SurfaceMap> surface_map_of(const Ref<Mesh>& mesh, const SurfaceParts& parts) {
     auto map = std::make_shared<SurfaceMap>();
     for (int32_t i = 0; is_of_triangles(mesh) && i < mesh->get_surface_count(); ++i) {
         const Array arrays = mesh->surface_get_arrays(i);
-        const PackedInt32Array indices = arrays[Mesh::ARRAY_INDEX];
         const PackedVector3Array corners = arrays[Mesh::ARRAY_VERTEX];
-        const PackedVector2Array places = arrays[Mesh::ARRAY_TEX_UV];
-        const int64_t count = (indices.is_empty() ? corners.size() : indices.size()) / 3;
-        if (surfaces) {
-            map->surface.resize(map->surface.size() + static_cast<std::size_t>(count),
-                                static_cast<std::uint8_t>(std::min(i, max_surfaces - 1)));
-        }
-        const auto place = [&](int64_t corner) -> std::array<float, 2> {
-            const int64_t index = indices.is_empty() ? corner : indices[corner];
-            return index < places.size() ? std::array{places[index].x, places[index].y}
-                                         : std::array{0.0F, 0.0F};
-        };
-        for (int64_t t = 0; uv && t < count; ++t) {
-            map->uv.push_back({place(3 * t), place(3 * t + 2), place(3 * t + 1)});
-        }
+        const PackedInt32Array indices = arrays[Mesh::ARRAY_INDEX];
+        const PackedVector2Array uv = arrays[Mesh::ARRAY_TEX_UV];
+        add(*map,
+            {static_cast<std::size_t>(i), span_of<PackedPlace>(corners).size(),
+             span_of<std::int32_t>(indices), span_of<std::array<float, 2>>(uv)},
+            parts);
     }
-    return map->surface.empty() && map->uv.empty() ? nullptr : map;
+    return parts_of(*map) == SurfaceParts() ? nullptr : map;
 }
 
 std::shared_ptr<TriangleSource> source_of(const PackedVector3Array& faces) {

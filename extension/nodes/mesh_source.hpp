@@ -8,14 +8,15 @@
 #include <godot_cpp/variant/packed_vector3_array.hpp>
 #include <memory>
 
+#include "world/surface_feels.hpp"
 #include "world/triangle_source.hpp"
 
 namespace tactus {
 
 std::shared_ptr<TriangleSource> source_of(const godot::Ref<godot::Mesh>& mesh);
-// Of its triangles as source_of() reads them: which surface they belong to, and their texture coordinates.
-// Where one of its surfaces has none, its triangles have those of one point.
-std::shared_ptr<const SurfaceMap> surface_map_of(const godot::Ref<godot::Mesh>& mesh, bool surfaces, bool uv);
+// Of its triangles as source_of() reads them; null where it has none of these parts.
+std::shared_ptr<const SurfaceMap> surface_map_of(const godot::Ref<godot::Mesh>& mesh,
+                                                 const SurfaceParts& parts);
 std::shared_ptr<TriangleSource> source_of(const godot::PackedVector3Array& faces);
 
 }  // namespace tactus

@@ -37,17 +37,7 @@ public:
         SCENARIO_MMT_ROBOT = 5
     };
     enum Side : int64_t { SIDE_OPERATOR, SIDE_TELEOPERATOR };
-    enum State : int64_t {
-        STATE_OFF = static_cast<int64_t>(LinkState::off),
-        STATE_OPENING = static_cast<int64_t>(LinkState::opening),
-        STATE_FAILED = static_cast<int64_t>(LinkState::failed),
-        STATE_WAITING = static_cast<int64_t>(LinkState::waiting),
-        STATE_ONE_WAY = static_cast<int64_t>(LinkState::one_way),
-        STATE_CONNECTED = static_cast<int64_t>(LinkState::connected),
-        STATE_REFUSED = static_cast<int64_t>(LinkState::refused),
-        STATE_LOST = static_cast<int64_t>(LinkState::lost),
-        STATE_LEFT = static_cast<int64_t>(LinkState::left)
-    };
+    using State = LinkState;
     MMTLink() { clear_report(); }
 
     TACTUS_PROPERTIES(MMTLink)
@@ -130,6 +120,4 @@ private:
 
 }  // namespace tactus
 
-VARIANT_ENUM_CAST(tactus::MMTLink::Scenario);
-VARIANT_ENUM_CAST(tactus::MMTLink::Side);
 VARIANT_ENUM_CAST(tactus::MMTLink::State);

@@ -52,6 +52,8 @@ godot::Variant stored(const T& field) {
         return static_cast<double>(field);
     } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
         return static_cast<int64_t>(field);
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        return to_godot(field);
     } else if constexpr (requires { field.is_valid(), field.ptr(); }) {
         return field.ptr();  // a resource
     } else {
@@ -69,6 +71,8 @@ void store(T& field, const godot::Variant& value) {
         field = static_cast<double>(value);
     } else if constexpr (std::is_integral_v<T> || std::is_enum_v<T>) {
         field = static_cast<T>(static_cast<int64_t>(value));
+    } else if constexpr (std::is_same_v<T, std::string>) {
+        field = from_godot(godot::VariantCaster<godot::String>::cast(value));
     } else {
         field = godot::VariantCaster<T>::cast(value);
     }

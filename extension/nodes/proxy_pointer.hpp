@@ -28,10 +28,6 @@ public:
         STATUS_UNFINISHED = proxy_unfinished,
         STATUS_SQUEEZED = proxy_squeezed
     };
-    enum ForceLaw : int64_t {
-        FORCE_LAW_SPRING = static_cast<int64_t>(tactus::ForceLaw::spring),
-        FORCE_LAW_SMOOTHED = static_cast<int64_t>(tactus::ForceLaw::smoothed)
-    };
 
     TACTUS_PROPERTIES(ProxyPointer)
     void set_radius(double meters);
@@ -85,7 +81,7 @@ private:
     double radius_ = 0.01;
     bool radius_was_refused_ = false;  // the last one that was asked for
     std::uint32_t mask_ = 0xffff'ffffu;
-    tactus::ForceLaw force_law_ = tactus::ForceLaw::spring;
+    ForceLaw force_law_ = ForceLaw::spring;
     SoftFinger finger_;
     godot::Ref<HapticGuide> guide_;
     bool enabled_ = true;
@@ -101,5 +97,4 @@ private:
 
 }  // namespace tactus
 
-VARIANT_ENUM_CAST(tactus::ProxyPointer::ForceLaw);
 VARIANT_BITFIELD_CAST(tactus::ProxyPointer::Status);

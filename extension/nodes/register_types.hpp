@@ -8,4 +8,7 @@ GDExtensionBool initialize_library(GDExtensionInterfaceGetProcAddress get_proc_a
                                    GDExtensionClassLibraryPtr library,
                                    GDExtensionInitialization* initialization);
 
+// All that the class reference describes; written from it (binding/bind_classes.py).
+void register_public_classes();
+
 }  // namespace tactus

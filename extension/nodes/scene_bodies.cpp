@@ -2,9 +2,8 @@
 
 #include <utility>
 
+#include "nodes/body_parts.hpp"
 #include "nodes/godot_joint.hpp"
-#include "nodes/haptic_mesh.hpp"
-#include "nodes/haptic_soft_body.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/tree_walk.hpp"
 
@@ -55,7 +54,7 @@ void SceneBodies::synchronise(MirrorContext context) {
     if (std::exchange(tree_changed_, false)) {
         find(context.session);
     }
-    context.mesh_changes = HapticMesh::changes() + HapticSoftBody::changes();
+    context.mesh_changes = part_changes();
     mirrors_.synchronise(context);
 }
 

@@ -1,20 +1,16 @@
 #include "nodes/seen_bodies.hpp"
 
-#include <algorithm>
 #include <godot_cpp/classes/box_shape3d.hpp>
 #include <godot_cpp/classes/collision_shape3d.hpp>
 #include <godot_cpp/classes/convex_polygon_shape3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
-#include <godot_cpp/classes/static_body3d.hpp>
 #include <utility>
 
-#include "core/math/least_turn.hpp"
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_mesh.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/tree_walk.hpp"
-#include "physics/solid_properties.hpp"
 
 namespace tactus {
 
@@ -25,35 +21,14 @@ namespace {
 const Color known_color(0.25f, 0.65f, 0.35f, 1.0f);
 const Color unknown_color(0.85f, 0.6f, 0.2f, 1.0f);
 
-// Of what nobody knows the mass of: that of water (unit: kilograms per cubic meter).
-constexpr double unknown_density = 1000.0;
-
 // Of the support (unit: meters).
 constexpr float support_size = 2.0f;
 constexpr float support_thickness = 0.04f;
 
-TriangleMesh copy_of(const MeshView& view) {
-    return {{view.vertices.begin(), view.vertices.end()}, {view.triangles.begin(), view.triangles.end()}};
-}
-
-// (unit: cubic meters)
-double volume_of(const TriangleMesh& mesh) {
-    const std::optional<SolidProperties> solid = solid_properties(mesh);
-    return solid ? solid->volume : 0.0;
-}
-
-bool is_known(std::int32_t mesh, std::span<const SeenMesh> library) {
-    return mesh >= 0 && static_cast<std::size_t>(mesh) < library.size();
-}
-
 Ref<ConvexPolygonShape3D> hull_shape(const TriangleMesh& mesh) {
-    PackedVector3Array corners;
-    for (const Vec3& vertex : mesh.vertices) {
-        corners.push_back(to_godot(vertex));
-    }
     Ref<ConvexPolygonShape3D> shape;
     shape.instantiate();
-    shape->set_points(corners);
+    shape->set_points(packed(mesh.vertices));
     return shape;
 }
 
@@ -66,42 +41,31 @@ MeshInstance3D* picture(const TriangleMesh& mesh, const Color& color) {
 
 }  // namespace
 
-String name_of_mesh(std::int32_t mesh, std::span<const SeenMesh> library) {
-    return is_known(mesh, library) ? library[static_cast<std::size_t>(mesh)].name : String("unknown");
-}
-
-// A body's name goes over the network with it: it must stay.
-Node3D* SeenBodies::make(const SightedObject& object, std::span<const SeenMesh> library,
-                         const Looks& looks) const {
-    const bool knows = is_known(object.mesh, library);
-    const TriangleMesh mesh =
-        knows ? *library[static_cast<std::size_t>(object.mesh)].mesh : copy_of(object.hull);
+Node3D* SeenBodies::make(const SeenForm& form) const {
     MeshInstance3D* const drawn =
-        looks.show_objects ? picture(mesh, knows ? known_color : unknown_color) : nullptr;
+        looks_.show_objects ? picture(*form.mesh, form.is_known() ? known_color : unknown_color) : nullptr;
     Node3D* made = drawn;
-    if (looks.objects != SeenAs::pictures && (knows || !looks.touch_cloud)) {
+    if (looks_.objects != SeenAs::pictures && (form.is_known() || !looks_.touch_cloud)) {
         auto* const body = memnew(RigidBody3D);
-        const double mass = knows ? library[static_cast<std::size_t>(object.mesh)].mass : 0.0;
-        body->set_mass(std::max(1e-3, mass > 0.0 ? mass : unknown_density * volume_of(mesh)));
+        body->set_mass(form.mass);
         body->set_freeze_mode(RigidBody3D::FREEZE_MODE_KINEMATIC);
-        body->set_freeze_enabled(looks.objects == SeenAs::held_bodies);
+        body->set_freeze_enabled(looks_.objects == SeenAs::held_bodies);
         if (drawn != nullptr) {
             body->add_child(drawn);
         }
-        if (knows) {
+        if (form.is_known()) {
             auto* const touched = memnew(HapticMesh);
-            touched->set("library_mesh", library[static_cast<std::size_t>(object.mesh)].name);
+            touched->set("library_mesh", to_godot(form.known));
             body->add_child(touched);
         } else {
             auto* const shape = memnew(CollisionShape3D);
-            shape->set_shape(hull_shape(mesh));
+            shape->set_shape(hull_shape(*form.mesh));
             body->add_child(shape);
         }
         made = body;
     }
     if (made != nullptr) {
-        made->set_name(name_of_mesh(object.mesh, library) + "_" +
-                       String::num_int64(static_cast<int64_t>(object.id)));
+        made->set_name(to_godot(form.name));
         made->set_as_top_level(true);
     }
     return made;
@@ -131,15 +95,15 @@ void SeenBodies::go_on(const Sight& sight, double age) {
     }
 }
 
-void SeenBodies::update(Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
-                        const Looks& looks, double age) {
+void SeenBodies::update(Node3D& sensor, const Sight& sight, const SeenLibrary& library, const Looks& looks,
+                        double age) {
     const Looks before = std::exchange(looks_, looks);
     if (before.objects != looks.objects || before.show_objects != looks.show_objects ||
         before.touch_cloud != looks.touch_cloud) {
         clear();
     }
     const auto show = [&](const SightedObject& object) -> std::uint64_t {
-        Node3D* const node = make(object, library, looks);
+        Node3D* const node = make(library.form_of(object));
         if (node == nullptr) {
             return 0;
         }
@@ -176,12 +140,7 @@ void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is
         Ref<BoxShape3D> box;
         box.instantiate();
         box->set_size(Vector3(support_size, support_thickness, support_size));
-        auto* const shape = memnew(CollisionShape3D);
-        shape->set_shape(box);
-        slab = memnew(StaticBody3D);
-        slab->set_name("support");
-        slab->set_as_top_level(true);
-        slab->add_child(shape);
+        slab = new_still_body("support", box);
         sensor.add_child(slab, true);
         support_ = slab->get_instance_id();
     }
@@ -189,8 +148,7 @@ void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is
         return;
     }
     support_plane_ = plane;
-    const Vec3 under = (plane.offset - 0.5 * support_thickness) * plane.normal;
-    slab->set_global_transform(to_godot(Pose{under, least_turn({0.0, 1.0, 0.0}, plane.normal)}));
+    slab->set_global_transform(to_godot(slab_under(plane, support_thickness)));
 }
 
 void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) {
@@ -200,24 +158,12 @@ void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) 
         return;
     }
     if (drawn == nullptr) {
-        drawn = memnew(MeshInstance3D);
-        drawn->set_material_override(see_through_material(cloud_color));
-        sensor.add_child(drawn, false, Node::INTERNAL_MODE_BACK);
+        drawn = add_picture(sensor, Ref<Mesh>(), see_through_material(cloud_color));
         cloud_ = drawn->get_instance_id();
-    }
-    PackedVector3Array points;
-    points.resize(static_cast<int64_t>(sight.cloud.size()));
-    for (std::size_t i = 0; i < sight.cloud.size(); ++i) {
-        points[static_cast<int64_t>(i)] = to_godot(Vec3(sight.cloud[i]));
     }
     Ref<ArrayMesh> mesh;
     mesh.instantiate();
-    if (!points.is_empty()) {
-        Array arrays;
-        arrays.resize(Mesh::ARRAY_MAX);
-        arrays[Mesh::ARRAY_VERTEX] = points;
-        mesh->add_surface_from_arrays(Mesh::PRIMITIVE_POINTS, arrays);
-    }
+    add_surface(**mesh, Mesh::PRIMITIVE_POINTS, {packed(sight.cloud)});
     drawn->set_mesh(mesh);
 }
 

@@ -5,26 +5,14 @@
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
-#include <godot_cpp/variant/string.hpp>
-#include <memory>
-#include <span>
 
-#include "core/geometry/triangle_mesh.hpp"
 #include "nodes/touched_cloud.hpp"
+#include "world/seen_library.hpp"
 #include "world/sight_roll.hpp"
 
 namespace tactus {
 
 class HapticWorld;
-
-struct SeenMesh {
-    godot::String name;  // in the mesh library
-    std::shared_ptr<const TriangleMesh> mesh;
-    double mass = 0.0;  // (unit: kilograms); 0: unknown
-};
-
-// "cube", or what an object is called that nobody knows.
-godot::String name_of_mesh(std::int32_t mesh, std::span<const SeenMesh> library);
 
 enum class SeenAs : std::uint8_t {
     pictures,     // shown, not touched
@@ -43,8 +31,8 @@ public:
 
     // Below `sensor`, which outlives this. `age`: of the sight; what moves is where it must be by now (unit:
     // seconds).
-    void update(godot::Node3D& sensor, const Sight& sight, std::span<const SeenMesh> library,
-                const Looks& looks, double age);
+    void update(godot::Node3D& sensor, const Sight& sight, const SeenLibrary& library, const Looks& looks,
+                double age);
     // The same sight, older by now: what moves has gone on.
     void go_on(const Sight& sight, double age);
     // Takes everything away.
@@ -54,8 +42,7 @@ public:
     godot::Node3D* node_of(std::uint64_t object) const;
 
 private:
-    godot::Node3D* make(const SightedObject& object, std::span<const SeenMesh> library,
-                        const Looks& looks) const;
+    godot::Node3D* make(const SeenForm& form) const;
     void place(HapticWorld* world, const SightedObject& object, double age) const;
     void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
     void hold_support(godot::Node3D& sensor, const SupportPlane& plane, bool is_wanted);

@@ -50,15 +50,6 @@ std::optional<Shape> plain_shape(Object* object) {
     return std::nullopt;
 }
 
-std::vector<Vec3> points_of(const godot::ConvexPolygonShape3D& convex) {
-    const godot::PackedVector3Array given = convex.get_points();
-    std::vector<Vec3> points;
-    for (std::int64_t i = 0; i < given.size(); ++i) {
-        points.push_back(from_godot(given[i]));
-    }
-    return points;
-}
-
 // Bodies with the same shape resource share its triangles, as long as one of them is there.
 std::shared_ptr<TriangleSource> source_of(const godot::ConcavePolygonShape3D& concave) {
     struct Known {
@@ -97,7 +88,7 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const SceneFrame& fram
         return scaled_shape(*plain, scaling, pose);
     }
     if (const auto* convex = Object::cast_to<godot::ConvexPolygonShape3D>(object)) {
-        return scaled_hull(points_of(*convex), scaling, pose);
+        return scaled_hull(from_godot(convex->get_points()), scaling, pose);
     }
     if (const auto* concave = Object::cast_to<godot::ConcavePolygonShape3D>(object)) {
         reading.meshes.push_back({source_of(*concave), scaling, pose, 0.0, false, {}});

@@ -13,14 +13,6 @@ using namespace godot;
 
 namespace {
 
-std::vector<Vec3> places_of(const PackedVector3Array& packed) {
-    std::vector<Vec3> places;
-    for (int64_t i = 0; i < packed.size(); ++i) {
-        places.push_back(from_godot(packed[i]));
-    }
-    return places;
-}
-
 template <class Value, class Packed>
 std::vector<Value> values_of(const Packed& packed) {
     return {packed.ptr(), packed.ptr() + packed.size()};
@@ -29,14 +21,14 @@ std::vector<Value> values_of(const Packed& packed) {
 SkinCollector::Surface surface_of(const Ref<Mesh>& mesh, int32_t index, bool are_relative) {
     const Array arrays = mesh->surface_get_arrays(index);
     SkinCollector::Surface surface;
-    surface.corners = places_of(arrays[Mesh::ARRAY_VERTEX]);
+    surface.corners = from_godot(PackedVector3Array(arrays[Mesh::ARRAY_VERTEX]));
     surface.indices = values_of<std::int32_t>(PackedInt32Array(arrays[Mesh::ARRAY_INDEX]));
     surface.bones = values_of<std::int32_t>(PackedInt32Array(arrays[Mesh::ARRAY_BONES]));
     surface.weights = values_of<float>(PackedFloat32Array(arrays[Mesh::ARRAY_WEIGHTS]));
     const Array shapes = mesh->surface_get_blend_shape_arrays(index);
     for (int64_t i = 0; i < shapes.size(); ++i) {
         const Array shape = shapes[i];
-        std::vector<Vec3> ways = places_of(shape[Mesh::ARRAY_VERTEX]);
+        std::vector<Vec3> ways = from_godot(PackedVector3Array(shape[Mesh::ARRAY_VERTEX]));
         ways.resize(surface.corners.size(), Vec3(0.0));
         for (std::size_t corner = 0; !are_relative && corner < ways.size(); ++corner) {
             ways[corner] -= surface.corners[corner];

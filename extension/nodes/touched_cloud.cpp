@@ -3,8 +3,6 @@
 #include <godot_cpp/classes/collision_shape3d.hpp>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/sphere_shape3d.hpp>
-#include <godot_cpp/classes/static_body3d.hpp>
-#include <godot_cpp/variant/packed_int32_array.hpp>
 #include <utility>
 
 #include "nodes/conversions.hpp"
@@ -25,18 +23,23 @@ constexpr float tiny = 0.001f;
 
 }  // namespace
 
+StaticBody3D* new_still_body(const char* name, const Ref<Shape3D>& shape, const Vector3& at) {
+    auto* const body = memnew(StaticBody3D);
+    body->set_name(name);
+    body->set_as_top_level(true);
+    auto* const part = memnew(CollisionShape3D);
+    part->set_shape(shape);
+    part->set_position(at);
+    body->add_child(part);
+    return body;
+}
+
 void TouchedCloud::make(Node3D& sensor, bool is_shown) {
     is_shown_ = is_shown;
-    auto* const body = memnew(StaticBody3D);
-    body->set_name("cloud");
-    body->set_as_top_level(true);
     Ref<SphereShape3D> sphere;
     sphere.instantiate();
     sphere->set_radius(tiny);
-    auto* const shape = memnew(CollisionShape3D);
-    shape->set_shape(sphere);
-    shape->set_position(Vector3(0.0f, away, 0.0f));
-    body->add_child(shape);
+    StaticBody3D* const body = new_still_body("cloud", sphere, Vector3(0.0f, away, 0.0f));
     auto* const touched = memnew(HapticMesh);
     touched->set("mesh", mesh_);
     body->add_child(touched);
@@ -57,11 +60,6 @@ void TouchedCloud::update(Node3D& sensor, const MeshView& surface, bool is_shown
     if (is_shown != is_shown_) {
         clear();
     }
-    PackedVector3Array corners;
-    corners.resize(static_cast<int64_t>(surface.vertices.size()));
-    for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
-        corners[static_cast<int64_t>(i)] = to_godot(surface.vertices[i]);
-    }
     PackedInt32Array indices;
     indices.resize(static_cast<int64_t>(3 * surface.triangles.size()));
     int64_t at = 0;
@@ -71,15 +69,11 @@ void TouchedCloud::update(Node3D& sensor, const MeshView& surface, bool is_shown
             indices[at++] = static_cast<int32_t>(corner);
         }
     }
-    Array arrays;
-    arrays.resize(Mesh::ARRAY_MAX);
-    arrays[Mesh::ARRAY_VERTEX] = corners;
-    arrays[Mesh::ARRAY_INDEX] = indices;
     if (mesh_.is_null()) {
         mesh_.instantiate();
     }
     mesh_->clear_surfaces();
-    mesh_->add_surface_from_arrays(Mesh::PRIMITIVE_TRIANGLES, arrays);
+    add_surface(**mesh_, Mesh::PRIMITIVE_TRIANGLES, {packed(surface.vertices), {}, indices});
     mesh_->emit_changed();
     if (node_of_id<Node>(body_) == nullptr) {
         make(sensor, is_shown);

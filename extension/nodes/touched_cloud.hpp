@@ -3,6 +3,8 @@
 
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/node3d.hpp>
+#include <godot_cpp/classes/shape3d.hpp>
+#include <godot_cpp/classes/static_body3d.hpp>
 #include <godot_cpp/variant/color.hpp>
 
 #include "core/ports/depth_sensing.hpp"
@@ -11,6 +13,10 @@ namespace tactus {
 
 // Of what is seen and not known, as points and as a surface.
 inline const godot::Color cloud_color(0.2f, 0.75f, 0.9f, 1.0f);
+
+// One that stays where it is put in the world: with this shape at that place of it, and below nobody yet.
+godot::StaticBody3D* new_still_body(const char* name, const godot::Ref<godot::Shape3D>& shape,
+                                    const godot::Vector3& at = {});
 
 class TouchedCloud {
 public:

@@ -280,11 +280,7 @@ void WorldRun::ask_effects() {
                                 ? effect->look({state->hand, state->hand_velocity}, to_seconds(snapshot.time))
                                 : std::nullopt;
         if (moment) {
-            FieldMoment& sum =
-                fields.try_emplace(proxy, FieldMoment{moment->place, moment->velocity}).first->second;
-            sum.force += moment->force;
-            sum.by_place += moment->by_place;
-            sum.by_velocity += moment->by_velocity;
+            add(fields[proxy], *moment);
         }
     }
     for (const auto& [proxy, moment] : fields) {

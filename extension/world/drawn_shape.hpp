@@ -15,6 +15,9 @@ struct Drawing {
     double crease = 0.0;  // facets that meet at less than this are one round surface (unit: radians)
 };
 
+// Of what bends from facet to facet and is meant to look round (unit: radians).
+constexpr double round_crease = 0.7;
+
 // As graphics cards take them: three corners a triangle, clockwise seen from outside, each with its normal.
 struct DrawnCorners {
     std::vector<glm::vec3> places, normals;

@@ -51,7 +51,7 @@ struct HandPlan {
     HandPath path;                    // of those that follow one; problem_with() finds nothing wrong with it
     ArmSettings arm;
     DriverSettings driver;
-    double table_height = 0.0;  // of an emulated robot's (unit: meters)
+    double table_height = -0.01;  // of an emulated robot's (unit: meters)
     // Of an emulated robot, and of the hand that is its tip: the same one.
     std::shared_ptr<TipExchange> tip = std::make_shared<TipExchange>();
     Vec3 start{0.0};  // where one that is led begins, in the scene (unit: meters)

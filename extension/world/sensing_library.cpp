@@ -1,11 +1,15 @@
 #include "world/sensing_library.hpp"
 
+#include <algorithm>
+
 #include "platform/file.hpp"
 #include "platform/shared_library.hpp"
 
 namespace tactus {
 
 namespace {
+
+constexpr std::size_t max_found_cameras = 16;
 
 // It lies beside this one and is called like it: libtactus.linux… and libtactus_sensing.linux….
 std::string path_of_eyes() {
@@ -49,6 +53,19 @@ const DepthSensing* depth_sensing(std::string& error) {
     }
     found = entry(depth_sensing_version);
     error = found != nullptr ? "" : path + " is of another version: build both anew";
+    return found;
+}
+
+std::vector<FoundCamera> found_cameras(std::string& error) {
+    const DepthSensing* const sensing = depth_sensing(error);
+    if (sensing == nullptr) {
+        return {};
+    }
+    std::vector<FoundCamera> found(max_found_cameras);
+    std::array<char, 512> why{};
+    const int count = sensing->scan(found, why);
+    error = count < 0 ? why.data() : "";
+    found.resize(static_cast<std::size_t>(std::clamp(count, 0, static_cast<int>(found.size()))));
     return found;
 }
 

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/ports/depth_sensing.hpp"
 
@@ -10,6 +11,9 @@ namespace tactus {
 
 // Null: `error` says why and what to do. Main thread only.
 const DepthSensing* depth_sensing(std::string& error);
+
+// The cameras that are plugged in. Where they cannot be looked for, `error` says why and what to do.
+std::vector<FoundCamera> found_cameras(std::string& error);
 
 struct Destroy {
     template <class Made>

@@ -17,6 +17,28 @@ constexpr double support_cosine = 0.99996;
 
 }  // namespace
 
+const char* word_of(SightState state) {
+    switch (state) {
+        case SightState::found:
+            return "found";
+        case SightState::tracked:
+            return "tracked";
+        case SightState::hidden:
+            return "hidden";
+        case SightState::lost:
+            break;
+    }
+    return "lost";
+}
+
+double lowest_confidence(const Sight& sight) {
+    double lowest = sight.objects.empty() ? 0.0 : 1.0;
+    for (const SightedObject& object : sight.objects) {
+        lowest = std::min(lowest, object.confidence);
+    }
+    return lowest;
+}
+
 const SightedObject* object_of(const Sight& sight, std::uint64_t id) {
     const auto found = std::ranges::find(sight.objects, id, &SightedObject::id);
     return found != sight.objects.end() ? &*found : nullptr;
@@ -34,6 +56,10 @@ Pose pose_after(const SightedObject& object, double seconds) {
 bool is_elsewhere(const SupportPlane& plane, const SupportPlane& before) {
     return !before.is_found || std::abs(plane.offset - before.offset) >= support_shift ||
            glm::dot(plane.normal, before.normal) <= support_cosine;
+}
+
+Pose slab_under(const SupportPlane& plane, double thickness) {
+    return {(plane.offset - 0.5 * thickness) * plane.normal, least_turn({0.0, 1.0, 0.0}, plane.normal)};
 }
 
 std::optional<Pose> camera_over_plane(const Sight& sight, double height) {

@@ -11,6 +11,12 @@
 
 namespace tactus {
 
+// "found", "tracked", "hidden", "lost".
+const char* word_of(SightState state);
+
+// Of all objects that are there, 0 to 1; 0 where there are none.
+double lowest_confidence(const Sight& sight);
+
 // Null where no such object is there.
 const SightedObject* object_of(const Sight& sight, std::uint64_t id);
 
@@ -20,6 +26,8 @@ Pose pose_after(const SightedObject& object, double seconds);
 
 // Whether the support is seen so far from `before` that it is not the camera's noise.
 bool is_elsewhere(const SupportPlane& plane, const SupportPlane& before);
+// Where a slab of that thickness lies whose upper side, along its y, is the plane (unit: meters).
+Pose slab_under(const SupportPlane& plane, double thickness);
 
 // Where the camera is if the plane lies level at a height: turned about itself by as little as that needs,
 // and lifted. None: no plane is seen.

@@ -138,4 +138,28 @@ BuiltMesh TriangleSource::built(const Mat3& scaling, const ParallelRunner& run) 
     return {mesh, std::move(tree)};
 }
 
+// Millions of triangles take longer to let go than a frame has.
+OwnSource::~OwnSource() {
+    Workers::discard([now = std::move(now_), former = std::move(former_)] {});
+}
+
+void OwnSource::forget() {
+    if (now_ != nullptr) {
+        former_ = std::exchange(now_, nullptr);
+    }
+}
+
+void OwnSource::set(std::shared_ptr<TriangleSource> source) {
+    now_ = std::move(source);
+    former_.reset();
+}
+
+void OwnSource::succeed_by(std::shared_ptr<TriangleSource> source) {
+    const std::shared_ptr<TriangleSource>& before = now_ != nullptr ? now_ : former_;
+    if (before != nullptr) {
+        source->succeed(before);
+    }
+    set(std::move(source));
+}
+
 }  // namespace tactus

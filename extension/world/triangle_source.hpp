@@ -90,6 +90,27 @@ private:
     std::shared_ptr<TriangleSource> before_;  // had no trees yet when this one came; null: none
 };
 
+// What one owner's triangles are read from, made anew whenever they are other ones. Its owner's thread.
+class OwnSource {
+public:
+    OwnSource() = default;
+    ~OwnSource();
+    OwnSource(const OwnSource&) = delete;
+    OwnSource& operator=(const OwnSource&) = delete;
+
+    const std::shared_ptr<TriangleSource>& get() const { return now_; }  // null: to be made
+    // Until it has been made anew: the one before. Null: there was none.
+    const std::shared_ptr<TriangleSource>& former() const { return former_; }
+
+    void forget();
+    // The one that was there before is succeeded by whoever made this one; or here.
+    void set(std::shared_ptr<TriangleSource> source);
+    void succeed_by(std::shared_ptr<TriangleSource> source);
+
+private:
+    std::shared_ptr<TriangleSource> now_, former_;
+};
+
 // Sources by what they are read from: each is read by the first who asks, as long as somebody has it. One
 // thread.
 template <class Key>

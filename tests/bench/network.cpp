@@ -96,7 +96,7 @@ void measure_ticks(Report& report) {
 
 // Processor time of this process but for the calling thread (unit: seconds).
 double time_of_other_threads() {
-    return to_seconds(tactus::testing::process_time() - tactus::testing::thread_time());
+    return to_seconds(tactus::testing::process_time() - thread_time());
 }
 
 // One datagram a tick from one socket to another of this process: from the call of send() to the stamp of its

@@ -204,5 +204,16 @@ TEST(HandPath, APointIsAPlaceWithinReach) {
     }
 }
 
+TEST(KeyframePath, AtOneSpeedEveryPieceTakesAsLongAsItIs) {
+    const KeyframePath path = at_speed({{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.0, 0.0}}, 0.1, true);
+    EXPECT_EQ(problem_with(path), "");
+    EXPECT_TRUE(path.loop);
+    EXPECT_EQ(path_duration(path), from_seconds(6.0));
+    for (const double time : {0.5, 2.9, 5.5}) {
+        EXPECT_NEAR(glm::length(sample_path(path, from_seconds(time)).velocity), 0.1, 1e-12) << time;
+    }
+    EXPECT_TRUE(at_speed({}, 0.1, false).keyframes.empty());
+}
+
 }  // namespace
 }  // namespace tactus

@@ -14,6 +14,7 @@
 #include "session/side_plan.hpp"
 #include "shared/endpoints.hpp"
 #include "shared/meshes.hpp"
+#include "small_session.hpp"
 
 namespace tactus::fuzz {
 namespace {
@@ -96,15 +97,6 @@ public:
     Vec3 position{0.0, 0.2, 0.0};
 };
 
-SessionSettings small() {
-    SessionSettings settings;
-    settings.max_bodies = 16;
-    settings.max_parts = 32;
-    settings.physics.max_touching_pairs = settings.physics.max_contacts = 64;
-    settings.physics.max_joints = 16;
-    return settings;
-}
-
 BodyAddition body(const Shape& shape, const Vec3& place, Motion motion) {
     BodyAddition addition;
     addition.description.shapes = {PlacedShape{shape, Pose{}}};
@@ -123,7 +115,7 @@ struct Recorded {
         session.add_proxy(pointer);
         ByteSink sink;
         ValueWriter writer(sink);
-        const SessionSettings settings = small();
+        const SessionSettings settings = small_session(16, 32);
         pass(writer, settings);
         put(InputPiece::settings, sink.bytes());
     }
@@ -154,7 +146,7 @@ struct Recorded {
     HeldDevice device;
     std::shared_ptr<TeleopPort> port = std::make_shared<TeleopPort>();
     InputRecorder recorder{1 << 20};
-    Session session{small(), &recorder};
+    Session session{small_session(16, 32), &recorder};
     Nanoseconds now = 0;
     Bytes written;
 };

@@ -9,6 +9,7 @@
 #include "session/plain_commands.hpp"
 #include "shared/meshes.hpp"
 #include "shared/sound_snapshot.hpp"
+#include "small_session.hpp"
 
 namespace tactus::fuzz {
 namespace {
@@ -32,15 +33,6 @@ public:
     DeviceSample sample;
     DeviceCapabilities able;
 };
-
-SessionSettings small() {
-    SessionSettings settings;
-    settings.max_bodies = 32;
-    settings.max_parts = 128;
-    settings.physics.max_touching_pairs = settings.physics.max_contacts = 64;
-    settings.physics.max_joints = 16;
-    return settings;
-}
 
 class Scene {
 public:
@@ -144,7 +136,7 @@ private:
     }
 
     std::array<SaidDevice, max_devices> devices_;
-    Session session_{small()};
+    Session session_{small_session(32, 128)};
     Nanoseconds now_ = 0;
     int ticks_ = 0;
 };

@@ -26,7 +26,6 @@
 #include "session/teleoperator_side.hpp"
 #include "shared/attack_rig.hpp"
 #include "shared/bench_kit.hpp"
-#include "support/process.hpp"
 
 namespace tactus::shared {
 namespace {
@@ -225,9 +224,9 @@ struct FloodRig {
         const Nanoseconds end = due + from_seconds(seconds);
         for (; due < end; due += period) {
             sleeper.wait_until(due);
-            const Nanoseconds begin = tactus::testing::thread_time();
+            const Nanoseconds begin = thread_time();
             near.tick(due);
-            spans.push_back(static_cast<double>(tactus::testing::thread_time() - begin));
+            spans.push_back(static_cast<double>(thread_time() - begin));
         }
         return spans;
     }

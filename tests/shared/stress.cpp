@@ -8,13 +8,13 @@
 #include <optional>
 
 #include "core/haptics/force_law.hpp"
+#include "platform/clock.hpp"
 #include "shared/deforms.hpp"
 #include "shared/meshes.hpp"
 #include "shared/reference_descent.hpp"
 #include "shared/stress_judge.hpp"
 #include "shared/stress_scenes.hpp"
 #include "shared/touch_rig.hpp"
-#include "support/process.hpp"
 
 namespace tactus::shared {
 
@@ -24,7 +24,7 @@ constexpr std::size_t max_failures = 40;
 
 // Of this thread (unit: microseconds).
 double processor_time() {
-    return 1e-3 * static_cast<double>(tactus::testing::thread_time());
+    return 1e-3 * static_cast<double>(thread_time());
 }
 
 // A second body that appears where the proxy is, jumps and vanishes.

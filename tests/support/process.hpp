@@ -12,10 +12,7 @@ namespace tactus::testing {
 // The file of the running program.
 std::filesystem::path program_path();
 
-// Processor time of the calling thread.
-Nanoseconds thread_time();
-
-// Processor time of the whole process.
+// Processor time of the whole process; that of a thread is in platform/clock.hpp.
 Nanoseconds process_time();
 
 // Memory of this process that is in the machine's (unit: bytes).

@@ -11,12 +11,6 @@ namespace tactus::testing {
 
 namespace {
 
-Nanoseconds read_clock(clockid_t clock) {
-    timespec now;
-    clock_gettime(clock, &now);
-    return static_cast<Nanoseconds>(now.tv_sec) * nanoseconds_per_second + now.tv_nsec;
-}
-
 // Those that the program began with.
 const cpu_set_t& processors() {
     static const cpu_set_t all = [] {
@@ -34,12 +28,10 @@ std::filesystem::path program_path() {
     return std::filesystem::read_symlink("/proc/self/exe");
 }
 
-Nanoseconds thread_time() {
-    return read_clock(CLOCK_THREAD_CPUTIME_ID);
-}
-
 Nanoseconds process_time() {
-    return read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    timespec taken;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &taken);
+    return static_cast<Nanoseconds>(taken.tv_sec) * nanoseconds_per_second + taken.tv_nsec;
 }
 
 double resident_bytes() {

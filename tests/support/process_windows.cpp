@@ -34,12 +34,6 @@ std::filesystem::path program_path() {
     return std::wstring(path, length);
 }
 
-Nanoseconds thread_time() {
-    FILETIME created, ended, kernel, user;
-    GetThreadTimes(GetCurrentThread(), &created, &ended, &kernel, &user);
-    return sum(kernel, user);
-}
-
 Nanoseconds process_time() {
     FILETIME created, ended, kernel, user;
     GetProcessTimes(GetCurrentProcess(), &created, &ended, &kernel, &user);

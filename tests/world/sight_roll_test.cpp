@@ -112,5 +112,31 @@ TEST(SightRoll, ACameraIsPutWhereThePlaneOrAnObjectSays) {
     EXPECT_LT(glm::distance(compose(*by, in_camera).position, place.position), 1e-12);
 }
 
+TEST(SightRoll, ASlabLiesWithItsUpperSideInThePlane) {
+    SupportPlane plane;
+    plane.normal = glm::normalize(Vec3(0.1, 1.0, -0.2));
+    plane.offset = 0.7;
+    const Pose slab = slab_under(plane, 0.04);
+    EXPECT_LT(glm::distance(slab.rotation * Vec3(0.0, 1.0, 0.0), plane.normal), 1e-12);
+    const Vec3 top = to_parent(slab, Vec3(0.3, 0.02, -0.4));
+    EXPECT_NEAR(glm::dot(plane.normal, top), plane.offset, 1e-12);
+}
+
+TEST(SightRoll, TheLeastBelievedIsTold) {
+    EXPECT_EQ(lowest_confidence({}), 0.0);
+    std::vector<SightedObject> objects{object(1), object(2), object(3)};
+    objects[0].confidence = 0.9;
+    objects[1].confidence = 0.4;
+    objects[2].confidence = 0.7;
+    EXPECT_EQ(lowest_confidence(sight_of(objects)), 0.4);
+}
+
+TEST(SightRoll, EveryStateHasAWord) {
+    EXPECT_STREQ(word_of(SightState::found), "found");
+    EXPECT_STREQ(word_of(SightState::tracked), "tracked");
+    EXPECT_STREQ(word_of(SightState::hidden), "hidden");
+    EXPECT_STREQ(word_of(SightState::lost), "lost");
+}
+
 }  // namespace
 }  // namespace tactus

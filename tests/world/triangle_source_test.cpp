@@ -142,5 +142,40 @@ TEST(KnownSources, OfTwoWhoKnowOfAChangeTheFirstReadsAndTheOtherTakesIt) {
     EXPECT_EQ(known.get(1, before, make), now);
 }
 
+std::shared_ptr<TriangleSource> sheet_source(double height) {
+    return std::make_shared<TriangleSource>([height] { return sheet(height); }, 2);
+}
+
+TEST(OwnSource, IsMadeAnewAfterItWasForgotten) {
+    OwnSource own;
+    EXPECT_EQ(own.get(), nullptr);
+    const auto first = sheet_source(0.0);
+    own.set(first);
+    EXPECT_EQ(own.get(), first);
+    EXPECT_EQ(own.former(), nullptr);
+    own.forget();
+    EXPECT_EQ(own.get(), nullptr);
+    EXPECT_EQ(own.former(), first);
+    own.forget();
+    EXPECT_EQ(own.former(), first) << "there was none since";
+    own.set(sheet_source(1.0));
+    EXPECT_EQ(own.former(), nullptr);
+}
+
+TEST(OwnSource, WhoeverSucceedsHasTheTreesOfTheOneBefore) {
+    for (const bool is_forgotten : {false, true}) {
+        OwnSource own;
+        own.set(sheet_source(0.0));
+        const BuiltMesh before = own.get()->built(Mat3(1.0), run_serially);
+        if (is_forgotten) {
+            own.forget();
+        }
+        own.succeed_by(sheet_source(1.0));
+        const std::uint64_t refitted = TriangleSource::trees_refitted();
+        own.get()->built(Mat3(1.0), run_serially);
+        EXPECT_EQ(TriangleSource::trees_refitted(), refitted + 1);
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -70,7 +70,7 @@ def _layer(program: Path) -> str:
     return program.stem.removeprefix("test_")
 
 
-def _environment(platform: Platform) -> dict[str, str]:
+def environment(platform: Platform) -> dict[str, str]:
     """Wine keeps its Windows in the cache; a test that starts its program anew does so in the emulator, and one loads
     the extension where it is built."""
     emulated = {
@@ -78,11 +78,11 @@ def _environment(platform: Platform) -> dict[str, str]:
         "WINEDEBUG": "-all",
         "TACTUS_EMULATOR": " ".join(platform.emulator),
     }
-    extension = {"TACTUS_EXTENSION": _seen_by_program(library, platform) for library in addon.built(platform)[:1]}
+    extension = {"TACTUS_EXTENSION": seen_by_program(library, platform) for library in addon.built(platform)[:1]}
     return SANITIZER_OPTIONS | os.environ | extension | (emulated if platform.is_foreign else {})
 
 
-def _seen_by_program(path: Path, platform: Platform) -> str:
+def seen_by_program(path: Path, platform: Platform) -> str:
     return f"Z:{path}" if platform.system == "windows" else str(path)
 
 
@@ -98,12 +98,12 @@ def _run_program(program: Path, chosen: list[str], time_limit: float, platform: 
     with tempfile.TemporaryDirectory() as folder:
         report = Path(folder) / "report.xml"
         names = ":".join(name.removeprefix(prefix) for name in chosen)
-        output = f"--gtest_output=xml:{_seen_by_program(report, platform)}"
+        output = f"--gtest_output=xml:{seen_by_program(report, platform)}"
         options = [f"--gtest_filter={names}", output, "--gtest_brief=1"]
         command = [*platform.emulator, program, *options]
         try:
             done = subprocess.run(
-                command, cwd=cache.clone(), env=_environment(platform), timeout=time_limit, text=True,
+                command, cwd=cache.clone(), env=environment(platform), timeout=time_limit, text=True,
                 errors="replace", capture_output=True,
             )  # fmt: skip
         except subprocess.TimeoutExpired:
@@ -118,7 +118,7 @@ def _run_program(program: Path, chosen: list[str], time_limit: float, platform: 
 
 def _names(program: Path, platform: Platform) -> list[str]:
     command = [*platform.emulator, program, "--gtest_list_tests"]
-    text = subprocess.run(command, check=True, env=_environment(platform), text=True, capture_output=True).stdout
+    text = subprocess.run(command, check=True, env=environment(platform), text=True, capture_output=True).stdout
     names, suite = [], ""
     for line in text.splitlines():
         word = line.split("#")[0].strip()

@@ -2,7 +2,7 @@
 with their count.
 
 With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own. `windows` and
-`arm64`: the C++ tests compiled for Windows, run by Wine, and for Linux on ARM, run by QEMU.
+`arm64`: the C++ tests and the benches compiled for Windows, run by Wine, and for Linux on ARM, run by QEMU.
 """
 
 import sys
@@ -10,9 +10,10 @@ import time
 
 import build
 from setup import cache, platforms
-from testing import cpp_suite, format_suite, godot_suite, python_suite, same_bits
+from testing import bench_suite, cpp_suite, format_suite, godot_suite, python_suite, same_bits
 
 SUITES = [format_suite, cpp_suite, godot_suite, python_suite]
+ELSEWHERE = [cpp_suite, bench_suite]
 
 
 def main(arguments: list[str]) -> int:
@@ -24,15 +25,16 @@ def main(arguments: list[str]) -> int:
         return 2
     wanted = filters[0] if filters else ""
     sanitizers = options[0].partition("=")[2] if options else ""
-    print("Building the C++ tests …", flush=True)
+    what = ["tests", "benches"] if platform.is_foreign else ["tests"]
+    print(f"Building the C++ {' and '.join(what)} …", flush=True)
     watched = [f"sanitize={sanitizers}"] if sanitizers else []
-    build.build("template_debug", "tests", f"platform={platform.name}", *watched)
+    build.build("template_debug", *what, f"platform={platform.name}", *watched)
     only_cpp = bool(sanitizers) or platform.is_foreign
     results = []
-    for suite in [cpp_suite] if only_cpp else SUITES:
+    for suite in ELSEWHERE if platform.is_foreign else [cpp_suite] if only_cpp else SUITES:
         started = time.monotonic()
         found = suite.run(wanted, sanitizers, platform) if only_cpp else suite.run(wanted)
-        if platform.is_foreign:
+        if platform.is_foreign and suite is cpp_suite:
             found += same_bits.compare(found)
         skipped = [result for result in found if result.skipped]
         found = [result for result in found if not result.skipped]

@@ -16,7 +16,8 @@ namespace tactus {
 constexpr int lane_count = 4;
 
 using Lanes = double __attribute__((vector_size(32)));
-using LaneMask = std::int64_t __attribute__((vector_size(32)));  // all bits of a lane set: true
+// All bits of a lane set: true. Compilers differ in the integer that they make of it.
+using LaneMask = decltype(Lanes{} == Lanes{});
 
 inline Lanes splat(double value) {
     return Lanes{value, value, value, value};
