@@ -22,7 +22,7 @@ consteval std::uint8_t type_of() {
     }(static_cast<Message*>(nullptr));
 }
 static_assert(type_of<Hello>() == 1 && type_of<DiscoveryFragment>() == 5 && type_of<Ghosts>() == 11 &&
-              type_of<ObjectEstimates>() == 12);
+              type_of<ObjectEstimates>() == 12 && type_of<WrenchSamples>() == 13);
 
 // One list of fields for each kind, for a WireWriter and const values or a WireReader and plain ones.
 
@@ -139,6 +139,15 @@ void fields(Stream& s, auto& m, const ForceSamples&) {
 }
 
 template <typename Stream>
+void fields(Stream& s, auto& m, const WrenchSamples&) {
+    s.integer(m.count);
+    s.require(m.count >= 1 && m.count <= WrenchSamples::max_count);
+    for (std::size_t i = 0; s.good() && i < m.count; ++i) {
+        wrench_sample_fields(s, m.samples[i]);
+    }
+}
+
+template <typename Stream>
 void fields(Stream& s, auto& m, const Ghosts&) {
     s.integer(m.count);
     s.require(m.count >= 1 && m.count <= Ghosts::max_count);
@@ -213,6 +222,14 @@ Vec3 position_as_sent(const Vec3& position) {
 
 Vec3 velocity_as_sent(const Vec3& velocity) {
     return glm::round(velocity / velocity_quantum) * velocity_quantum;
+}
+
+Quat rotation_as_sent(const Quat& rotation) {
+    return rotation_of(whole_turn(rotation));
+}
+
+Vec3 spin_as_sent(const Vec3& spin) {
+    return glm::round(spin / spin_quantum) * spin_quantum;
 }
 
 std::size_t encode(const PacketHeader& header, const Message& message, std::span<std::byte> into) {

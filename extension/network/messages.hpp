@@ -137,8 +137,8 @@ struct ObjectStates {
     std::array<ObjectState, max_count> states{};
 };
 
-// The hand at one tick of the operator.
-struct OperatorSample {
+// What a hand does at one tick of the operator.
+struct PointerSample {
     SampleSequence sequence = no_sample;
     Nanoseconds time = 0;
     std::uint16_t pointer = 0;  // which of the operator's pointers, from 0
@@ -151,18 +151,32 @@ struct OperatorSample {
     Vec3 position_in_object{0.0};  // of the hand, in the frame of the nearest object (unit: meters)
 };
 
+// The same of a hand that may hold a tool: then position, velocity and rotation are those of the tool where
+// the hand would have it. Tools have pointer numbers of their own, from first_tool on.
+struct OperatorSample : PointerSample {
+    bool has_turn = false;  // else a fingertip's, and what follows means nothing
+    Quat rotation{1.0, 0.0, 0.0, 0.0};
+    Vec3 spin{0.0};  // how it turns (unit: radians per second)
+};
+inline constexpr std::uint16_t first_tool = 16;
+
 // What is sent often is rounded to these.
 inline constexpr double position_quantum = 1e-9;  // (unit: meters)
 inline constexpr double velocity_quantum = 1e-6;  // (unit: meters per second)
 inline constexpr double force_quantum = 1e-4;     // (unit: newtons)
+inline constexpr double spin_quantum = 1e-6;      // (unit: radians per second)
+inline constexpr double torque_quantum = 1e-6;    // (unit: newton meters)
 
-// What the other side reads of a position, and of a velocity. Rounds once: of what it gives it gives the
-// same.
+// What the other side reads of a position, a velocity, and of how a hand with a tool is turned and turns.
+// Rounds once: of what it gives it gives the same.
 Vec3 position_as_sent(const Vec3& position);
 Vec3 velocity_as_sent(const Vec3& velocity);
+Quat rotation_as_sent(const Quat& rotation);
+Vec3 spin_as_sent(const Vec3& spin);
 
 // Of any pointers: the newest sample and, where the sender wants to survive losses, some older ones. What
 // follows a sample of the same pointer is told as what differs from it: newest first takes fewest bytes.
+// Tools' are in packets of their own, which a reader that knows no tools refuses.
 struct OperatorSamples {
     static constexpr std::size_t max_count = 16;
 
@@ -186,6 +200,24 @@ struct ForceSamples {
 
     std::uint8_t count = 0;  // 1 … max_count
     std::array<ForceSample, max_count> samples{};
+};
+
+// The same for a tool, with its torque.
+struct WrenchSample {
+    std::uint16_t pointer = 0;
+    Nanoseconds true_at = 0;
+    SampleSequence newest_operator_sample = no_sample;  // that the wrench answers
+    Vec3 force{0.0};                                    // on the hand (unit: newtons)
+    Vec3 torque{0.0};             // likewise, about where it would have the tool (unit: newton meters)
+    Pose tool;                    // where the far side's tool is
+    ObjectId object = no_object;  // that is touched
+};
+
+struct WrenchSamples {
+    static constexpr std::size_t max_count = 8;
+
+    std::uint8_t count = 0;  // 1 … max_count
+    std::array<WrenchSample, max_count> samples{};
 };
 
 // A fingertip of another operator in the same environment: something to be seen, nothing to be felt.
@@ -227,7 +259,7 @@ struct ObjectEstimates {
 
 using Message = std::variant<Hello, Bye, ClockRequest, ClockAnswer, DiscoveryFragment, ObjectRemoval,
                              DiscoveryAcknowledgement, ObjectStates, OperatorSamples, ForceSamples, Ghosts,
-                             ObjectEstimates>;
+                             ObjectEstimates, WrenchSamples>;
 
 struct Packet {
     PacketHeader header;

@@ -18,6 +18,8 @@ inline constexpr double max_speed = 1e3;
 inline constexpr double max_angular_speed = 1e4;
 // On a hand, each component (unit: newtons).
 inline constexpr double max_force = 1e3;
+// Likewise (unit: newton meters).
+inline constexpr double max_torque = 1e3;
 // Each component (unit: meters per second squared).
 inline constexpr double max_gravity = 100.0;
 

@@ -101,6 +101,70 @@ inline void rotation_fields(WireReader& s, Quat& q, std::uint8_t largest) {
     }
 }
 
+// The same in whole numbers, for what is rounded before it is told: rounds once. Of parts that are as large
+// but for rounding the first is left out, so that rounding does not change which.
+struct WholeTurn {
+    WholeVector parts{};  // x, y, z, w but the largest
+    std::uint8_t largest = 3;
+};
+
+inline WholeTurn whole_turn(const Quat& q) {
+    constexpr double alike = 1e-8;
+    const std::array<double, 4> parts{q.x, q.y, q.z, q.w};
+    const double most = std::abs(parts[largest_part(q)]) - alike;
+    WholeTurn turn{{}, 0};
+    while (turn.largest < 3 && std::abs(parts[turn.largest]) < most) {
+        ++turn.largest;
+    }
+    const double length = glm::length(q);
+    const double scale = rotation_scale / (parts[turn.largest] < 0.0 ? -length : length);
+    for (std::size_t i = 0, k = 0; i < 4; ++i) {
+        if (i != turn.largest) {
+            turn.parts[k++] = std::llround(parts[i] * scale);
+        }
+    }
+    return turn;
+}
+
+inline Quat rotation_of(const WholeTurn& turn) {
+    std::array<double, 4> parts{};
+    double rest = 1.0;
+    for (std::size_t i = 0, k = 0; i < 4; ++i) {
+        if (i != turn.largest) {
+            parts[i] = static_cast<double>(turn.parts[k++]) / rotation_scale;
+            rest -= parts[i] * parts[i];
+        }
+    }
+    parts[turn.largest] = std::sqrt(rest);
+    return glm::normalize(Quat(parts[3], parts[0], parts[1], parts[2]));
+}
+
+// Of a hand that holds a tool: how it is turned, as what that differs by from `expected`, which is of the
+// same parts.
+inline void turn_fields(WireWriter& s, const Quat& q, const WholeTurn& turn, const WholeVector& expected) {
+    const double length = glm::length(q);
+    s.require(std::isfinite(length) && std::abs(length - 1.0) < quaternion_tolerance);
+    for (std::size_t i = 0; s.good() && i < 3; ++i) {
+        s.folded_varint(turn.parts[i] - expected[i]);
+    }
+}
+inline void turn_fields(WireReader& s, Quat& q, WholeTurn& turn, const WholeVector& expected) {
+    constexpr double least = 0.25 - 1e-6;  // the square of the largest of four
+    double rest = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::int64_t difference = 0;
+        s.folded_varint(difference);
+        constexpr std::int64_t no_overflow = std::int64_t{1} << 40;
+        s.require(difference > -no_overflow && difference < no_overflow);
+        turn.parts[i] = s.good() ? expected[i] + difference : 0;
+        s.require(std::abs(turn.parts[i]) <= max_rotation_part);
+        const double part = static_cast<double>(turn.parts[i]) / rotation_scale;
+        rest -= part * part;
+    }
+    s.require(rest >= least);
+    q = s.good() ? rotation_of(turn) : Quat(1.0, 0.0, 0.0, 0.0);
+}
+
 template <typename Stream>
 void single_vector(Stream& s, auto& value, double most) {
     for (int i = 0; i < 3; ++i) {
@@ -156,6 +220,35 @@ void force_sample_fields(Stream& s, auto& m) {
     s.require(m.newest_operator_sample <= plausible::max_sequence);
     whole_fields(s, m.force, force_quantum, plausible::max_force);
     whole_fields(s, m.proxy, position_quantum, plausible::max_position);
+    std::uint64_t object = m.object == no_object ? 0 : std::uint64_t{m.object} + 1;  // 0: none
+    s.varint(object);
+    s.require(object <= no_object);
+    if constexpr (Stream::reads) {
+        m.pointer = static_cast<std::uint16_t>(pointer);
+        m.object = object == 0 ? no_object : static_cast<ObjectId>(object - 1);
+    }
+}
+
+template <typename Stream>
+void wrench_sample_fields(Stream& s, auto& m) {
+    std::uint64_t pointer = m.pointer;
+    s.varint(pointer);
+    s.require(pointer <= 0xffffu);
+    s.time_near(m.true_at);
+    s.varint(m.newest_operator_sample);
+    s.require(m.newest_operator_sample <= plausible::max_sequence);
+    whole_fields(s, m.force, force_quantum, plausible::max_force);
+    whole_fields(s, m.torque, torque_quantum, plausible::max_torque);
+    std::uint8_t largest = 0;
+    if constexpr (!Stream::reads) {
+        largest = largest_part(m.tool.rotation);
+    }
+    s.integer(largest);
+    s.require(largest < 4);
+    whole_fields(s, m.tool.position, position_quantum, plausible::max_position);
+    if (s.good()) {
+        rotation_fields(s, m.tool.rotation, largest);
+    }
     std::uint64_t object = m.object == no_object ? 0 : std::uint64_t{m.object} + 1;  // 0: none
     s.varint(object);
     s.require(object <= no_object);
@@ -242,7 +335,8 @@ void object_estimate_fields(Stream& s, auto& m) {
 
 // A sample in whole numbers.
 struct WholeSample {
-    WholeVector position{}, velocity{}, force{}, relative{};
+    WholeVector position{}, velocity{}, force{}, relative{}, spin{};
+    WholeTurn turn;
 };
 
 // What a packet has told so far of a pointer, the newest first: the next sample is told from it.
@@ -266,7 +360,27 @@ inline WholeSample expected_from(const ToldSamples& told, std::int64_t apart) {
     expected.velocity = carried_on(told.last.velocity, told.before.velocity, evenly);
     expected.force = carried_on(told.last.force, told.before.force, evenly);
     expected.relative = carried_on(told.last.relative, told.before.relative, evenly);
+    expected.spin = carried_on(told.last.spin, told.before.spin, evenly);
+    const bool same_parts = told.last.turn.largest == told.before.turn.largest;
+    expected.turn.largest = told.last.turn.largest;
+    expected.turn.parts = carried_on(told.last.turn.parts, told.before.turn.parts, evenly && same_parts);
     return expected;
+}
+
+// How a hand that holds a tool is turned and turns.
+template <typename Stream, typename Sample>
+void sample_turn(Stream& s, Sample& m, WholeSample& number, const WholeSample& expected) {
+    std::uint8_t largest = 0;
+    if constexpr (!Stream::reads) {
+        number.turn = whole_turn(m.rotation);
+        largest = number.turn.largest;
+    }
+    s.integer(largest);
+    s.require(largest < 4);
+    number.turn.largest = s.good() ? largest : 0;
+    const bool same_parts = expected.turn.largest == number.turn.largest;
+    turn_fields(s, m.rotation, number.turn, same_parts ? expected.turn.parts : WholeVector{});
+    whole_fields(s, m.spin, number.spin, expected.spin, spin_quantum, plausible::max_angular_speed);
 }
 
 // Where the hand was `later` nanoseconds before, had its velocity changed evenly since: 1e-6 m/s times 1e-9 s
@@ -288,7 +402,7 @@ enum SampleFlag : std::uint8_t {
     sample_nearest = 16,
     sample_time = 32,  // is not taken when its place in the sequence says
     sample_next = 64,  // follows, and is of the tick just before
-    sample_known = 127,
+    sample_turn_told = 128,
 };
 
 // The farthest that a sample is told from another one (unit: nanoseconds).
@@ -314,10 +428,9 @@ void operator_sample(Stream& s, Sample& m, const OperatorSample* before, ToldSam
             (m.connected ? sample_connected : 0) | (follows ? sample_follows : 0) |
             (apart == 1 ? sample_next : 0) | (m.buttons != 0 ? sample_buttons : 0) |
             (m.force != Vec3(0.0) ? sample_force : 0) | (m.nearest_object != no_object ? sample_nearest : 0) |
-            (m.time != expected_time ? sample_time : 0));
+            (m.time != expected_time ? sample_time : 0) | (m.has_turn ? sample_turn_told : 0));
     }
     s.integer(flags);
-    s.require((flags & ~sample_known) == 0);
     const bool follows = (flags & sample_follows) != 0;
     const bool is_next = (flags & sample_next) != 0;
     s.require((!follows || before != nullptr) && (follows || !is_next));
@@ -372,6 +485,14 @@ void operator_sample(Stream& s, Sample& m, const OperatorSample* before, ToldSam
         object_fields(s, m.nearest_object);
         whole_fields(s, m.position_in_object, number.relative, expected.relative, position_quantum,
                      plausible::max_position);
+    }
+    if constexpr (Stream::reads) {
+        m.has_turn = (flags & sample_turn_told) != 0;
+        m.rotation = Quat(1.0, 0.0, 0.0, 0.0);
+        m.spin = Vec3(0.0);
+    }
+    if (m.has_turn) {
+        sample_turn(s, m, number, expected);
     }
     told = {number, told.last, apart};
     if constexpr (Stream::reads) {

@@ -30,7 +30,8 @@ bool is_plausible(const OperatorSample& sample) {
     return within(sample.position, plausible::max_position) &&
            within(sample.velocity, plausible::max_speed) &&
            within(sample.position_in_object, plausible::max_position) &&
-           within(sample.force, std::numeric_limits<double>::max());
+           within(sample.force, std::numeric_limits<double>::max()) &&
+           (!sample.has_turn || within(sample.spin, plausible::max_angular_speed));
 }
 
 }  // namespace
@@ -108,7 +109,9 @@ SampleStream::Sent SampleStream::send(Endpoint& link) {
             continue;
         }
         const std::uint32_t wanted = std::min(pointer.count, pointer.waiting + older());
-        if (message.count + wanted > OperatorSamples::max_count) {
+        const bool goes_apart =
+            message.count > 0 && message.samples[0].has_turn != pointer.samples[0].has_turn;
+        if (goes_apart || message.count + wanted > OperatorSamples::max_count) {
             send_message(link, message);
         }
         const auto room = std::min<std::uint32_t>(wanted, OperatorSamples::max_count);

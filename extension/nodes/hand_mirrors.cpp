@@ -94,9 +94,11 @@ void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& sess
 void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints,
                               bool waits) {
     complaints.say(node, node.problem());
-    if (is_linked_) {
-        complaints.say(node,
-                       "over a link only fingertips touch: use a ProxyPointer, or take the MMTLink away");
+    if (has_robots_) {
+        complaints.say(
+            node,
+            "over a link a robot follows fingertips alone: use a ProxyPointer, or another scenario "
+            "of the MMTLink");
         return;
     }
     node.make_shape(waits);

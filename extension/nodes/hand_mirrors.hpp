@@ -20,9 +20,9 @@ class HandMirrors {
 public:
     // `stand_in`: what plays every device, as at a far side, where the hand is the operator's; null: each
     // its own.
-    // `is_linked`: hands are told over a link, which knows fingertips alone.
-    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in, bool is_linked)
-        : world_(world), stand_in_(std::move(stand_in)), is_linked_(is_linked) {}
+    // `has_robots`: hands are told over a link to robots, which follow fingertips alone.
+    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in, bool has_robots)
+        : world_(world), stand_in_(std::move(stand_in)), has_robots_(has_robots) {}
 
     // `waits`: what takes time to be made is waited for.
     void synchronise(Session& session, Complaints& complaints, bool waits);
@@ -77,7 +77,7 @@ private:
 
     const HapticWorld& world_;
     std::shared_ptr<Device> stand_in_;
-    bool is_linked_;
+    bool has_robots_;
     std::vector<DeviceMirror> devices_;
     std::vector<ProxyMirror> proxies_;
     std::vector<ToolMirror> tools_;

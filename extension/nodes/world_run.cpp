@@ -62,7 +62,7 @@ WorldRun::WorldRun(HapticWorld& world, RunSettings settings)
     const bool stands_in =
         !settings.links.empty() && model_ == nullptr && !settings.links.front()->has_robots();
     hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr,
-                                           !settings.links.empty());
+                                           !settings.links.empty() && settings.links.front()->has_robots());
 }
 
 WorldRun::~WorldRun() {

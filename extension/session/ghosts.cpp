@@ -5,6 +5,7 @@
 
 #include "session/session_loop.hpp"
 #include "session/teleoperator_side.hpp"
+#include "session/tool_slot.hpp"
 
 namespace tactus {
 
@@ -25,6 +26,10 @@ bool looks_the_same(const Ghosts& a, const Ghosts& b) {
                       });
 }
 
+double largest_ball(const ToolShape& shape) {
+    return std::ranges::max_element(shape.spheres, {}, &ToolSphere::radius)->radius;
+}
+
 }  // namespace
 
 const Ghosts* GhostTeller::due(SessionLoop& loop, const PointerShare& share, const Pose& frame,
@@ -42,6 +47,16 @@ const Ghosts* GhostTeller::due(SessionLoop& loop, const PointerShare& share, con
         there.ghosts[there.count++] = {static_cast<std::uint16_t>(i), slot.state.contact_count > 0,
                                        to_local(frame, slot.state.position),
                                        std::min(slot.description.settings.radius, max_ghost_radius)};
+    }
+    // A tool is seen as a ball at its place, as large as the largest that it has room for.
+    for (std::size_t i = 0; i < max_tools && there.count < Ghosts::max_count; ++i) {
+        const ToolSlot* const slot = loop.tool(i);
+        if (!share.has(i) && slot && slot->hand.holds) {
+            there.ghosts[there.count++] = {static_cast<std::uint16_t>(first_tool + i),
+                                           slot->state.contact_count > 0,
+                                           to_local(frame, slot->state.pose.position),
+                                           std::min(largest_ball(slot->proxy.shape()), max_ghost_radius)};
+        }
     }
     if (there.count == 0 || (since < standing_every && looks_the_same(there, said_))) {
         return nullptr;

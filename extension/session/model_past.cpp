@@ -9,6 +9,11 @@ void ModelPast::note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
         moment.hands[i] = {slot.hand, slot.hand_velocity, slot.idle};
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = loop.tool(i)) {
+            moment.tools[i] = slot->hand;
+        }
+    }
 }
 
 void ModelPast::note_pushes(SessionLoop& loop, const TruthStore& truths, SampleSequence sample) {

@@ -7,6 +7,7 @@
 
 #include "core/teleop/state_history.hpp"
 #include "session/session_loop.hpp"
+#include "session/tool_slot.hpp"
 #include "session/truth_store.hpp"
 
 namespace tactus {
@@ -21,6 +22,7 @@ public:
     struct Moment {
         Nanoseconds time = 0;
         std::array<Hand, max_proxies> hands;
+        std::array<ToolHand, max_tools> tools;
     };
 
     ModelPast(std::size_t places, std::size_t samples)

@@ -143,20 +143,10 @@ void OperatorSide::take_over_found(SessionLoop& loop) {
     });
 }
 
-bool OperatorSide::is_touched(SessionLoop& loop, SessionHandle body) const {
-    for (std::size_t i = 0; i < max_proxies; ++i) {
-        const SessionLoop::ProxySlot& slot = loop.proxy(i);
-        if (slot.present() && loop.rests_on(*slot.proxy, body)) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // At once where nobody touches it, else so slowly that no change has to be let go of, each tick's hidden like
 // any other. True when all is taken over.
 bool OperatorSide::take_over(SessionLoop& loop, SessionHandle body, const ObjectEstimate& estimate) {
-    const double share = is_touched(loop, body) ? unnoticed_a_second * seconds_ : 1e9;
+    const double share = loop.is_touched(body) ? unnoticed_a_second * seconds_ : 1e9;
     bool is_done = true, is_other = false;
     const auto towards = [&](double now, const TouchValue& told, double least) {
         const double left = told.value - now;

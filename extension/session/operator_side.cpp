@@ -12,7 +12,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
                            const EndpointSettings& endpoint)
     : room_(room),
       channel_(settings, link, std::move(port), endpoint),
-      samples_({std::max(1u, settings.repeats) - 1, max_proxies, session.period}),
+      samples_({std::max(1u, settings.repeats) - 1, first_tool + max_tools, session.period}),
       seconds_(to_seconds(session.period)),
       truths_(session.max_bodies, room.max_tracked),
       past_(room.max_tracked, room.samples),
@@ -26,7 +26,7 @@ OperatorSide::OperatorSide(const SessionSettings& session, const OperatorRoom& r
     pupils_.reserve(room.max_tracked);
     targets_.reserve(session.max_bodies);
     news_.reserve(session.max_bodies);
-    hands_.reserve(max_proxies);
+    hands_.reserve(max_proxies + max_tools);
     for (std::size_t i = 0; i < std::min(room.pointers, pointers_.size()); ++i) {
         pointers_[i].carried.take_room(session.max_parts);
     }
@@ -37,16 +37,25 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < max_proxies; ++i) {
         changed_ = changed_ || has_leapt(loop, loop.proxy(i).state);
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        changed_ = changed_ || (loop.tool(i) && has_leapt(loop, loop.tool(i)->state));
+    }
     if (channel_.begin_tick(now)) {
         take_settings(loop);
     }
     ++sample_;
     round_hands(loop);
+    round_tools(loop);
     past_.note_hands(loop, sample_, now);
     hands_.clear();
     for (std::size_t i = 0; i < max_proxies; ++i) {
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.present()) {
             hands_.push_back(slot.hand);
+        }
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = loop.tool(i); slot && slot->hand.holds) {
+            hands_.push_back(slot->hand.goal.position);
         }
     }
     receive(loop, now);
@@ -111,6 +120,15 @@ void OperatorSide::begin_model(SessionLoop& loop) {
             slot.proxy->recall(memory);
         }
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        ToolSlot* const slot = loop.tool(i);
+        if (slot && traditional_.far_tool(i).sample != no_sample) {
+            ToolMemory memory;
+            memory.pose = traditional_.far_tool(i).tool;
+            memory.present = true;
+            slot->proxy.recall(memory, loop.scene());
+        }
+    }
 }
 
 // --- receiving
@@ -133,6 +151,10 @@ void OperatorSide::receive(SessionLoop& loop, Nanoseconds now) {
         } else if (const auto* const forces = std::get_if<ForceSamples>(message)) {
             for (std::size_t i = 0; i < forces->count; ++i) {
                 take(forces->samples[i]);
+            }
+        } else if (const auto* const wrenches = std::get_if<WrenchSamples>(message)) {
+            for (std::size_t i = 0; i < wrenches->count; ++i) {
+                take(wrenches->samples[i]);
             }
         } else if (const auto* const ghosts = std::get_if<Ghosts>(message)) {
             ghosts_.take(*ghosts, packet->header.sequence, settings().frame, now);
@@ -361,6 +383,22 @@ void OperatorSide::take(const ForceSample& force) {
     statistics_.round_trip = static_cast<double>(sample_ - force.newest_operator_sample) * seconds_;
 }
 
+void OperatorSide::take(const WrenchSample& wrench) {
+    if (wrench.pointer < first_tool || wrench.pointer >= first_tool + max_tools ||
+        wrench.newest_operator_sample > sample_) {
+        return;
+    }
+    WrenchSample here = wrench;
+    here.force = direction_to_parent(settings().frame, wrench.force);
+    here.torque = direction_to_parent(settings().frame, wrench.torque);
+    here.tool = compose(settings().frame, wrench.tool);
+    if (!traditional_.take(here, body_of(wrench.object), sample_)) {
+        ++statistics_.stale_states;
+        return;
+    }
+    statistics_.round_trip = static_cast<double>(sample_ - wrench.newest_operator_sample) * seconds_;
+}
+
 // Traditional: bodies are shown where the far side last said.
 void OperatorSide::follow_far_side(SessionLoop& loop) {
     for (const SessionHandle body : truths_.fresh()) {
@@ -404,6 +442,11 @@ bool OperatorSide::nothing_is_touched(SessionLoop& loop) const {
     for (std::size_t i = 0; i < max_proxies; ++i) {
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.present() && !slot.proxy->touching().empty()) {
+            return false;
+        }
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (loop.tool(i) && !loop.tool(i)->proxy.touching().empty()) {
             return false;
         }
     }
@@ -493,13 +536,22 @@ void OperatorSide::derive_targets(SessionLoop& loop, bool only_without_past) {
 // Of all that is touched, how far off what is known least well may be.
 double OperatorSide::touched_doubt(SessionLoop& loop) const {
     double most = 0.0;
-    for (std::size_t i = 0; i < max_proxies; ++i) {
-        const SessionLoop::ProxySlot& slot = loop.proxy(i);
-        for (int k = 0; slot.present() && k < slot.state.contact_count; ++k) {
-            const SessionHandle body = slot.state.bodies[static_cast<std::size_t>(k)];
+    const auto look = [&](const auto& state) {
+        for (int k = 0; k < state.contact_count; ++k) {
+            const SessionHandle body = state.bodies[static_cast<std::size_t>(k)];
             if (truths_.knows(body) && found_[body].estimate.has_doubt) {
                 most = std::max(most, place_deviation(found_[body].estimate.doubt));
             }
+        }
+    };
+    for (std::size_t i = 0; i < max_proxies; ++i) {
+        if (loop.proxy(i).present()) {
+            look(loop.proxy(i).state);
+        }
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (loop.tool(i)) {
+            look(loop.tool(i)->state);
         }
     }
     return most;
@@ -517,6 +569,12 @@ void OperatorSide::report(SessionLoop& loop, Nanoseconds now) {
         if (loop.proxy(i).present()) {
             note_given(loop, i);
             send_sample(loop, i, now);
+        }
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = loop.tool(i)) {
+            tools_[i].given = {loop.given_force(*slot), slot->state.torque};
+            send_tool(loop, i, *slot, now);
         }
     }
     samples_.end_tick(channel_.link(), now);

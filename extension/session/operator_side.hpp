@@ -8,13 +8,16 @@
 //
 // operator_side.cpp hears and compares, operator_learning.cpp learns what bodies weigh and how they slide,
 // and takes over what the far side has learnt, operator_touch.cpp puts right and gives the hand its force,
-// operator_sending.cpp tells the far side.
+// operator_sending.cpp tells the far side. operator_tools.cpp does for hands that hold a tool what the last
+// two do for pointers.
 #pragma once
 
 #include "core/haptics/surface_spring.hpp"
 #include "core/teleop/felt_pointer.hpp"
+#include "core/teleop/felt_tool.hpp"
 #include "core/teleop/passive_update.hpp"
 #include "core/teleop/pose_filter.hpp"
+#include "core/teleop/wrench_passivity.hpp"
 #include "network/sample_stream.hpp"
 #include "session/carried_pointer.hpp"
 #include "session/channel.hpp"
@@ -39,6 +42,19 @@ struct TouchedBody {
     double friction = 0.0;  // static, of the pointer on it
     double mass = 0.0;      // (unit: kilograms); 0: it does not move, or nothing is touched
 };
+
+// What another friction or mass of what is touched makes of a force comes as the hand and the body go on: at
+// most so much (unit: newtons).
+double change_to_come(const TouchedBody& before, const TouchedBody& now, double force);
+// Of a pointer's or a tool's state.
+TouchedBody touched_body(const SessionLoop& loop, const auto& state) {
+    const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
+    return under ? TouchedBody{loop.scene().body(under->slot).material.static_friction,
+                               loop.mass(state.bodies[0])}
+                 : TouchedBody{};
+}
+// FeltStatus.
+std::uint32_t felt_status(FeltState state);
 
 class OperatorSide final : public TeleopSide {
 public:
@@ -68,6 +84,25 @@ private:
         bool answered = false;                // traditional: what the far side said last still held then
         OperatorPassivity passivity;
         PassiveUpdate update;
+        // Sending.
+        OperatorSample sent;
+        bool has_sent = false;
+        Nanoseconds sent_at = 0;
+    };
+
+    // The same for a tool.
+    struct Tool {
+        FeltTool felt;
+        Wrench uncorrected;                // in this tick if nothing were corrected
+        bool jumped = false;               // likewise
+        Wrench modelled, modelled_before;  // one and two ticks ago
+        Pose hand;                         // ToolHand::goal, one tick ago
+        Vec3 place{0.0};                   // ToolHand::place, one tick ago (unit: meters)
+        Wrench given;                      // to the hand, one tick ago
+        TouchedBody touched;               // one tick ago
+        bool known = false;
+        bool answered = false;
+        WrenchPassivity passivity;
         // Sending.
         OperatorSample sent;
         bool has_sent = false;
@@ -112,6 +147,7 @@ private:
     SessionHandle body_of(ObjectId object) const;
     void take(const ObjectStates& states, std::uint64_t packet, SessionLoop& loop);
     void take(const ForceSample& force);
+    void take(const WrenchSample& wrench);
     void take(const ObjectEstimates& estimates, std::uint64_t packet);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
@@ -128,7 +164,6 @@ private:
     bool lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const;
     void teach(SessionLoop& loop, std::size_t group);
     void take_over_found(SessionLoop& loop);
-    bool is_touched(SessionLoop& loop, SessionHandle body) const;
     bool take_over(SessionLoop& loop, SessionHandle body, const ObjectEstimate& estimate);
     void set_factors(SessionLoop& loop, SessionHandle body, const ParameterEstimate& estimate);
 
@@ -144,9 +179,23 @@ private:
                       bool changed);
     Vec3 passive_force(std::size_t index, const SessionLoop::ProxySlot& slot, bool answers);
     void note_given(SessionLoop& loop, std::size_t index);
-    bool has_leapt(SessionLoop& loop, const ProxyState& touch) const;
+    template <typename State>  // ProxyState or ToolState
+    bool has_leapt(SessionLoop& loop, const State& touch) const;
+    SampleSequence silence() const;
+    void add_energy(const EnergyFigures& energy);
+    void note_cost(double faded, double force);
     void feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now);
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
+
+    // --- operator_tools.cpp
+    void round_tools(SessionLoop& loop) const;
+    bool tool_lands(SessionLoop& loop, std::size_t index);
+    void feel_tools(SessionLoop& loop);
+    Wrench modelled_wrench(const SessionLoop& loop, Tool& tool, ToolSlot& slot, bool changed);
+    Wrench far_wrench(std::size_t index, ToolSlot& slot, bool& changed);
+    void feel(SessionLoop& loop, std::size_t index, ToolSlot& slot);
+    void hide_changes(Tool& tool, const Wrench& modelled, const ToolSlot& slot, bool changed);
+    void send_tool(SessionLoop& loop, std::size_t index, const ToolSlot& slot, Nanoseconds now);
 
     // --- operator_sending.cpp
     void acknowledge();
@@ -174,6 +223,7 @@ private:
     std::vector<ObjectId> object_of_body_;
     std::vector<Vec3> hands_;  // that are there
     std::array<Pointer, max_proxies> pointers_;
+    std::array<Tool, max_tools> tools_;
     std::vector<Target> targets_;  // of this tick
     bool corrected_ = false;       // in this tick
     bool changed_ = false;  // something else than a correction has changed what is touched in this tick

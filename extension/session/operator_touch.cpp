@@ -27,20 +27,19 @@ SurfaceSpring spring_under(const SessionLoop& loop, const ProxyState& state) {
     return spring.is_linear() ? SurfaceSpring{stiffer, stiffer} : spring;
 }
 
-// What another friction or mass of what is touched makes of a force comes as the hand and the body go on: at
-// most so much (unit: newtons).
+// A body that has gone so much farther than its rates say has been put there (unit: meters).
+constexpr double leap = 2e-4;
+
+// A far side that has heard nothing more of the hand for so long has lost it (unit: seconds).
+constexpr double usual_silence = 0.5;
+
+}  // namespace
+
 double change_to_come(const TouchedBody& before, const TouchedBody& now, double force) {
     const double rubbed = std::max(0.0, now.friction - before.friction);
     const double heavier =
         before.mass > 0.0 && now.mass > 0.0 ? std::abs(now.mass - before.mass) / before.mass : 0.0;
     return std::max(rubbed, heavier) * force;
-}
-
-TouchedBody touched_body(const SessionLoop& loop, const ProxyState& state) {
-    const SessionLoop::Body* const under = state.contact_count > 0 ? loop.body(state.bodies[0]) : nullptr;
-    return under ? TouchedBody{loop.scene().body(under->slot).material.static_friction,
-                               loop.mass(state.bodies[0])}
-                 : TouchedBody{};
 }
 
 std::uint32_t felt_status(FeltState state) {
@@ -56,14 +55,6 @@ std::uint32_t felt_status(FeltState state) {
     }
     return 0;
 }
-
-// A body that has gone so much farther than its rates say has been put there (unit: meters).
-constexpr double leap = 2e-4;
-
-// A far side that has heard nothing more of the hand for so long has lost it (unit: seconds).
-constexpr double usual_silence = 0.5;
-
-}  // namespace
 
 // --- correcting
 
@@ -81,6 +72,10 @@ bool OperatorSide::lands(SessionLoop& loop, Nanoseconds now) {
         const bool was_free = proxy.touching().empty();
         pointer.uncorrected = force_uncorrected(loop, pointer, slot, now);
         any = any || (was_free && glm::length(pointer.uncorrected.force) > no_force);
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        const bool lands = tool_lands(loop, i);
+        any = any || lands;
     }
     return any && is_stealthy(settings().correction);
 }
@@ -133,8 +128,14 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
         loop.put_right(target.body, target.motion, with_velocity, rides,
                        target.previous_known ? &target.previous : nullptr);
     }
-    // The pointers that press go on from where the replay has led them.
+    // The pointers and tools that press go on from where the replay has led them.
     const bool replayed = std::ranges::any_of(targets_, &Target::previous_known);
+    for (std::size_t i = 0; i < max_tools && replayed; ++i) {
+        ToolSlot* const slot = loop.tool(i);
+        if (slot && resimulator_.twin()->tool(i)) {
+            slot->proxy.recall(resimulator_.twin()->tool(i)->proxy.memory(), loop.scene());
+        }
+    }
     for (std::size_t i = 0; i < max_proxies && replayed; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);
         if (slot.proxy && resimulator_.twin()->proxy(i).proxy) {
@@ -174,6 +175,7 @@ void OperatorSide::set_forces(SessionLoop& loop, Nanoseconds now) {
         }
         feel(loop, i, slot, now);
     }
+    feel_tools(loop);
 }
 
 // What touch leaps by, a pointer that slips off an edge, say, fades as it does where the scene is. What a
@@ -238,7 +240,8 @@ void OperatorSide::note_given(SessionLoop& loop, std::size_t index) {
 }
 
 // Whether what is touched is not where its motion leads: a joint, say, has put it there.
-bool OperatorSide::has_leapt(SessionLoop& loop, const ProxyState& touch) const {
+template <typename State>
+bool OperatorSide::has_leapt(SessionLoop& loop, const State& touch) const {
     if (settings().traditional) {
         return false;
     }
@@ -261,6 +264,15 @@ bool OperatorSide::has_leapt(SessionLoop& loop, const ProxyState& touch) const {
     }
     return false;
 }
+template bool OperatorSide::has_leapt(SessionLoop&, const ProxyState&) const;
+template bool OperatorSide::has_leapt(SessionLoop&, const ToolState&) const;
+
+// With a deadband it may be that nothing needs saying, and some of what is said is lost (unit: ticks).
+SampleSequence OperatorSide::silence() const {
+    const double silence =
+        settings().deadband.enabled ? 5.0 * to_seconds(settings().deadband.longest_silence) : usual_silence;
+    return static_cast<SampleSequence>(silence / seconds_);
+}
 
 void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot, Nanoseconds now) {
     Pointer& pointer = pointers_[index];
@@ -271,12 +283,7 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     in.hand_velocity = way / seconds_;
     in.seconds = seconds_;
     if (settings().traditional) {
-        // With a deadband it may be that nothing needs saying, and some of what is said is lost.
-        const double silence = settings().deadband.enabled
-                                   ? 5.0 * to_seconds(settings().deadband.longest_silence)
-                                   : usual_silence;
-        const bool answers = traditional_.answers(index, sample_, channel_.link().hears_peer(),
-                                                  static_cast<SampleSequence>(silence / seconds_));
+        const bool answers = traditional_.answers(index, sample_, channel_.link().hears_peer(), silence());
         changed |= std::exchange(pointer.answered, answers) != answers;
         in.modelled = passive_force(index, slot, answers);
         traditional_.describe(index, slot, in.modelled);
@@ -353,16 +360,22 @@ void OperatorSide::tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std
     statistics_.pointers[index] = {state, glm::length(pointer.carried.offset()), glm::length(felt.hidden())};
     statistics_.let_go += felt.begins_to_let_go() ? 1 : 0;
     statistics_.offset = std::max(statistics_.offset, glm::length(pointer.carried.offset()));
-    const EnergyFigures& energy = felt.energy();
+    add_energy(felt.energy());
+    note_cost(felt.faded(), glm::length(slot.state.force));
+}
+
+void OperatorSide::add_energy(const EnergyFigures& energy) {
     statistics_.energy.hand_J += energy.hand_J;
     statistics_.energy.tank_J += energy.tank_J;
     statistics_.energy.hidden_J += energy.hidden_J;
     statistics_.energy.damped_J += energy.damped_J;
+}
+
+void OperatorSide::note_cost(double faded, double force) {
     CorrectionCost& cost = statistics_.cost;
-    cost.faded = std::max(cost.faded, felt.faded());
+    cost.faded = std::max(cost.faded, faded);
     statistics_.largest_force_step = std::max(statistics_.largest_force_step, cost.force_step);
-    cost.jnd_share =
-        (cost.force_step + cost.faded) / just_noticeable(settings().stealth, glm::length(slot.state.force));
+    cost.jnd_share = (cost.force_step + cost.faded) / just_noticeable(settings().stealth, force);
 }
 
 }  // namespace tactus

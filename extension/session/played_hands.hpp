@@ -1,9 +1,11 @@
 // The operator's hands as the far side has them: what comes is kept and played out on this side's ticks
-// (jitter_buffer.hpp), as the owner's settings and the ticks of the two sides ask for.
+// (jitter_buffer.hpp), as the owner's settings and the ticks of the two sides ask for. Those that hold tools
+// are kept with these (tool_slot.hpp), so that a side without a tool has no room for them.
 #pragma once
 
 #include "core/teleop/jitter_buffer.hpp"
 #include "session/channel.hpp"
+#include "session/tool_slot.hpp"
 
 namespace tactus {
 
@@ -22,22 +24,46 @@ public:
         }
     }
 
-    void take(const OperatorSamples& samples) {
+    // `tool`: gives that of an operator's number, or null.
+    template <typename ToolOf>
+    void take(const OperatorSamples& samples, ToolOf&& tool) {
         for (std::size_t i = 0; i < samples.count; ++i) {
-            if (samples.samples[i].pointer < pointers_) {
-                buffers_[samples.samples[i].pointer].insert(samples.samples[i]);
+            const OperatorSample& sample = samples.samples[i];
+            if (sample.pointer < pointers_ && !sample.has_turn) {
+                buffers_[sample.pointer].insert(sample);
+            } else if (sample.pointer >= first_tool && sample.has_turn) {
+                if (ToolSlot* const slot = tool(sample.pointer - first_tool); slot && slot->heard) {
+                    slot->heard->insert(sample);
+                }
             }
         }
     }
+    void take(const OperatorSamples& samples) {
+        take(samples, [](std::size_t) { return static_cast<ToolSlot*>(nullptr); });
+    }
 
-    Playing play(std::size_t pointer, OperatorSample& played) { return buffers_[pointer].play(played); }
+    Playing play(std::size_t pointer, PointerSample& played) { return buffers_[pointer].play(played); }
+    Playing play(ToolSlot& tool, OperatorSample& played) const {
+        if (!tool.heard) {
+            return Playing::waiting;
+        }
+        if (std::exchange(tool.heard_settings, settings_revision_) != settings_revision_) {
+            tool.heard->set_settings(settings_);
+        }
+        return tool.heard->play(played);
+    }
 
     // Nobody is there, or another one: what comes next is a new beginning.
     void restart() {
-        for (JitterBuffer<OperatorSample>& buffer : buffers_) {
+        for (JitterBuffer<PointerSample>& buffer : buffers_) {
             if (buffer.counts().exact > 0) {
                 buffer.restart();
             }
+        }
+    }
+    static void restart(ToolSlot& tool) {
+        if (tool.heard && tool.heard->counts().exact > 0) {
+            tool.heard->restart();
         }
     }
 
@@ -49,21 +75,23 @@ public:
 private:
     void set(const Channel& channel) {
         period_ = channel.link().statistics().peer_hello.period;
-        JitterBufferSettings settings;
-        settings.depth = channel.settings().buffer_depth;
-        settings.sparse = channel.settings().deadband.enabled;
-        settings.seconds = seconds_;
-        settings.sample_seconds = period_ > 0 ? to_seconds(period_) : seconds_;
-        settings.guess_seconds = 2.0 * to_seconds(channel.settings().deadband.longest_silence);
-        for (JitterBuffer<OperatorSample>& buffer : buffers_) {
-            buffer.set_settings(settings);
+        settings_.depth = channel.settings().buffer_depth;
+        settings_.sparse = channel.settings().deadband.enabled;
+        settings_.seconds = seconds_;
+        settings_.sample_seconds = period_ > 0 ? to_seconds(period_) : seconds_;
+        settings_.guess_seconds = 2.0 * to_seconds(channel.settings().deadband.longest_silence);
+        ++settings_revision_;
+        for (JitterBuffer<PointerSample>& buffer : buffers_) {
+            buffer.set_settings(settings_);
         }
     }
 
     std::size_t pointers_;
     double seconds_;
     Nanoseconds period_ = 0;  // of a tick of the operator
-    std::array<JitterBuffer<OperatorSample>, max_proxies> buffers_;
+    JitterBufferSettings settings_;
+    std::uint64_t settings_revision_ = 0;
+    std::array<JitterBuffer<PointerSample>, max_proxies> buffers_;
 };
 
 }  // namespace tactus

@@ -98,6 +98,11 @@ void Resimulator::tick(const TruthStore& truths, ModelPast& past) {
         slot.hand_velocity = moment.hands[i].velocity;
         slot.idle = moment.hands[i].idle;
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = twin_->tool(i)) {
+            slot->hand = moment.tools[i];
+        }
+    }
     twin_->end_replay_tick(moment.time);
     if (replayed_ <= first_truth_) {
         return;
@@ -110,8 +115,13 @@ void Resimulator::tick(const TruthStore& truths, ModelPast& past) {
 
 bool Resimulator::advance(const TruthStore& truths, ModelPast& past, SampleSequence now,
                           std::uint32_t ticks) {
-    for (std::uint32_t i = 0; i < ticks && replayed_ + 1 < now; ++i) {
+    // What a tool does takes as long in the past as in the present.
+    constexpr std::int64_t max_tool_work = 12'000;  // see ToolSettings
+    constexpr std::uint32_t least = 2;              // else the present would run away
+    std::int64_t work = 0;
+    for (std::uint32_t i = 0; i < ticks && replayed_ + 1 < now && (i < least || work < max_tool_work); ++i) {
         tick(truths, past);
+        work += twin_->take_tool_work();
     }
     return replayed_ + 1 == now;
 }

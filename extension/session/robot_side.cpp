@@ -97,7 +97,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
 // Where the operator's stand-in would have the robot.
 Vec3 RobotSide::hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const {
     const Pose& frame = settings().frame;
-    const OperatorSample& played = pointer.played;
+    const PointerSample& played = pointer.played;
     if (settings().passivity != Passivity::none) {
         FarPassivity::In in;
         in.sample = played.sequence;

@@ -29,7 +29,7 @@ public:
 
 private:
     struct Pointer {
-        OperatorSample played;
+        PointerSample played;
         FarPassivity passivity;
         ContactObserver observer;
         bool holds = false;  // an operator's hand is there and the robot answers

@@ -274,7 +274,8 @@ struct Session::Impl {
     SessionLoop loop;
 
     HandlePool bodies, devices, proxies, tools, joints;
-    bool has_twin = false;  // the side that was attached last has one
+    bool has_twin = false;     // the side that was attached last has one
+    bool hears_tools = false;  // likewise, see TeleopSide
     std::vector<RecorderRing<SessionRecord>*> recorded;
     std::deque<Command> backlog;
 
@@ -539,8 +540,12 @@ AddResult Session::add_tool(std::shared_ptr<const ToolShape> shape, const ToolUs
         return {no_handle, "a world takes at most " + std::to_string(max_tools) + " tools: remove one"};
     }
     impl_->note(call::AddTool{handle, shape, use});
-    impl_->send(command::AddTool{
-        handle, std::make_unique<ToolSlot>(std::move(shape), impl_->settings.max_parts, use)});
+    const auto make = [&] { return std::make_unique<ToolSlot>(shape, impl_->settings.max_parts, use); };
+    command::AddTool add{handle, make(), impl_->has_twin ? make() : nullptr};
+    if (impl_->hears_tools) {
+        add.tool->heard = std::make_unique<JitterBuffer<OperatorSample>>();
+    }
+    impl_->send(std::move(add));
     return {handle, {}};
 }
 
@@ -581,6 +586,7 @@ void Session::end_recording(RecorderRing<SessionRecord>& ring) {
 
 void Session::attach(std::unique_ptr<TeleopSide> side) {
     impl_->has_twin = side && side->twin();
+    impl_->hears_tools = side && side->hears_tools();
     impl_->send(command::Attach{std::move(side)});
 }
 

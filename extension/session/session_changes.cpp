@@ -481,9 +481,10 @@ struct Duplicate {
         return true;
     }
     bool operator()(command::MoveBody&) { return false; }
-    bool operator()(command::AddTool&) { return false; }
-    bool operator()(command::SetTool&) { return false; }
-    bool operator()(command::RemoveTool&) { return false; }
+    bool operator()(command::AddTool& c) {
+        same = command::AddTool{c.handle, std::move(c.same_tool), nullptr};
+        return true;
+    }
     bool operator()(command::Record&) { return false; }
     bool operator()(command::EndRecording&) { return false; }
     bool operator()(command::Attach&) { return false; }

@@ -129,6 +129,7 @@ struct RemoveProxy {
 struct AddTool {
     SessionHandle handle;
     std::unique_ptr<ToolSlot> tool;
+    std::unique_ptr<ToolSlot> same_tool;  // for a twin; else null
 };
 struct SetTool {
     SessionHandle handle;

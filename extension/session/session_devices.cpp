@@ -66,6 +66,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
             slot.hand_velocity = devices_[slot.description.device].hand_velocity;
         }
     }
+    hold_tools();
 }
 
 void SessionLoop::place_hand(DeviceSlot& slot) const {
@@ -171,6 +172,7 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
     for (const std::unique_ptr<ToolSlot>& tool : tools_) {
         if (tool && tool->use.device == index) {
             sample.source += energy_on_device(slot.workspace, tool->source);
+            sample.own_change += tool->own_change;
         }
     }
     return sample;
@@ -225,7 +227,7 @@ void SessionLoop::rest() {
     }
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
         if (slot) {
-            slot->force = Vec3(0.0);
+            slot->wrench = {};
             slot->state.force = Vec3(0.0);
             slot->state.torque = Vec3(0.0);
             slot->fading.clear();

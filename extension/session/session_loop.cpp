@@ -84,7 +84,6 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
         side_->set_forces(*this, now);
     } else {
         fade_jumps();
-        fade_tools();
     }
     press_all();
     {
@@ -194,6 +193,7 @@ void SessionLoop::fade_jumps() {
             slot.state.force = slot.fading.felt(slot.force, force_limit(slot), slot.jumped, slot.step);
         }
     }
+    fade_tools();
 }
 
 FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {

@@ -119,11 +119,13 @@ public:
         return slot < 0 ? no_handle : handle_of_slot_[static_cast<std::size_t>(slot)];
     }
     ProxySlot& proxy(std::size_t index) { return proxies_[index]; }
+    ToolSlot* tool(std::size_t index) { return tools_[index].get(); }  // null: there is none
     const TouchScene& scene() const { return scene_; }
     DeviceSample device_sample(SessionHandle device) const;
     RobotView robot(SessionHandle device) const;
     // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
     Vec3 given_force(const ProxySlot& slot) const;
+    Vec3 given_force(const ToolSlot& slot) const;
 
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
@@ -144,11 +146,19 @@ public:
     void put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides = false,
                    const Pose* previous = nullptr);
     bool rests_on(const Proxy& proxy, SessionHandle handle) const;
+    bool rests_on(const ToolProxy& proxy, SessionHandle handle) const;
+    // Whether any hand rests on it.
+    bool is_touched(SessionHandle handle) const;
 
     // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
     void touch(ProxySlot& slot, Nanoseconds now);
-    // What the hand may be given of a pointer's force (unit: newtons).
+    // The same for a tool; the wrench is in the slot.
+    void touch(ToolSlot& slot);
+    // What the hand may be given of a pointer's or a tool's force (unit: newtons).
     double force_limit(const ProxySlot& slot) const { return force_limit(slot.description.device); }
+    double force_limit(const ToolSlot& slot) const;
+    // Work that tools have done in the last replays, as WorkBudget counts; begins anew when it is asked for.
+    std::int64_t take_tool_work() { return std::exchange(tool_work_, 0); }
     // What touch leaps by is spread over many ticks.
     void fade_jumps();
 
@@ -237,8 +247,9 @@ private:
     void place_hand(DeviceSlot& slot) const;
     void touch_all(Nanoseconds now);
     double force_limit(SessionHandle device) const;
+    void hold_tools();
+    ToolHand hand_at(const DeviceSlot& device, const ToolUse& use) const;
     void touch_tools();
-    void touch(ToolSlot& slot);
     void fade_tools();
     void press_bodies(const ToolSlot& slot);
     void describe(ToolSlot& slot, const ToolTick& tick) const;
@@ -303,6 +314,7 @@ private:
     std::array<Recording, max_recordings> recordings_;
     std::size_t recording_count_ = 0;
     Vec3 gravity_;                // (unit: meters per second squared)
+    std::int64_t tool_work_ = 0;  // see take_tool_work()
     bool touch_changed_ = false;  // see take_touch_change()
     bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew
     std::uint64_t tick_ = 0;

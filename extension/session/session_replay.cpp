@@ -42,6 +42,11 @@ Vec3 SessionLoop::given_force(const ProxySlot& slot) const {
                : slot.state.force;
 }
 
+Vec3 SessionLoop::given_force(const ToolSlot& slot) const {
+    return slot.use.device < max_devices ? slot.state.force - devices_[slot.use.device].refused
+                                         : slot.state.force;
+}
+
 Vec3 SessionLoop::pushed(SessionHandle handle) const {
     Vec3 force(0.0);
     if (handle >= bodies_.size() || bodies_[handle].slot < 0 || bodies_[handle].motion != Motion::Dynamic) {
@@ -54,12 +59,30 @@ Vec3 SessionLoop::pushed(SessionHandle handle) const {
             }
         }
     }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        for (const ToolTouch& touch : slot ? slot->proxy.touching() : std::span<const ToolTouch>()) {
+            if (touch.body == bodies_[handle].slot) {
+                force -= touch.force * slot->hand.share;
+            }
+        }
+    }
     return force * (seconds_ / physics_.mass(bodies_[handle].id));
 }
 
 bool SessionLoop::rests_on(const Proxy& proxy, SessionHandle handle) const {
     const int slot = bodies_[handle].slot;
     return std::ranges::any_of(proxy.touching(), [slot](const Touch& c) { return c.body == slot; });
+}
+
+bool SessionLoop::rests_on(const ToolProxy& proxy, SessionHandle handle) const {
+    const int slot = bodies_[handle].slot;
+    return std::ranges::any_of(proxy.touching(), [slot](const ToolTouch& c) { return c.body == slot; });
+}
+
+bool SessionLoop::is_touched(SessionHandle handle) const {
+    return std::ranges::any_of(
+               proxies_, [&](const ProxySlot& p) { return p.present() && rests_on(*p.proxy, handle); }) ||
+           std::ranges::any_of(tools_, [&](const auto& t) { return t && rests_on(t->proxy, handle); });
 }
 
 void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool with_velocity, bool rides,
@@ -73,6 +96,12 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
         if (slot.proxy && rests_on(*slot.proxy, handle)) {
             slot.proxy->go_along(to_parent(motion, slot.proxy->position()) - slot.proxy->position(),
                                  corrected->slot);
+            rides = true;
+        }
+    }
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot && rests_on(slot->proxy, handle)) {
+            slot->proxy.go_along(scene_, motion, corrected->slot);
             rides = true;
         }
     }
@@ -111,6 +140,7 @@ void SessionLoop::begin_replay_tick() {
 
 void SessionLoop::end_replay_tick(Nanoseconds now) {
     touch_all(now);
+    touch_tools();
     press_all();
     step_physics();
 }
@@ -131,6 +161,11 @@ bool SessionLoop::save(LoopMemento& memento) {
         if (proxies_[i].proxy) {
             memento.pointers[i] = {proxies_[i].proxy->memory(), proxies_[i].effects, proxies_[i].torsion,
                                    proxies_[i].force};
+        }
+    }
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+        if (tools_[i]) {
+            memento.tools[i] = tools_[i]->proxy.memory();
         }
     }
     memento.physics_bytes = physics_.save_everything(memento.physics);
@@ -155,6 +190,11 @@ bool SessionLoop::restore(const LoopMemento& memento) {
             proxies_[i].effects = memento.pointers[i].effects;
             proxies_[i].torsion = memento.pointers[i].torsion;
             proxies_[i].force = memento.pointers[i].force;
+        }
+    }
+    for (std::size_t i = 0; i < tools_.size(); ++i) {
+        if (tools_[i]) {
+            tools_[i]->proxy.recall(memento.tools[i], scene_);
         }
     }
     return true;

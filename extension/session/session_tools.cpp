@@ -58,58 +58,81 @@ double own_share(std::span<const ToolTouch> touches, const ToolTouch& one) {
 
 }  // namespace
 
-// Over a link only fingertips are told.
+// Where the devices have the hands; a side may have them elsewhere.
+void SessionLoop::hold_tools() {
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot) {
+            const SessionHandle device = slot->use.device;
+            slot->hand.holds = slot->use.enabled && device < max_devices && devices_[device].device;
+            if (slot->hand.holds) {
+                slot->hand = hand_at(devices_[device], slot->use);
+            }
+        }
+    }
+}
+
+ToolHand SessionLoop::hand_at(const DeviceSlot& device, const ToolUse& use) const {
+    const Wall safe = safe_wall({seconds_, device.capabilities.delay},
+                                damping_in_scene(device.workspace, device.capabilities.damping),
+                                {use.settings.stiffness, 0.0});
+    const Vec3 spin = device.hand_turn / seconds_;
+    const Pose goal = compose({device.hand, device.orientation}, use.grasp);
+    return {goal,
+            device.hand_velocity + glm::cross(spin, goal.position - device.hand),
+            spin,
+            device.hand,
+            safe.stiffness / use.settings.stiffness,
+            true};
+}
+
+double SessionLoop::force_limit(const ToolSlot& slot) const {
+    return slot.use.device < max_devices ? force_limit(slot.use.device) : 0.0;
+}
+
+// A side that does not simulate has nothing here to touch.
 void SessionLoop::touch_tools() {
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
         if (slot) {
+            if (side_ && !side_->simulates()) {
+                slot->let_go();
+                continue;
+            }
             touch(*slot);
         }
     }
 }
 
 void SessionLoop::touch(ToolSlot& slot) {
-    const SessionHandle index = slot.use.device;
-    slot.source = 0.0;
-    if (side_ || !slot.use.enabled || index >= max_devices || !devices_[index].device) {
-        slot.proxy.restart();
-        slot.force = Vec3(0.0);
-        slot.jumped = true;
-        slot.state = {};
+    if (!slot.hand.holds) {
+        slot.let_go();
         return;
     }
-    const DeviceSlot& device = devices_[index];
-    const Pose before = slot.hand;
-    slot.hand = {device.hand, device.orientation};
-    slot.hand_velocity = device.hand_velocity;
-    slot.hand_spin = device.hand_turn / seconds_;
+    const Pose& goal = slot.hand.goal;
     if (std::exchange(slot.rested, false) &&
-        glm::distance(slot.hand.position, before.position) > slot.proxy.shape().reach) {
+        glm::distance(goal.position, slot.state.hand.position) > slot.proxy.shape().reach) {
         slot.proxy.restart();  // the hand may be deep inside a body by now
     }
-    const Pose goal = compose(slot.hand, slot.use.grasp);
     const ToolTick tick = slot.proxy.move(scene_, goal);
-    const double stiffness = slot.use.settings.stiffness;
-    const Wall safe =
-        safe_wall({seconds_, device.capabilities.delay},
-                  damping_in_scene(device.workspace, device.capabilities.damping), {stiffness, 0.0});
-    slot.share = safe.stiffness / stiffness;
-    slot.force = tick.force * slot.share;
+    tool_work_ += slot.proxy.work_spent();
+    slot.wrench.force = tick.force * slot.hand.share;
+    slot.wrench.torque =
+        tick.torque * slot.hand.share + glm::cross(goal.position - slot.hand.place, slot.wrench.force);
     slot.jumped = (tick.status & (tool_absent | tool_squeezed)) != 0;
     double given = 0.0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const Vec3 way = way_of_surface(scene_, surface_of(touch));
-        given += glm::dot(touch.force, way) * slot.share;
+        given += glm::dot(touch.force, way) * slot.hand.share;
     }
     slot.source = std::max(0.0, given);
     status_ |= tick.status & tool_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
-    slot.state.torque = tick.torque * slot.share + glm::cross(goal.position - slot.hand.position, slot.force);
+    slot.state.torque = slot.wrench.torque;
     describe(slot, tick);
 }
 
 void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
     ToolState& state = slot.state;
     state.pose = tick.pose;
-    state.hand = compose(slot.hand, slot.use.grasp);
+    state.hand = slot.hand.goal;
     state.residual = tick.residual;
     state.status = tick.status;
     state.contact_count = 0;
@@ -124,10 +147,8 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
 void SessionLoop::fade_tools() {
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
         if (slot && slot->use.device < max_devices) {
-            const FadingForce::Step step{slot->hand.position, slot->hand_velocity,
-                                         slot->use.settings.stiffness * slot->share, 0.0};
-            slot->state.force =
-                slot->fading.felt(slot->force, force_limit(slot->use.device), slot->jumped, step);
+            slot->state.force = slot->fading.felt(slot->wrench.force, force_limit(slot->use.device),
+                                                  slot->jumped, slot->step());
         }
     }
 }
@@ -136,15 +157,14 @@ void SessionLoop::fade_tools() {
 void SessionLoop::press_bodies(const ToolSlot& slot) {
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const Body& pressed = bodies_[handle_of_slot_[static_cast<std::size_t>(touch.body)]];
-        const Vec3 force = touch.force * slot.share;
+        const Vec3 force = touch.force * slot.hand.share;
         if ((pressed.motion != Motion::Dynamic && !pressed.soft) || force == Vec3(0.0)) {
             continue;
         }
         const TouchMaterial& material = *feel_at(scene_, touch.body, touch.feature).material;
         const bool sticks = (slot.state.status & tool_sliding) == 0 && material.static_friction > 0.0;
-        const Vec3 velocity =
-            slot.hand_velocity + glm::cross(slot.hand_spin, touch.point - slot.hand.position);
-        SpringForce spring{-force, touch.point, touch.stiffness * slot.share, 0.0, velocity, sticks, {}};
+        const Vec3 velocity = slot.hand.velocity_at(touch.point);
+        SpringForce spring{-force, touch.point, touch.stiffness * slot.hand.share, 0.0, velocity, sticks, {}};
         if (pressed.soft) {
             spring.stiffness *= own_share(slot.proxy.touching(), touch);
             pressed.soft->press(scene_.body(touch.body).pose, touch.feature, spring);

@@ -32,6 +32,7 @@ public:
             side->report(loop, now);
         }
     }
+    bool hears_tools() const override { return true; }
     // No operator's hand is at a device of this side.
     const ForceLimits& limits() const override { return sides_.front()->limits(); }
 

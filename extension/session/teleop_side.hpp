@@ -34,6 +34,9 @@ public:
     // False: bodies stay where they are put and nothing touches them; everything comes from the far side.
     virtual bool simulates() const { return true; }
 
+    // True: an operator's hands hold this side's tools.
+    virtual bool hears_tools() const { return false; }
+
     // True: this side's devices are robots. What moves them may give them energy.
     virtual bool drives() const { return false; }
 
@@ -65,6 +68,7 @@ struct LoopMemento {
     std::size_t physics_bytes = 0;  // 0: nothing is saved here
     std::vector<std::byte> physics;
     std::array<Pointer, max_proxies> pointers;
+    std::array<ToolMemory, max_tools> tools;
 };
 
 }  // namespace tactus

@@ -31,45 +31,56 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
     telling_.take_orders(channel_.port());
-    receive();
+    receive(loop);
     hands_.follow(channel_, changed);
     if (!channel_.link().hears_peer()) {
-        release_hands();
+        release_hands(loop);
     }
     for (std::size_t i = 0; i < share_.most(); ++i) {
         if (SessionLoop::ProxySlot& slot = slot_of(loop, i); slot.proxy) {
             play(loop, i, slot);
         }
     }
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        if (ToolSlot* const slot = tool_of(loop, i)) {
+            play(loop, tools_[i], *slot);
+        }
+    }
 }
 
-void TeleoperatorSide::receive() {
-    start_over_if_peer_has();
+void TeleoperatorSide::receive(SessionLoop& loop) {
+    start_over_if_peer_has(loop);
     while (const Packet* const packet = channel_.receive()) {
-        start_over_if_peer_has();
+        start_over_if_peer_has(loop);
         const Message& message = packet->message;
         if (const auto* const samples = std::get_if<OperatorSamples>(&message)) {
-            hands_.take(*samples);
+            hands_.take(*samples, [&](std::size_t tool) { return tool_of(loop, tool); });
         } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&message)) {
             telling_.take(*known);
         }
     }
 }
 
-void TeleoperatorSide::start_over_if_peer_has() {
+void TeleoperatorSide::start_over_if_peer_has(SessionLoop& loop) {
     if (channel_.peer_has_started()) {
-        release_hands();
+        release_hands(loop);
         telling_.restart();
         force_pace_.restart();
     }
 }
 
 // Nobody is there: the pointers touch nothing, and what comes next is a new beginning.
-void TeleoperatorSide::release_hands() {
+void TeleoperatorSide::release_hands(SessionLoop& loop) {
     newest_applied_ = no_sample;
     hands_.restart();
     for (Pointer& pointer : pointers_) {
         pointer.holds = false;
+    }
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        if (ToolSlot* const slot = tool_of(loop, i)) {
+            PlayedHands::restart(*slot);
+            tools_[i].holds = false;
+        }
     }
 }
 
@@ -181,7 +192,7 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     telling_.tell_states(loop, channel_, newest_applied_, now);
     telling_.tell_estimates(loop, channel_, nullptr, now);
     if (settings().traditional) {
-        send_forces(loop, now);
+        send_back(loop, now);
     }
     if (const Ghosts* const others = ghosts_.due(loop, share_, settings().frame, now)) {
         channel_.send(*others);
@@ -205,13 +216,17 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     channel_.end_tick(statistics_);
 }
 
-void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
+void TeleoperatorSide::send_back(SessionLoop& loop, Nanoseconds now) {
     if (!telling_.yields()) {
         force_pace_.adapt(channel_.link(), now);
     }
-    if (++force_tick_ % force_pace_.stride() != 0) {
-        return;
+    if (++force_tick_ % force_pace_.stride() == 0) {
+        send_forces(loop, now);
+        send_wrenches(loop, now);
     }
+}
+
+void TeleoperatorSide::send_forces(SessionLoop& loop, Nanoseconds now) {
     ForceSamples message;
     for (std::size_t i = 0; i < share_.most() && message.count < ForceSamples::max_count; ++i) {
         if (pointers_[i].holds && slot_of(loop, i).present() && force_is_due(loop, i, now)) {

@@ -17,7 +17,9 @@ struct PointerShare {
     std::size_t proxy_of(std::size_t pointer) const { return first + pointer * every; }
     bool has(std::size_t proxy) const { return proxy >= first && (proxy - first) % every == 0; }
     // Pointers of the operator that can have one.
-    std::size_t most() const { return first < max_proxies ? (max_proxies - first + every - 1) / every : 0; }
+    std::size_t most(std::size_t all = max_proxies) const {
+        return first < all ? (all - first + every - 1) / every : 0;
+    }
 };
 
 class TeleoperatorSide final : public TeleopSide {
@@ -28,13 +30,14 @@ public:
 
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds) override { loop.fade_jumps(); }
+    bool hears_tools() const override { return true; }
     void report(SessionLoop& loop, Nanoseconds now) override;
     const ForceLimits& limits() const override { return channel_.settings().limits; }
 
 private:
     struct Pointer {
-        OperatorSample played;
-        OperatorSample here;                   // the same in this side's scene
+        PointerSample played;
+        PointerSample here;                    // the same in this side's scene
         bool holds = false;                    // a hand is there
         Vec3 hand{0.0};                        // where the stand-in has put it (unit: meters)
         FarPassivity passivity;                // traditional
@@ -45,19 +48,41 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
+    // One that holds a tool: the stand-in is always a spring to it.
+    struct Tool {
+        OperatorSample played;
+        bool holds = false;                 // a hand is there
+        bool idle = true;                   // it touches nothing
+        SessionHandle kept_on = no_handle;  // a body that was pressed when the hand was lost
+        Pose kept_tool;                     // in its frame
+        Vec3 kept_hand{0.0};                // likewise (unit: meters)
+        Wrench sent;
+        Nanoseconds sent_at = 0;
+    };
+
     const TeleopSettings& settings() const { return channel_.settings(); }
     SessionLoop::ProxySlot& slot_of(SessionLoop& loop, std::size_t pointer) const {
         return loop.proxy(share_.proxy_of(pointer));
     }
-    void receive();
-    void start_over_if_peer_has();
-    void release_hands();
+    ToolSlot* tool_of(SessionLoop& loop, std::size_t tool) const {  // null: it has none
+        return tool < share_.most(max_tools) ? loop.tool(share_.proxy_of(tool)) : nullptr;
+    }
+    void receive(SessionLoop& loop);
+    void start_over_if_peer_has(SessionLoop& loop);
+    void release_hands(SessionLoop& loop);
     void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     Vec3 passive_hand(Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void keep(SessionLoop& loop, Pointer& pointer, const SessionLoop::ProxySlot& slot) const;
     void come_back(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot) const;
     StandInInput stand_in_input(SessionLoop& loop, const Pointer& pointer,
                                 const SessionLoop::ProxySlot& slot) const;
+    void play(SessionLoop& loop, Tool& tool, ToolSlot& slot);
+    void keep(SessionLoop& loop, Tool& tool, const ToolSlot& slot) const;
+    void come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const;
+    void send_back(SessionLoop& loop, Nanoseconds now);
+    void send_wrenches(SessionLoop& loop, Nanoseconds now);
+    bool wrench_is_due(const Tool& tool, const ToolSlot& slot, Nanoseconds now) const;
+    WrenchSample wrench_of(std::size_t index, const ToolSlot& slot, Nanoseconds now) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
     bool force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
     ForceSample force_of(SessionLoop& loop, std::size_t index, Nanoseconds now) const;
@@ -71,6 +96,7 @@ private:
     Pace force_pace_{PaceSettings{}};
     std::uint64_t force_tick_ = 0;
     std::array<Pointer, max_proxies> pointers_;
+    std::array<Tool, max_tools> tools_;
     SampleSequence newest_applied_ = no_sample;
     TeleopStatistics statistics_;
 };

@@ -1,14 +1,34 @@
 // A tool in the loop: what the hand holds it by, and what comes of it in a tick. Private to session/.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <utility>
 
 #include "core/haptics/fading_force.hpp"
+#include "core/math/wrench.hpp"
+#include "core/teleop/jitter_buffer.hpp"
 #include "core/tool/tool_proxy.hpp"
+#include "network/messages.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {
+
+static_assert(first_tool == max_proxies);
+
+// What holds a tool.
+struct ToolHand {
+    Pose goal;           // where it would have the tool, in the world
+    Vec3 velocity{0.0};  // of that place (unit: meters per second)
+    Vec3 spin{0.0};      // (unit: radians per second)
+    Vec3 place{0.0};     // of the hand itself, which torques are about (unit: meters)
+    double share = 1.0;  // of the coupling: what of it the device can render safely
+    bool holds = false;  // else it touches nothing
+
+    Vec3 velocity_at(const Vec3& point) const { return velocity + glm::cross(spin, point - goal.position); }
+};
 
 struct ToolSlot {
     ToolSlot(std::shared_ptr<const ToolShape> shape, std::size_t max_parts, const ToolUse& first_use)
@@ -16,16 +36,35 @@ struct ToolSlot {
 
     ToolProxy proxy;
     ToolUse use;
-    Pose hand;                // in the world
-    Vec3 hand_velocity{0.0};  // (unit: meters per second)
-    Vec3 hand_spin{0.0};      // (unit: radians per second)
-    double share = 1.0;       // of the coupling: what of it the device can render safely
-    Vec3 force{0.0};          // of the scene as it is; what the hand is given is state.force (unit: newtons)
+    ToolHand hand;
+    Wrench wrench;            // of the scene as it is, about the hand; what that is given is in `state`
     double source = 0.0;      // energy that bodies on their way give the hand in this tick (unit: joules)
-    FadingForce fading;       // from `force` to state.force
+    double own_change = 0.0;  // of the force, see ForceExit::leave
+    FadingForce fading;       // from wrench.force to state.force
     bool jumped = false;      // see ProxyTick
     bool rested = false;      // since the last tick
     ToolState state;
+    // Where an operator's hand holds it: what came of that. Null: no far side says so.
+    std::unique_ptr<JitterBuffer<OperatorSample>> heard;
+    std::uint64_t heard_settings = 0;  // see PlayedHands
+
+    // It touches nothing.
+    void let_go() {
+        proxy.restart();
+        wrench = {};
+        source = 0.0;
+        jumped = true;
+        state = {};
+    }
+
+    // What the hand's own way can have made of the force.
+    FadingForce::Step step() const {
+        return {hand.goal.position, hand.velocity, use.settings.stiffness * hand.share, 0.0};
+    }
+    // L of nearest_motion.hpp (unit: meters).
+    double coupling_length() const {
+        return std::sqrt(use.settings.turning_stiffness / use.settings.stiffness);
+    }
 };
 
 }  // namespace tactus

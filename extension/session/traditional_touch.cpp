@@ -9,6 +9,10 @@ namespace {
 // A force below this is none (unit: newtons).
 constexpr double no_force = 1e-9;
 
+bool still_holds(const auto& far, SampleSequence sample, bool hears_peer, SampleSequence ticks) {
+    return far.sample != no_sample && hears_peer && sample - far.went_on <= ticks;
+}
+
 }  // namespace
 
 bool TraditionalTouch::take(const ForceSample& force, SessionHandle touched, SampleSequence now) {
@@ -23,8 +27,7 @@ bool TraditionalTouch::take(const ForceSample& force, SessionHandle touched, Sam
 
 bool TraditionalTouch::answers(std::size_t index, SampleSequence sample, bool hears_peer,
                                SampleSequence ticks) const {
-    const Far& far = far_[index];
-    return far.sample != no_sample && hears_peer && sample - far.went_on <= ticks;
+    return still_holds(far_[index], sample, hears_peer, ticks);
 }
 
 void TraditionalTouch::describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const {
@@ -41,6 +44,37 @@ void TraditionalTouch::describe(std::size_t index, SessionLoop::ProxySlot& slot,
         state.bodies[0] = far.touched;
         state.normals[0] = force / size;
         state.points[0] = state.position - slot.proxy->settings().radius * state.normals[0];
+    }
+}
+
+bool TraditionalTouch::take(const WrenchSample& wrench, SessionHandle touched, SampleSequence now) {
+    FarTool& far = far_tools_[wrench.pointer - first_tool];
+    if (wrench.newest_operator_sample < far.sample) {
+        return false;
+    }
+    const SampleSequence went_on = wrench.newest_operator_sample > far.sample ? now : far.went_on;
+    far = {wrench.newest_operator_sample, went_on, {wrench.force, wrench.torque}, wrench.tool, touched};
+    return true;
+}
+
+bool TraditionalTouch::tool_answers(std::size_t index, SampleSequence sample, bool hears_peer,
+                                    SampleSequence ticks) const {
+    return still_holds(far_tools_[index], sample, hears_peer, ticks);
+}
+
+void TraditionalTouch::describe(std::size_t index, ToolSlot& slot, const Wrench& wrench) const {
+    const FarTool& far = far_tools_[index];
+    ToolState& state = slot.state;
+    state = {};
+    state.hand = slot.hand.goal;
+    state.pose = far.sample != no_sample ? far.tool : state.hand;
+    const double size = glm::length(wrench.force);
+    if (far.touched != no_handle && size > no_force) {
+        state.status = tool_touching;
+        state.contact_count = 1;
+        state.bodies[0] = far.touched;
+        state.normals[0] = wrench.force / size;
+        state.points[0] = state.pose.position;
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "network/messages.hpp"
 #include "session/session_loop.hpp"
+#include "session/tool_slot.hpp"
 
 namespace tactus {
 
@@ -22,6 +23,13 @@ public:
         SessionHandle touched = no_handle;
     };
 
+    struct FarTool {
+        SampleSequence sample = no_sample, went_on = no_sample;
+        Wrench wrench;  // about where the hand would have it
+        Pose tool;      // in the world
+        SessionHandle touched = no_handle;
+    };
+
     // False, and nothing has changed, where it is older than what is known.
     // `now`: the operator's own newest sample.
     bool take(const ForceSample& force, SessionHandle touched, SampleSequence now);
@@ -34,10 +42,21 @@ public:
     void describe(std::size_t index, SessionLoop::ProxySlot& slot, const Vec3& force) const;
 
     const Far& far(std::size_t index) const { return far_[index]; }
-    void forget() { far_ = {}; }
+
+    // The same for tools. `index`: of the tool, whose number as a pointer is first_tool + index.
+    bool take(const WrenchSample& wrench, SessionHandle touched, SampleSequence now);
+    bool tool_answers(std::size_t index, SampleSequence sample, bool hears_peer, SampleSequence ticks) const;
+    void describe(std::size_t index, ToolSlot& slot, const Wrench& wrench) const;
+    const FarTool& far_tool(std::size_t index) const { return far_tools_[index]; }
+
+    void forget() {
+        far_ = {};
+        far_tools_ = {};
+    }
 
 private:
     std::array<Far, max_proxies> far_;
+    std::array<FarTool, max_tools> far_tools_;
 };
 
 }  // namespace tactus

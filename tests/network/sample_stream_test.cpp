@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 
 #include "endpoint_rig.hpp"
 #include "shared/random_values.hpp"
@@ -201,6 +202,37 @@ TEST(SampleStream, SeveralPointersShareAPacket) {
     for (std::uint16_t pointer = 0; pointer < 16; ++pointer) {
         EXPECT_GT(rig.heard[pointer].size(), 990u);
     }
+}
+
+// Who knows no tools refuses a packet of theirs, and must hear of the fingertips.
+TEST(SampleStream, ToolsGoInPacketsOfTheirOwn) {
+    EndpointRig rig{LinkConditions{}};
+    SampleStream stream{{15, 20, ms}};
+    std::size_t of_tools = 0, of_fingertips = 0, mixed = 0;
+    rig.on_far([&](const Message& message) {
+        const auto& samples = std::get<OperatorSamples>(message);
+        const auto all = std::span(samples.samples).first(samples.count);
+        const auto tools = std::ranges::count_if(all, &OperatorSample::has_turn);
+        of_tools += tools > 0 ? 1 : 0;
+        of_fingertips += tools == 0 ? 1 : 0;
+        mixed += tools > 0 && tools < samples.count ? 1 : 0;
+    });
+    std::uint64_t sequence = 0;
+    rig.run(200 * ms, [&] {
+        ++sequence;
+        for (const std::uint16_t pointer : {0, 1, 16, 17}) {
+            OperatorSample sample;
+            sample.sequence = sequence;
+            sample.time = rig.now();
+            sample.pointer = pointer;
+            sample.has_turn = pointer >= first_tool;
+            stream.add(sample);
+        }
+        stream.end_tick(rig.near(), rig.now());
+    });
+    EXPECT_GT(of_tools, 100u);
+    EXPECT_GT(of_fingertips, 100u);
+    EXPECT_EQ(mixed, 0u);
 }
 
 TEST(SampleStream, WhatMayNotBeSentKeepsNobodyElseBack) {

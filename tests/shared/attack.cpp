@@ -107,7 +107,11 @@ struct Says {
             OperatorSample& s = m.samples[i];
             s.sequence = std::clamp<std::uint64_t>(sample(), 1, plausible::max_sequence);
             s.time = time(rig.now);
-            s.pointer = static_cast<std::uint16_t>(dice.one_in(2) ? 0 : dice.number());
+            s.has_turn = dice.one_in(4);
+            s.pointer =
+                static_cast<std::uint16_t>(dice.one_in(2) ? (s.has_turn ? first_tool : 0) : dice.number());
+            s.rotation = dice.rotation();
+            s.spin = dice.vector(plausible::max_angular_speed);
             s.connected = !dice.one_in(8);
             s.buttons = static_cast<std::uint32_t>(dice.number());
             s.position = dice.vector(plausible::max_position);
@@ -145,6 +149,18 @@ struct Says {
             for (TouchValue* const value : {&e.stiffness, &e.friction, &e.mass}) {
                 *value = {dice.size(max_estimate), dice.size(max_estimate), dice.one_in(2)};
             }
+        }
+    }
+    void operator()(WrenchSamples& m) {
+        m.count = static_cast<std::uint8_t>(1 + dice.below(WrenchSamples::max_count));
+        for (std::size_t i = 0; i < m.count; ++i) {
+            m.samples[i] = {static_cast<std::uint16_t>(dice.one_in(2) ? first_tool : dice.number()),
+                            time(rig.now),
+                            sample(),
+                            dice.vector(plausible::max_force),
+                            dice.vector(plausible::max_torque),
+                            {dice.vector(plausible::max_position), dice.rotation()},
+                            object()};
         }
     }
     std::uint64_t sample() {
@@ -351,6 +367,7 @@ std::string kind_name(std::size_t kind) {
                                      "forces",
                                      "ghosts",
                                      "estimates",
+                                     "wrenches",
                                      "bodies",
                                      "joints"};
     return names[kind];

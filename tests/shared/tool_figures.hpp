@@ -31,6 +31,7 @@ public:
     double least_gap() const;
 
     ToolProxy& proxy() { return *proxy_; }
+    const TouchScene& scene() const { return scene_; }
 
     struct Balance {
         Vec3 force{0.0};   // on the hand (unit: newtons)

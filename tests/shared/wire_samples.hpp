@@ -1,4 +1,5 @@
-// One message of each kind with values that differ in every field, for tests of the wire.
+// One message of each kind with values that differ in every field, for tests of the wire; after them operator
+// samples again, of a tool.
 #pragma once
 
 #include <array>
@@ -46,6 +47,19 @@ inline OperatorSample hand(SampleSequence sequence) {
     return sample;
 }
 
+// Of a hand that holds the second tool.
+inline OperatorSample tool(SampleSequence sequence) {
+    OperatorSample sample = hand(sequence);
+    sample.pointer = first_tool + 1;
+    sample.force = sample.position_in_object = Vec3(0.0);
+    sample.nearest_object = no_object;
+    sample.buttons = 0;
+    sample.has_turn = true;
+    sample.rotation = rotation_as_sent(glm::normalize(Quat(0.8, -0.4, 0.4, -0.2)));
+    sample.spin = {0.5, -1.25, 2.0};
+    return sample;
+}
+
 // A force on the first pointer, up.
 inline ForceSamples force(double newtons) {
     ForceSamples forces{1, {}};
@@ -76,6 +90,21 @@ inline std::vector<Message> one_of_each() {
     ForceSamples forces{2, {}};
     forces.samples[0] = {2, 5'000'000, 41, {0.1, 0.2, -0.3}, {1.0, 2.0, 3.0}, 4};
     forces.samples[1] = {3, -123'456'789, 0, {0.0, -5.25, 0.0}, {-1.0, 0.0, 0.25}, no_object};
+    WrenchSamples wrenches{2, {}};
+    wrenches.samples[0] = {
+        17, 5'000'000, 41, {0.1, 0.2, -0.3}, {0.25, -0.5, 1e-6}, {{1.0, 2.0, 3.0}, {0.8, -0.4, 0.4, -0.2}},
+        4};
+    wrenches.samples[1] = {
+        16,       -123'456'789, 0, {0.0, -5.25, 0.0}, Vec3(0.0), {{-1.0, 0.0, 0.25}, {0.0, 0.6, 0.0, 0.8}},
+        no_object};
+    OperatorSamples tools{1'000'000, 4, {}};
+    tools.samples[0] = tool(43);
+    tools.samples[1] = tool(42);
+    tools.samples[1].rotation = rotation_as_sent(glm::normalize(Quat(0.81, -0.41, 0.38, -0.2)));
+    tools.samples[1].spin.y = -1.0;
+    tools.samples[2] = tool(41);
+    tools.samples[2].rotation = rotation_as_sent(glm::normalize(Quat(0.3, -0.41, 0.88, -0.2)));
+    tools.samples[3] = tool(39);
     ObjectEstimate seen;
     seen.object = 5;
     seen.has_doubt = true;
@@ -100,6 +129,8 @@ inline std::vector<Message> one_of_each() {
         forces,
         Ghosts{2, {Ghost{1, true, {0.5, -1.25, 2.0}, 0.01}, Ghost{3, false, {0.0, 0.125, -3.0}, 0.0055}}},
         ObjectEstimates{2, {seen, felt}},
+        wrenches,
+        tools,
     };
 }
 

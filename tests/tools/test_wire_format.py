@@ -37,6 +37,16 @@ def _state(number, linear_velocity, angular_velocity):
     }  # fmt: skip
 
 
+def _unit(*parts):
+    length = sum(part * part for part in parts) ** 0.5
+    return tuple(part / length for part in parts)
+
+
+def _tool(sequence, **other):
+    tool = ALONE | {"pointer": 17, "spin": (0.5, -1.25, 2.0), "rotation": _unit(-0.4, 0.4, -0.2, 0.8)}
+    return _hand(sequence, **(tool | other))
+
+
 ALONE = {"pointer": 0, "force": STILL, "buttons": 0, "nearest_object": wire.NOBODY, "position_in_object": STILL}
 
 EXPECTED = {
@@ -77,6 +87,18 @@ EXPECTED = {
         {"object": 5, "place": (0.25, 0.5, 0.125, 0.125, 0.0, -0.0625), "turn": (0.5, 0.5, 0.5, 0.0, 0.0, 0.0), "mass": (0.75, 0.0625)},
         {"object": 300, "stiffness": (512.0, 8.0), "friction": (0.25, 0.03125)},
     ]}),
+    "wrenches": ("wrenches", {"samples": [
+        {"pointer": 17, "true_at": 5_000_000, "newest_operator_sample": 41, "force": (0.1, 0.2, -0.3),
+         "torque": (0.25, -0.5, 1e-6), "tool": {"position": (1.0, 2.0, 3.0), "rotation": (-0.4, 0.4, -0.2, 0.8)}, "object": 4},
+        {"pointer": 16, "true_at": -123456789, "newest_operator_sample": 0, "force": (0.0, -5.25, 0.0), "torque": STILL,
+         "tool": {"position": (-1.0, 0.0, 0.25), "rotation": (0.6, 0.0, 0.8, 0.0)}, "object": wire.NOBODY},
+    ]}),
+    "tool_samples": ("operator samples", {
+        "period": 1_000_000, "samples": [
+            _tool(43), _tool(42, rotation=_unit(-0.41, 0.38, -0.2, 0.81), spin=(0.5, -1.0, 2.0)),
+            _tool(41, rotation=_unit(-0.41, 0.88, -0.2, 0.3)), _tool(39),
+        ],
+    }),
 }  # fmt: skip
 
 
@@ -91,7 +113,7 @@ def _near(read, expected):
 
 def test_there_is_a_vector_of_every_kind():
     assert sorted(EXPECTED) == sorted(PACKETS)
-    assert len(PACKETS) == len(wire.KINDS)
+    assert {EXPECTED[name][0] for name in PACKETS} == {name for name, _ in wire.KINDS.values()}
 
 
 @pytest.mark.parametrize("name", PACKETS)

@@ -14,6 +14,8 @@ MOST_POSITION = 1e5
 MOST_SPEED = 1e3
 MOST_ANGULAR_SPEED = 1e4
 MOST_FORCE = 1e3
+MOST_TORQUE = 1e3
+TURN_SCALE = 2**30 * math.sqrt(2)
 MOST_GRAVITY = 100.0
 MOST_COMPONENT = 1e9
 MOST_POSITIVE = 1e12
@@ -234,8 +236,8 @@ def _state(r: Reader) -> Fields:
 
 
 NANO, MICRO, TENTH_MILLI = 10**9, 10**6, 10**4
-CONNECTED, FOLLOWS, BUTTONS, FORCE, NEAREST, TIME, NEXT = (1 << bit for bit in range(7))
-NOTHING = {"position": (0, 0, 0), "velocity": (0, 0, 0), "force": (0, 0, 0), "relative": (0, 0, 0)}
+CONNECTED, FOLLOWS, BUTTONS, FORCE, NEAREST, TIME, NEXT, TURN = (1 << bit for bit in range(8))
+NOTHING = {key: (0, 0, 0) for key in ("position", "velocity", "force", "relative", "spin", "turn")} | {"largest": 3}
 
 
 def _operator_samples(r: Reader, sent_at: int) -> Fields:
@@ -256,7 +258,7 @@ def _towards_zero(a: int, b: int) -> int:
 
 def _carried_on(told: list[Fields], apart: int, key: str) -> tuple[int, ...]:
     last = told[-1][key]
-    if told[-1]["apart"] != apart:
+    if told[-1]["apart"] != apart or (key == "turn" and told[-1]["largest"] != told[-2]["largest"]):
         return last
     return tuple(2 * now - then for now, then in zip(last, told[-2][key], strict=True))
 
@@ -264,7 +266,6 @@ def _carried_on(told: list[Fields], apart: int, key: str) -> tuple[int, ...]:
 def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, told: list[Fields]) -> Fields:
     """One sample. `told`: those before it in whole numbers, and how far each is apart from the one before; this one joins them."""
     flags = r.u8()
-    _require(flags < 128, "flags out of range")
     apart = 0
     if flags & FOLLOWS:
         if before is None:
@@ -279,7 +280,7 @@ def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, told: l
         pointer, sequence = r.varint(0xFFFF), r.varint(MOST_SEQUENCE)
         _require(sequence >= 1, "no sample")
         time = sent_at
-    expected = {key: _carried_on(told, apart, key) if apart else (0, 0, 0) for key in NOTHING}
+    expected = {key: _carried_on(told, apart, key) if apart else (0, 0, 0) for key in NOTHING if key != "largest"}
     if flags & TIME:
         time += r.folded(MOST_AGE)
     now = NOTHING | {"apart": apart, "velocity": r.whole_vec3(MICRO, MOST_SPEED, expected["velocity"])}
@@ -295,13 +296,28 @@ def _sample(r: Reader, sent_at: int, period: int, before: Fields | None, told: l
     if flags & NEAREST:
         nearest = _object(r)
         now["relative"] = r.whole_vec3(NANO, MOST_POSITION, expected["relative"])
+    turn: Fields = {}
+    if flags & TURN:
+        now["largest"] = r.choice(3)
+        same = now["largest"] == (told[-1]["largest"] if apart else 3)
+        now["turn"] = r.whole_vec3(1, 2**30 + 1, expected["turn"] if same else (0, 0, 0))
+        now["spin"] = r.whole_vec3(MICRO, MOST_ANGULAR_SPEED, expected["spin"])
+        turn = {"rotation": _turned(now["turn"], now["largest"]), "spin": _scaled(now["spin"], MICRO)}
     told.append(now)
-    return {
+    return turn | {
         "sequence": sequence, "time": time, "pointer": pointer, "connected": flags & CONNECTED != 0, "buttons": buttons,
         "position": _scaled(now["position"], NANO), "velocity": _scaled(now["velocity"], MICRO),
         "force": _scaled(now["force"], TENTH_MILLI),
         "nearest_object": nearest, "position_in_object": _scaled(now["relative"], NANO),
     }  # fmt: skip
+
+
+def _turned(whole: tuple[int, ...], largest: int) -> tuple[float, ...]:
+    parts = [part / TURN_SCALE for part in whole]
+    rest = 1 - sum(part * part for part in parts)
+    _require(rest >= 0.25 - 1e-6, "no rotation")
+    parts.insert(largest, math.sqrt(rest))
+    return tuple(parts)
 
 
 def _forces(r: Reader, sent_at: int) -> Fields:
@@ -317,6 +333,23 @@ def _force(r: Reader, sent_at: int) -> Fields:
         "proxy": _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO),
         "object": (r.varint(NOBODY) - 1) % 2**32,
     }  # fmt: skip
+
+
+def _wrenches(r: Reader, sent_at: int) -> Fields:
+    count = r.u8()
+    _require(1 <= count <= 8, "count out of range")
+    return {"samples": [_wrench(r, sent_at) for _ in range(count)]}
+
+
+def _wrench(r: Reader, sent_at: int) -> Fields:
+    wrench = {
+        "pointer": r.varint(0xFFFF), "true_at": _near(r, sent_at), "newest_operator_sample": r.varint(MOST_SEQUENCE),
+        "force": _scaled(r.whole_vec3(TENTH_MILLI, MOST_FORCE), TENTH_MILLI),
+        "torque": _scaled(r.whole_vec3(MICRO, MOST_TORQUE), MICRO),
+    }  # fmt: skip
+    largest = r.choice(3)
+    pose = {"position": _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO), "rotation": r.rotation(largest)}
+    return wrench | {"tool": pose, "object": (r.varint(NOBODY) - 1) % 2**32}
 
 
 def _ghosts(r: Reader) -> Fields:
@@ -360,8 +393,9 @@ KINDS = {
     10: ("forces", _forces),
     11: ("ghosts", _ghosts),
     12: ("estimates", _estimates),
+    13: ("wrenches", _wrenches),
 }
-TOLD_FROM_SENDING = (8, 9, 10)
+TOLD_FROM_SENDING = (8, 9, 10, 13)
 
 
 def packet(data: bytes) -> tuple[Fields, str, Fields]:

@@ -16,6 +16,7 @@ public:
 
     void spend(std::int64_t units) { left_ -= units; }
     bool is_gone() const { return left_ <= 0; }
+    std::int64_t left() const { return left_; }  // below zero: so much too much was spent
     // What was kept back may be spent as well, whatever was spent too much.
     void open_reserve() {
         left_ = reserve_;

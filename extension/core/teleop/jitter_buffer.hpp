@@ -17,6 +17,8 @@
 //
 // What cannot be is not believed (sequence_guard.hpp).
 //
+// A hand that holds a tool is turned as well (TurningSample): all of this holds for its turns.
+//
 // Work in a call is bounded by the ring, whatever comes.
 #pragma once
 
@@ -25,15 +27,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <utility>
 
 #include "core/math/types.hpp"
+#include "core/teleop/body_motion.hpp"
 #include "core/teleop/playing.hpp"
 #include "core/teleop/playout_lag.hpp"
 #include "core/teleop/sample_ring.hpp"
 #include "core/teleop/sequence_guard.hpp"
 
 namespace tactus {
+
+// That says how the hand is turned, and turns (unit: radians per second).
+template <typename Sample>
+concept TurningSample = requires(const Sample& sample) {
+    sample.rotation;
+    sample.spin;
+};
 
 // Sample: a value with `sequence`, `position` and `velocity`; all else is taken from a neighbour.
 template <typename Sample>
@@ -43,6 +54,8 @@ public:
     static constexpr double catch_up_seconds = 0.25;
     static constexpr double catch_up_speed = 1.0;  // (unit: meters per second)
     static constexpr double max_speed = 20.0;      // of any hand (unit: meters per second)
+    static constexpr double catch_up_spin = 10.0;  // (unit: radians per second)
+    static constexpr double max_spin = 100.0;      // of any hand (unit: radians per second)
 
     explicit JitterBuffer(const JitterBufferSettings& settings = {}) { set_settings(settings); }
 
@@ -220,8 +233,7 @@ private:
     Playing hold() {
         ++counts_.held;
         if (++held_for_ >= ticks(still_after)) {
-            played_.velocity = Vec3(0.0);
-            slewing_ = true;
+            stop();
         }
         return Playing::held;
     }
@@ -247,6 +259,10 @@ private:
         played_.sequence = turn;
         played_.position = earlier.position + (later.position - earlier.position) * share;
         played_.velocity = earlier.velocity + (later.velocity - earlier.velocity) * share;
+        if constexpr (TurningSample<Sample>) {
+            played_.rotation = glm::slerp(earlier.rotation, later.rotation, share);
+            played_.spin = earlier.spin + (later.spin - earlier.spin) * share;
+        }
         fraction_ = part;
         ++counts_.filled;
         return Playing::filled;
@@ -265,9 +281,12 @@ private:
         played_.sequence = turn;
         played_.position =
             anchor_.position + anchor_.velocity * std::clamp(carried, 0.0, settings_.guess_seconds);
+        if constexpr (TurningSample<Sample>) {
+            played_.rotation =
+                turn_by(anchor_.spin, std::clamp(carried, 0.0, settings_.guess_seconds)) * anchor_.rotation;
+        }
         if (carried > settings_.guess_seconds) {
-            played_.velocity = Vec3(0.0);
-            slewing_ = true;
+            stop();
             ++counts_.held;
             return Playing::held;
         }
@@ -275,12 +294,34 @@ private:
         return exact ? Playing::exact : Playing::guessed;
     }
 
+    // What is not heard of any more does not move.
+    void stop() {
+        played_.velocity = Vec3(0.0);
+        if constexpr (TurningSample<Sample>) {
+            played_.spin = Vec3(0.0);
+        }
+        slewing_ = true;
+    }
+
     // Where the hand went on while nothing was heard it is led there. `first`: there is no hand yet.
     void limit_speed(bool first) {
-        const Vec3 from = std::exchange(out_, played_).position;
+        const Sample before = std::exchange(out_, played_);
         if (first) {
             return;
         }
+        const bool is_slower = limit_way(before.position);
+        if constexpr (TurningSample<Sample>) {
+            if (limit_turn(before.rotation)) {
+                return;
+            }
+        }
+        if (!is_slower && catching_up_ == 0.0 && held_for_ == 0) {
+            slewing_ = false;
+        }
+    }
+
+    // True where it is farther away than the hand may go in a tick.
+    bool limit_way(const Vec3& from) {
         constexpr double over_own = 1.25;
         const double own = std::clamp(over_own * glm::length(played_.velocity), catch_up_speed, max_speed);
         const double speed = slewing_ ? own : max_speed;
@@ -288,9 +329,23 @@ private:
         const double distance = glm::length(way);
         if (distance > speed * settings_.seconds) {
             out_.position = from + way * (speed * settings_.seconds / distance);
-        } else if (catching_up_ == 0.0 && held_for_ == 0) {
-            slewing_ = false;
+            return true;
         }
+        return false;
+    }
+
+    bool limit_turn(const Quat& from)
+        requires TurningSample<Sample>
+    {
+        constexpr double over_own = 1.25;
+        const double own = std::clamp(over_own * glm::length(played_.spin), catch_up_spin, max_spin);
+        const double most = (slewing_ ? own : max_spin) * settings_.seconds;
+        const double angle = angle_between(from, played_.rotation);
+        if (angle > most) {
+            out_.rotation = glm::slerp(from, played_.rotation, most / angle);
+            return true;
+        }
+        return false;
     }
 
     JitterBufferSettings settings_;

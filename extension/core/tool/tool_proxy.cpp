@@ -188,10 +188,55 @@ void ToolProxy::go(const RigidMotion& motion) {
     around_.went(motion);
 }
 
+void ToolProxy::give_work(std::int64_t units) {
+    work_ = WorkBudget(units);
+    work_given_ = units;
+}
+
+ToolMemory ToolProxy::memory() const {
+    ToolMemory memory{pose_, present_, sliding_, false, pace_, {}};
+    const auto hardest = hardest_touch();
+    if (hardest != touching().end()) {
+        memory.rests = true;
+        memory.on = *hardest;
+    }
+    return memory;
+}
+
+// What its spheres know of what is around them holds wherever they are.
+void ToolProxy::recall(const ToolMemory& memory, const TouchScene& scene) {
+    around_.went(motion_between(pose_, memory.pose));
+    pose_ = memory.pose;
+    present_ = memory.present;
+    sliding_ = memory.sliding;
+    pace_ = memory.pace;
+    touch_count_ = memory.rests ? 1 : 0;
+    touches_[0] = memory.on;
+    revision_ = scene.revision();
+}
+
+void ToolProxy::go_along(const TouchScene& scene, const Pose& motion, int body) {
+    constexpr int max_parts_of_turn = 16;
+    scene_ = &scene;
+    const Pose there = compose(motion, pose_);
+    give_work(settings_.max_work);
+    around_.begin_tick(scene, settings_.mask, pose_,
+                       2.0 * around_.farthest_way(motion_between(pose_, there)));
+    for (int i = 0; i < max_parts_of_turn; ++i) {
+        const RigidMotion left = motion_between(pose_, there);
+        const double straight = around_.straight_share(left);
+        const double free = around_.free_share(pose_, left * straight, work_, body);
+        go(left * (straight * free));
+        if (straight * free >= 1.0 || free < 1.0 || work_.is_gone()) {
+            return;
+        }
+    }
+}
+
 ToolTick ToolProxy::appear(const Pose& hand) {
     around_.forget();
     around_.begin_tick(*scene_, settings_.mask, hand, 0.0);
-    work_ = WorkBudget(2 * settings_.max_work);
+    give_work(2 * settings_.max_work);
     present_ = around_.is_free(hand, work_);
     pose_ = hand;
     sliding_ = false;
@@ -203,10 +248,14 @@ ToolTick ToolProxy::appear(const Pose& hand) {
     return tick;
 }
 
+std::span<const ToolTouch>::iterator ToolProxy::hardest_touch() const {
+    return std::ranges::max_element(
+        touching(), {}, [](const ToolTouch& touch) { return glm::dot(touch.force, touch.normal); });
+}
+
 // The body that the tool rests on hardest; -1: none.
 int ToolProxy::carrier() const {
-    const auto hardest = std::ranges::max_element(
-        touching(), {}, [](const ToolTouch& touch) { return glm::dot(touch.force, touch.normal); });
+    const auto hardest = hardest_touch();
     return hardest == touching().end() ? -1 : hardest->body;
 }
 
@@ -351,7 +400,7 @@ ToolTick ToolProxy::move(const TouchScene& scene, const Pose& given_hand) {
     }
     const Pose start = pose_;
     // What gives comes nearer everywhere, tick after tick, and most spheres have to look again.
-    work_ = WorkBudget(settings_.max_work * (scene.deformed_bodies().empty() ? 1 : 2));
+    give_work(settings_.max_work * (scene.deformed_bodies().empty() ? 1 : 2));
     if (!scene.only_gives_since(std::exchange(revision_, scene.revision()))) {
         touch_count_ = 0;
     }

@@ -52,6 +52,17 @@ struct ToolTick {
     int steps = 0;
 };
 
+// Everything of a tool that its next move depends on, besides the scene. Of its contacts only the one it
+// rests on hardest, which carries it.
+struct ToolMemory {
+    Pose pose;  // in the world
+    bool present = false;
+    bool sliding = false;
+    bool rests = false;
+    double pace = 0.0;  // (unit: meters)
+    ToolTouch on;
+};
+
 class ToolProxy {
 public:
     ToolProxy(std::shared_ptr<const ToolShape> shape, std::size_t max_parts, const ToolSettings& settings);
@@ -72,6 +83,15 @@ public:
         touch_count_ = 0;
     }
 
+    ToolMemory memory() const;
+    // In the scene as it is.
+    void recall(const ToolMemory& memory, const TouchScene& scene);
+    // A correction takes the body elsewhere, and the tool with it as far as nothing else is in the way. In
+    // the scene as it is before that.
+    void go_along(const TouchScene& scene, const Pose& motion, int body);
+    // Of the last move, as WorkBudget counts.
+    std::int64_t work_spent() const { return work_given_ - work_.left(); }
+
 private:
     struct Plan {
         Vector6 motion{};  // (unit: meters)
@@ -85,6 +105,7 @@ private:
     bool ride();
     bool ride_forms(double& taken);
     RigidMotion way_of_form(int body) const;
+    std::span<const ToolTouch>::iterator hardest_touch() const;
     int carrier() const;
     void descend(const Pose& hand, ToolTick& tick);
     Plan plan(const RigidMotion& pull);
@@ -94,6 +115,7 @@ private:
     void bound_slides(const Vector6& x);
     NearestMotion nearest(const Vector6& goal, double tolerance);
     void keep_touches(const NearestMotion& holding);
+    void give_work(std::int64_t units);
     void go(const RigidMotion& motion);
 
     ToolSettings settings_;
@@ -107,6 +129,7 @@ private:
     bool sliding_ = false;
     double pace_ = 0.0;  // of the farthest sphere, in the last tick (unit: meters)
     WorkBudget work_{0};
+    std::int64_t work_given_ = 0;
     ToolContacts contacts_;
     std::array<MotionBound, ToolContacts::capacity> bounds_;  // of contacts_
     std::array<ToolTouch, 6> touches_;

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/teleop/felt_tool.hpp"
+#include "core/teleop/wrench_passivity.hpp"
+#include "shared/random_values.hpp"
+
 namespace tactus {
 namespace {
 
@@ -178,6 +182,56 @@ TEST(FeltPointer, AnEmptyTankLetsNothingHelpTheHand) {
     }
     EXPECT_LE(pointer.energy().hidden_J, 1e-12);
     EXPECT_GT(pointer.energy().damped_J, 0.0);
+}
+
+// --- a hand that holds a tool
+
+constexpr double coupling_length = 0.03;
+
+FeltToolInput pressed_with(const Wrench& wrench) {
+    return {wrench, Vec3(0.0), Vec3(0.0), 1000.0, coupling_length, 1e-3};
+}
+
+TEST(FeltTool, WhatIsNotChangedIsFeltToTheBit) {
+    FeltTool felt;
+    const Wrench wrench{{1.0, 2.0, -3.0}, {0.1, 0.07, 0.003}};
+    for (int i = 0; i < 10; ++i) {
+        const Wrench given = felt.feel({}, pressed_with(wrench));
+        EXPECT_EQ(given.force, wrench.force);
+        EXPECT_EQ(given.torque, wrench.torque);
+    }
+    EXPECT_EQ(felt.state(), FeltState::together);
+}
+
+TEST(FeltTool, AChangeOfTheTorqueIsHiddenAndFadesUnnoticed) {
+    FeltTool felt;
+    const Wrench before{{0.0, 2.0, 0.0}, {0.0, 0.0, 0.05}}, after{{0.0, 2.0, 0.0}, {0.0, 0.0, 0.06}};
+    Wrench given = felt.feel({}, pressed_with(before));
+    felt.hide(before, after, coupling_length);
+    const StealthSettings settings;
+    for (int i = 0; i < 2'000; ++i) {
+        const Wrench now = felt.feel(settings, pressed_with(after));
+        const double noticed = just_noticeable(settings, 0.06 / coupling_length) * coupling_length;
+        EXPECT_LT(glm::distance(now.torque, given.torque), noticed * 1e-3 / settings.window) << i;
+        EXPECT_EQ(now.force, after.force);
+        given = now;
+    }
+    EXPECT_EQ(given.torque, after.torque);
+}
+
+TEST(WrenchPassivity, GivesNoMoreThanItWasGiven) {
+    WrenchPassivity passivity;
+    shared::RandomValues random(4);
+    double given = 0.0;
+    for (int i = 0; i < 20'000; ++i) {
+        const Wrench wrench{random.in_ball(10.0), random.in_ball(0.3)};
+        const Vec3 velocity = random.in_ball(0.2), spin = random.in_ball(3.0);
+        const Wrench passed = passivity.pass(wrench, velocity, spin, coupling_length, 1e-3);
+        passivity.moved(passed, velocity * 1e-3, spin * 1e-3);
+        given += (glm::dot(passed.force, velocity) + glm::dot(passed.torque, spin)) * 1e-3;
+        EXPECT_LE(given, 1e-12);
+    }
+    EXPECT_LT(given, -1e-3);
 }
 
 }  // namespace

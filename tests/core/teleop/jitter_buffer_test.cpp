@@ -430,5 +430,69 @@ TEST(JitterBuffer, SparseFollowsTheFastestPacket) {
     EXPECT_GE(out.sequence, 2010u);
 }
 
+// --- a hand that is turned as well
+
+struct TurnedSample : Sample {
+    Quat rotation{1.0, 0.0, 0.0, 0.0};
+    Vec3 spin{0.0};
+};
+
+// Turns about y, so many radians a second.
+TurnedSample turned(std::uint64_t sequence, double spin) {
+    TurnedSample made;
+    made.sequence = sequence;
+    made.rotation = turn_by({0.0, spin, 0.0}, 1e-3 * static_cast<double>(sequence));
+    made.spin = {0.0, spin, 0.0};
+    return made;
+}
+
+TEST(JitterBuffer, TurnsAreFilledInBetweenTwoSamples) {
+    JitterBufferSettings settings;
+    settings.depth = 4;
+    JitterBuffer<TurnedSample> buffer(settings);
+    TurnedSample out;
+    for (std::uint64_t sequence = 1; sequence <= 200; ++sequence) {
+        if (sequence % 3 != 0) {
+            buffer.insert(turned(sequence, 5.0));
+        }
+        if (buffer.play(out) != Playing::waiting) {
+            const Quat expected = turned(out.sequence, 5.0).rotation;
+            EXPECT_LT(angle_between(out.rotation, expected), 1e-9) << sequence;
+        }
+    }
+    EXPECT_GT(buffer.counts().filled, 50u);
+}
+
+TEST(JitterBuffer, ATurnIsCarriedOnWithItsSpinUntilItIsTooOld) {
+    JitterBufferSettings settings = sparse();
+    settings.guess_seconds = 0.1;
+    JitterBuffer<TurnedSample> buffer(settings);
+    TurnedSample out;
+    buffer.insert(turned(1, 2.0));
+    for (int i = 0; i < 300; ++i) {
+        buffer.play(out);
+        const double carried = std::min(1e-3 * i, 0.1);
+        EXPECT_NEAR(angle_between(turned(1, 2.0).rotation, out.rotation), 2.0 * carried, 3e-3) << i;
+    }
+    EXPECT_EQ(out.spin, Vec3(0.0));
+}
+
+// Nobody turns a hand by half a turn in a tick, whatever is said.
+TEST(JitterBuffer, AHandThatFlipsIsTurnedNoFasterThanAHand) {
+    using Turned = JitterBuffer<TurnedSample>;
+    Turned buffer;
+    TurnedSample out;
+    Quat before(1.0, 0.0, 0.0, 0.0);
+    for (std::uint64_t sequence = 1; sequence <= 300; ++sequence) {
+        TurnedSample flipped = turned(sequence, 0.0);
+        flipped.rotation = sequence % 40 < 20 ? Quat(1.0, 0.0, 0.0, 0.0) : Quat(0.0, 0.0, 1.0, 0.0);
+        flipped.spin = {0.0, 1e4, 0.0};
+        buffer.insert(flipped);
+        buffer.play(out);
+        EXPECT_LE(angle_between(before, out.rotation), Turned::max_spin * 1e-3 + 1e-9) << sequence;
+        before = out.rotation;
+    }
+}
+
 }  // namespace
 }  // namespace tactus

@@ -246,5 +246,46 @@ TEST(ToolProxy, APegGoesIntoItsHoleFromEveryAngle) {
     }
 }
 
+// What is tried out and taken back leaves the tool as it was, and what it knows of its surroundings true.
+TEST(ToolProxy, WhatItRemembersIsAllThatItsNextMoveDependsOn) {
+    ToolRig rig = bar_over_floor({500.0, 0.0, 0.5, 0.4});
+    settle(rig, {{0.0, 0.05, 0.0}, upright}, 2);
+    settle(rig, {{0.0, 0.006, 0.0}, upright});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> chance(-1.0, 1.0);
+    int finished = 0;
+    for (int i = 0; i < 50; ++i) {
+        const ToolMemory memory = rig.proxy().memory();
+        const Pose first{{0.002 * chance(random), 0.006, 0.0},
+                         glm::angleAxis(0.02 * chance(random), Vec3(0.0, 0.0, 1.0))};
+        const ToolTick once = rig.tick(first);
+        rig.tick({{0.05 * chance(random), -0.02, 0.03}, glm::angleAxis(chance(random), Vec3(0, 1, 0))});
+        rig.proxy().recall(memory, rig.scene());
+        EXPECT_EQ(rig.proxy().pose().position, memory.pose.position);
+        const ToolTick again = rig.tick(first);
+        // A tick that its work has ended goes on in the next.
+        if (((once.status | again.status) & tool_unfinished) == 0) {
+            ++finished;
+            EXPECT_LT(glm::distance(again.force, once.force), 1e-3 * (1.0 + glm::length(once.force))) << i;
+        }
+        EXPECT_GE(rig.least_gap(), 0.0) << i;
+    }
+    EXPECT_GT(finished, 25);
+}
+
+// A correction that would take it through a wall takes it to the wall.
+TEST(ToolProxy, GoesAlongWithACorrectionUpToWhatIsInTheWay) {
+    ToolRig rig = bar_over_floor();
+    rig.add(shared::box({0.01, 0.2, 0.2}), {}, {{0.1, 0.0, 0.0}, upright});
+    settle(rig, {{0.0, 0.02, 0.0}, upright}, 2);
+    settle(rig, {{0.0, 0.005, 0.0}, upright});
+    const Pose before = rig.proxy().pose();
+    rig.proxy().go_along(rig.scene(), {{0.01, 0.0, 0.0}, upright}, 0);
+    EXPECT_NEAR(rig.proxy().pose().position.x - before.position.x, 0.01, 1e-9);
+    rig.proxy().go_along(rig.scene(), {{0.5, 0.0, 0.0}, glm::angleAxis(0.2, Vec3(1.0, 0.0, 0.0))}, 0);
+    EXPECT_LT(rig.proxy().pose().position.x, 0.045);
+    EXPECT_GT(rig.proxy().pose().position.x, 0.03);
+}
+
 }  // namespace
 }  // namespace tactus

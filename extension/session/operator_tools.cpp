@@ -1,0 +1,202 @@
+// The operator's hand where it holds a tool: what a pointer has (operator_touch.cpp, operator_sending.cpp),
+// with a torque. Its changes are hidden whichever stealthy correction is chosen; none is carried along.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "session/operator_side.hpp"
+
+namespace tactus {
+
+namespace {
+
+// A force below this is none (unit: newtons).
+constexpr double no_force = 1e-9;
+
+Pose as_sent(const Pose& pose) {
+    return {position_as_sent(pose.position), rotation_as_sent(pose.rotation)};
+}
+
+// How far apart two wrenches are, turns counted as FeltTool does (unit: newtons).
+double apart(const Wrench& a, const Wrench& b, double length) {
+    return glm::distance(a.force, b.force) + glm::distance(a.torque, b.torque) / length;
+}
+
+}  // namespace
+
+void OperatorSide::round_tools(SessionLoop& loop) const {
+    const Pose& frame = settings().frame;
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = loop.tool(i)) {
+            ToolHand& hand = slot->hand;
+            hand.goal = compose(frame, as_sent(compose(inverse(frame), hand.goal)));
+            hand.velocity =
+                direction_to_parent(frame, velocity_as_sent(direction_to_local(frame, hand.velocity)));
+            hand.spin = direction_to_parent(frame, spin_as_sent(direction_to_local(frame, hand.spin)));
+        }
+    }
+}
+
+// The tool is left as it was. True where it has just come to touch something.
+bool OperatorSide::tool_lands(SessionLoop& loop, std::size_t index) {
+    ToolSlot* const slot = loop.tool(index);
+    if (!slot || !slot->hand.holds) {
+        return false;
+    }
+    const bool was_free = slot->proxy.touching().empty();
+    const ToolMemory memory = slot->proxy.memory();
+    const Wrench before = slot->wrench;
+    loop.touch(*slot);
+    tools_[index].uncorrected = slot->wrench;
+    tools_[index].jumped = slot->jumped;
+    slot->proxy.recall(memory, loop.scene());
+    slot->wrench = before;
+    return was_free && glm::length(tools_[index].uncorrected.force) > no_force;
+}
+
+void OperatorSide::feel_tools(SessionLoop& loop) {
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        ToolSlot* const slot = loop.tool(i);
+        if (slot && slot->hand.holds) {
+            feel(loop, i, *slot);
+            continue;
+        }
+        tools_[i].felt.forget();
+        tools_[i].passivity.rest();
+        tools_[i].known = false;
+        if (slot) {
+            slot->fading.clear();
+        }
+    }
+}
+
+// As modelled_force() for a pointer: what touch leaps by fades, what a correction changes does not count as
+// such a leap.
+Wrench OperatorSide::modelled_wrench(const SessionLoop& loop, Tool& tool, ToolSlot& slot, bool changed) {
+    if (!corrected_) {
+        tool.uncorrected = slot.wrench;
+        tool.jumped = slot.jumped;
+    }
+    const double limit = loop.force_limit(slot);
+    tool.uncorrected.force = limited_force(
+        slot.fading.felt(tool.uncorrected.force, limit, tool.jumped && !changed, slot.step()), limit);
+    return {slot.fading.goes_on_with(slot.wrench.force, limit), slot.wrench.torque};
+}
+
+Wrench OperatorSide::far_wrench(std::size_t index, ToolSlot& slot, bool& changed) {
+    Tool& tool = tools_[index];
+    const bool answers = traditional_.tool_answers(index, sample_, channel_.link().hears_peer(), silence());
+    changed |= std::exchange(tool.answered, answers) != answers;
+    Wrench wrench = answers ? traditional_.far_tool(index).wrench : Wrench{};
+    const ToolHand& hand = slot.hand;
+    wrench.torque += glm::cross(hand.goal.position - hand.place, wrench.force);
+    if (tool.known) {
+        tool.passivity.moved(tool.given, hand.place - tool.place,
+                             turn_vector(hand.goal.rotation * glm::conjugate(tool.hand.rotation)));
+    }
+    if (!answers) {
+        tool.passivity.rest();
+    } else if (settings().passivity != Passivity::none) {
+        wrench = tool.passivity.pass(wrench, hand.velocity_at(hand.place), hand.spin, slot.coupling_length(),
+                                     seconds_);
+    }
+    traditional_.describe(index, slot, wrench);
+    return wrench;
+}
+
+void OperatorSide::feel(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
+    Tool& tool = tools_[index];
+    const double length = slot.coupling_length();
+    bool changed = changed_ || (!corrected_ && has_leapt(loop, slot.state));
+    // No hand feels more than its device may give: nothing of what is beyond needs hiding.
+    Wrench modelled = settings().traditional ? far_wrench(index, slot, changed)
+                                             : modelled_wrench(loop, tool, slot, changed);
+    const Vec3 whole = modelled.force;
+    modelled.force = limited_force(whole, loop.force_limit(slot));
+    hide_changes(tool, modelled, slot, changed);
+    const TouchedBody touched = touched_body(loop, slot.state);
+    const double force = glm::length(modelled.force);
+    if (changed && tool.known &&
+        change_to_come(tool.touched, touched, force) > just_noticeable(settings().stealth, force)) {
+        tool.felt.let_go();
+    }
+    tool.touched = touched;
+    const bool same_model = tool.known && !settings().traditional && !corrected_ && !changed;
+    slot.own_change = same_model ? glm::distance(modelled.force, tool.modelled.force) : 0.0;
+    const Wrench felt =
+        tool.felt.feel(settings().stealth,
+                       {modelled, slot.hand.velocity_at(slot.hand.place), slot.hand.spin,
+                        slot.state.contact_count > 0 ? slot.use.settings.stiffness * slot.hand.share : 0.0,
+                        length, seconds_});
+    slot.state.force = felt.force == modelled.force ? whole : felt.force;
+    slot.state.torque = felt.torque;
+    tool.modelled_before = same_model ? tool.modelled : modelled;  // a change is no trend
+    tool.modelled = modelled;
+    tool.hand = slot.hand.goal;
+    tool.place = slot.hand.place;
+    tool.known = true;
+    slot.state.status |= felt_status(tool.felt.state());
+    statistics_.let_go += tool.felt.begins_to_let_go() ? 1 : 0;
+    add_energy(tool.felt.energy());
+    note_cost(tool.felt.faded(), force);
+}
+
+// See hide_changes() for a pointer.
+void OperatorSide::hide_changes(Tool& tool, const Wrench& modelled, const ToolSlot& slot, bool changed) {
+    const double length = slot.coupling_length();
+    if (changed && tool.known) {
+        const Wrench expected{2.0 * tool.modelled.force - tool.modelled_before.force,
+                              2.0 * tool.modelled.torque - tool.modelled_before.torque};
+        const Wrench& uncorrected = corrected_ ? tool.uncorrected : modelled;
+        const double way = glm::distance(slot.hand.goal.position, tool.hand.position) +
+                           length * angle_between(slot.hand.goal.rotation, tool.hand.rotation);
+        if (apart(expected, uncorrected, length) > 2.0 * slot.use.settings.stiffness * way + no_force) {
+            tool.felt.hide(expected, uncorrected, length);
+        }
+    }
+    if (corrected_) {
+        const double jump = apart(modelled, tool.uncorrected, length);
+        const bool hides = is_stealthy(settings().correction) || settings().correction == Correction::passive;
+        if (hides) {
+            tool.felt.hide(tool.uncorrected, modelled, length);
+        }
+        statistics_.cost.force_step = std::max(statistics_.cost.force_step, hides ? 0.0 : jump);
+    }
+}
+
+// Where the hand would have the tool, whatever its grasp is: the tool at the far side does the same with it.
+void OperatorSide::send_tool(SessionLoop& loop, std::size_t index, const ToolSlot& slot, Nanoseconds now) {
+    Tool& tool = tools_[index];
+    const DeviceSample device = loop.device_sample(slot.use.device);
+    const DeadbandSettings& deadband = settings().deadband;
+    const Pose& frame = settings().frame;
+    const Pose place = compose(inverse(frame), slot.hand.goal);
+    OperatorSample sample;
+    sample.sequence = sample_;
+    sample.time = channel_.link().local_time(now);
+    sample.pointer = static_cast<std::uint16_t>(first_tool + index);
+    sample.connected = device.connected && slot.use.enabled;
+    sample.buttons = device.buttons;
+    sample.position = place.position;
+    sample.velocity = direction_to_local(frame, slot.hand.velocity);
+    sample.has_turn = true;
+    sample.rotation = place.rotation;
+    sample.spin = direction_to_local(frame, slot.hand.spin);
+    if (deadband.enabled && tool.has_sent && now - tool.sent_at < deadband.longest_silence) {
+        const OperatorSample& last = tool.sent;
+        const double seconds = static_cast<double>(sample_ - last.sequence) * seconds_;
+        const Vec3 guessed = guessed_position(last.position, last.velocity, seconds);
+        const Quat turned = turn_by(last.spin, seconds) * last.rotation;
+        if (!position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
+            angle_between(turned, sample.rotation) <= deadband.angle && sample.buttons == last.buttons &&
+            sample.connected == last.connected) {
+            return;
+        }
+    }
+    tool.sent = sample;
+    tool.has_sent = true;
+    tool.sent_at = now;
+    samples_.add(sample);
+}
+
+}  // namespace tactus
