@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "core/geometry/touch_shape.hpp"
@@ -75,13 +76,34 @@ bool is_sound(const TeleopSettings& s) {
            s.repeats <= 16 && s.replay_steps >= 1 && s.replay_steps <= 1024;
 }
 
-bool is_sound(const SidePlan& plan) {
+// Of a clock, far from where differences overflow.
+bool is_time(Nanoseconds time) {
+    constexpr Nanoseconds most = 1'000'000'000'000'000'000;  // 31 years
+    return time >= -most && time <= most;
+}
+
+bool is_sound(const EndpointSettings& s) {
+    constexpr double most_drift = 1e-3;
+    return s.period > 0 && is_time(s.period) && is_time(s.hello_every) && is_time(s.clock_every) &&
+           is_time(s.vanish_after) && is_time(s.skew.origin) && is_time(s.skew.offset) &&
+           std::abs(s.skew.drift) <= most_drift;
+}
+
+// Of a session with so many bodies: what the past takes at once.
+bool is_sound(const OperatorRoom& room, std::size_t bodies) {
     constexpr std::size_t most = 1u << 20;
-    const OperatorRoom& room = plan.room;
-    return is_sound(plan.settings) && plan.endpoint.period > 0 && plan.share.every >= 1 &&
-           plan.share.first < max_proxies && room.max_tracked <= most && room.samples >= 1 &&
-           room.samples <= most && room.samples_a_memento >= 1 && room.memento_bytes <= 64 * most &&
+    constexpr std::size_t body_bytes = 256;  // of what is kept of one in a memento
+    const std::size_t mementos = room.samples / std::max<std::size_t>(1, room.samples_a_memento) + 1;
+    return room.max_tracked <= most && room.samples >= 1 && room.samples <= most &&
+           room.max_tracked * room.samples <= 4 * most && room.samples_a_memento >= 1 &&
+           room.memento_bytes <= 64 * most &&
+           mementos * (room.memento_bytes + bodies * body_bytes) <= 1024 * most &&
            room.pointers <= max_proxies;
+}
+
+bool is_sound(const SidePlan& plan, std::size_t bodies) {
+    return is_sound(plan.settings) && is_sound(plan.endpoint) && plan.share.every >= 1 &&
+           plan.share.first < max_proxies && is_sound(plan.room, bodies);
 }
 
 bool is_there(const PlacedShape& placed) {
@@ -316,8 +338,9 @@ void InputReplay::carry_out(const call::EndRecording& c) {
 }
 
 void InputReplay::carry_out(const call::Attach& c) {
+    const std::size_t bodies = session_->settings().max_bodies;
     check(ends_.empty() && c.sides.size() <= max_proxies &&
-          std::ranges::all_of(c.sides, [](const SidePlan& plan) { return is_sound(plan); }));
+          std::ranges::all_of(c.sides, [&](const SidePlan& plan) { return is_sound(plan, bodies); }));
     if (is_over_) {
         return;
     }
@@ -360,7 +383,10 @@ InputReplay::End* InputReplay::end_of(std::uint32_t link) {
 }
 
 void InputReplay::hear(const heard::Tick& h) {
-    tick_ = h;
+    check(is_time(h.now));
+    if (!is_over_) {
+        tick_ = h;
+    }
 }
 
 void InputReplay::hear(const heard::Settle& h) {
@@ -387,7 +413,8 @@ void InputReplay::hear(const heard::Abilities& h) {
 }
 
 void InputReplay::hear(const heard::Arrival& h) {
-    if (End* const end = end_of(h.link)) {
+    check(is_time(h.arrived));
+    if (End* const end = is_over_ ? nullptr : end_of(h.link)) {
         end->link.arrivals.push_back(h);
     }
 }

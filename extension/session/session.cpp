@@ -128,8 +128,10 @@ TouchMaterial with_detail(TouchMaterial material, const TouchDetail* detail) {
 }
 
 std::string check_workspace(const Workspace& w) {
+    constexpr double least_scale = 1.0 / limits::farthest;
     return limits::is_pose(w.pose) && w.scale > 0.0 && w.scale <= limits::farthest && w.force_limit >= 0.0 &&
-                   w.force_scale > 0.0 && w.edge_speed >= 0.0 && limits::is_place(w.torque)
+                   w.force_scale >= least_scale && w.force_scale <= limits::farthest && w.edge_speed >= 0.0 &&
+                   w.edge_speed <= limits::fastest && limits::is_place(w.torque)
                ? ""
                : "the device's workspace has no place, no scale above 0, no force limit, no edge speed or no "
                  "torque: reset its transform and these";

@@ -94,7 +94,7 @@ void SessionLoop::place_hand(DeviceSlot& slot) const {
 }
 
 double SessionLoop::force_limit(SessionHandle device) const {
-    const Workspace& workspace = devices_[device].workspace;
+    const Workspace workspace = device < max_devices ? devices_[device].workspace : Workspace{};
     return workspace.force_limit / workspace.force_scale;
 }
 
