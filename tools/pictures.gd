@@ -25,6 +25,7 @@ const SECONDS := {
 	"peg_in_hole": 2.6,
 	"two_operators": 2.4,
 	"delay_lab": 4.0,
+	"remote_tool": 2.6,
 	"wrong_model": 4.0,
 	"teleoperated_robot": 3.0,
 	"depth_camera": 6.0,

@@ -75,6 +75,11 @@ const SCENES := {
 		"Far away",
 		"Touch the box through a network: set its delay, and change between the ways to do without it."
 	],
+	"remote_tool":
+	[
+		"A tool far away",
+		"The peg jams at once, in the hand's own model; the one far away follows, a tenth of a second later."
+	],
 	"wrong_model":
 	[
 		"A wrong model",

@@ -396,6 +396,7 @@ void OperatorSide::take(const WrenchSample& wrench) {
         ++statistics_.stale_states;
         return;
     }
+    resimulator_.note_tool(wrench.pointer - first_tool, wrench.newest_operator_sample, here.tool);
     statistics_.round_trip = static_cast<double>(sample_ - wrench.newest_operator_sample) * seconds_;
 }
 

@@ -132,8 +132,10 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
     const bool replayed = std::ranges::any_of(targets_, &Target::previous_known);
     for (std::size_t i = 0; i < max_tools && replayed; ++i) {
         ToolSlot* const slot = loop.tool(i);
-        if (slot && resimulator_.twin()->tool(i)) {
-            slot->proxy.recall(resimulator_.twin()->tool(i)->proxy.memory(), loop.scene());
+        const ToolSlot* const replayed_slot = resimulator_.twin()->tool(i);
+        // One that the replay has lost, squeezed by what was put in, stays where it is.
+        if (slot && replayed_slot && replayed_slot->proxy.memory().present) {
+            slot->proxy.recall(replayed_slot->proxy.memory(), loop.scene());
         }
     }
     for (std::size_t i = 0; i < max_proxies && replayed; ++i) {

@@ -86,6 +86,15 @@ void Resimulator::put_in() {
         twin_->put_right(plan_[next_].body, plan_[next_].motion, true);
         put_in_[plan_[next_].body] = replayed_;
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        ToolSlot* const slot = twin_->tool(i);
+        if (slot && tools_[i].sample == replayed_) {
+            ToolMemory memory;
+            memory.pose = tools_[i].pose;
+            memory.present = true;
+            slot->proxy.recall(memory, twin_->scene());
+        }
+    }
 }
 
 void Resimulator::tick(const TruthStore& truths, ModelPast& past) {
@@ -147,6 +156,7 @@ void Resimulator::finish(SessionLoop& loop, const TruthStore& truths, const Moti
 void Resimulator::forget() {
     std::ranges::fill(memento_of_, no_sample);
     std::ranges::fill(put_in_, no_sample);
+    tools_ = {};
     running_ = false;
 }
 

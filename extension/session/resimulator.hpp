@@ -7,6 +7,7 @@
 // there is to replay.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -49,6 +50,11 @@ public:
     void finish(SessionLoop& loop, const TruthStore& truths, const MotionThreshold& threshold,
                 std::vector<Target>& targets);
 
+    // Where the far side's tool was after the sample.
+    void note_tool(std::size_t tool, SampleSequence sample, const Pose& pose) {
+        tools_[tool] = {sample, pose};
+    }
+
     // The sample of the truth that the model's past of a body goes on from.
     SampleSequence goes_on_from(SessionHandle body) const {
         return body < put_in_.size() ? put_in_[body] : no_sample;
@@ -65,6 +71,11 @@ private:
         BodyMotion motion;
     };
 
+    struct FarTool {
+        SampleSequence sample = no_sample;
+        Pose pose;
+    };
+
     void plan(const TruthStore& truths);
     void put_in();
     void tick(const TruthStore& truths, ModelPast& past);
@@ -77,6 +88,7 @@ private:
     bool running_ = false;
     SampleSequence replayed_ = no_sample;  // the newest sample that the twin has applied
     SampleSequence first_truth_ = no_sample;
+    std::array<FarTool, max_tools> tools_;
     std::vector<Planned> plan_;           // by sample
     std::size_t next_ = 0;                // of the plan
     std::vector<SampleSequence> put_in_;  // by body: the newest truth that a replay has put in

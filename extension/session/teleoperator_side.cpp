@@ -193,6 +193,8 @@ void TeleoperatorSide::report(SessionLoop& loop, Nanoseconds now) {
     telling_.tell_estimates(loop, channel_, nullptr, now);
     if (settings().traditional) {
         send_back(loop, now);
+    } else {
+        tell_tools(loop, now);
     }
     if (const Ghosts* const others = ghosts_.due(loop, share_, settings().frame, now)) {
         channel_.send(*others);

@@ -81,6 +81,7 @@ private:
     void come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) const;
     void send_back(SessionLoop& loop, Nanoseconds now);
     void send_wrenches(SessionLoop& loop, Nanoseconds now);
+    void tell_tools(SessionLoop& loop, Nanoseconds now);
     bool wrench_is_due(const Tool& tool, const ToolSlot& slot, Nanoseconds now) const;
     WrenchSample wrench_of(std::size_t index, const ToolSlot& slot, Nanoseconds now) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);

@@ -82,6 +82,25 @@ void TeleoperatorSide::send_wrenches(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
+// With a model: where a tool is that touches something, as often as what moves is told. What is done again of
+// the model's past needs to have it there: between bodies that are put right it might not fit where it was.
+void TeleoperatorSide::tell_tools(SessionLoop& loop, Nanoseconds now) {
+    WrenchSamples message;
+    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
+        const ToolSlot* const slot = tool_of(loop, i);
+        if (slot && tools_[i].holds && slot->state.contact_count > 0) {
+            message.samples[message.count++] = wrench_of(i, *slot, now);
+        }
+    }
+    if (message.count == 0) {
+        return;
+    }
+    force_pace_.adapt(channel_.link(), now);
+    if (++force_tick_ % (settings().states_every * force_pace_.stride()) == 0) {
+        channel_.send(message);
+    }
+}
+
 bool TeleoperatorSide::wrench_is_due(const Tool& tool, const ToolSlot& slot, Nanoseconds now) const {
     const double length = slot.coupling_length();
     return force_needs_sending(settings().deadband, tool.sent.force, slot.state.force) ||

@@ -1,56 +1,5 @@
-extends "nodes_case.gd"
+extends "link_case.gd"
 ## Touch over a network: the operator's world and the far one, in one process and in stepped time.
-
-const STIFFNESS := 500.0
-
-var _operator: HapticWorld
-var _far: HapticWorld
-var _here: MMTLink
-var _there: MMTLink
-
-
-func _link(world: HapticWorld, side: MMTLink.Side, scenario: MMTLink.Scenario) -> MMTLink:
-	var link := MMTLink.new()
-	link.name = "Link"
-	link.side = side
-	link.scenario = scenario
-	link.conditions = NetworkConditions.new()
-	link.tuning = TeleopTuning.new()
-	world.add_child(link)
-	return link
-
-
-## Two worlds with the same hand; only the far one has bodies. `delay`: there and back.
-func _connect(scenario: MMTLink.Scenario, delay := 0.0) -> void:
-	_operator = add_world()
-	_operator.name = "Operator"
-	_far = add_world()
-	_far.name = "Far"
-	_here = _link(_operator, MMTLink.SIDE_OPERATOR, scenario)
-	_there = _link(_far, MMTLink.SIDE_TELEOPERATOR, scenario)
-	_here.partner = NodePath("../../Far/Link")
-	_there.partner = NodePath("../../Operator/Link")
-	_here.conditions.delay = delay / 2.0
-	_there.conditions.delay = delay / 2.0
-	await frames(2)
-
-
-func _advance(seconds: float) -> void:
-	for _tick in roundi(seconds / TICK):
-		_operator.advance(TICK)
-		_far.advance(TICK)
-
-
-## Rests above the floor, then goes down into it within a tenth of a second.
-func _down_after(rests: float) -> HapticPath:
-	var way := HapticPath.new()
-	way.form = HapticPath.FORM_POINTS
-	way.points_positions = PackedVector3Array(
-		[Vector3(0, 0.05, 0), Vector3(0, 0.05, 0), Vector3(0, -0.01, 0)]
-	)
-	way.points_times = PackedFloat64Array([0.0, rests, rests + 0.1])
-	way.points_interpolation = HapticPath.INTERPOLATION_LINEAR
-	return way
 
 
 func _add_hands(rests := 0.5) -> void:
@@ -122,59 +71,6 @@ func test_a_body_of_the_scene_shows_the_far_one_of_the_same_name() -> void:
 	# The far world is one tick of 0.1 mm behind.
 	check_near(mine.position, (_far.get_node("Box") as RigidBody3D).position, 2e-4, "place of the twin")
 	check_equal(shown, [mine], "what shows it")
-
-
-func _add_tools() -> void:
-	for world: HapticWorld in [_operator, _far]:
-		add_device(world, _down_after(0.5))
-		var tool := HapticTool.new()
-		tool.name = "Tool"
-		var mesh := BoxMesh.new()
-		mesh.size = Vector3(0.2, 0.02, 0.02)
-		tool.mesh = mesh
-		world.add_child(tool)
-
-
-func _tool(world: HapticWorld) -> HapticTool:
-	return world.get_node("Tool")
-
-
-## The grasp is the operator's: the far tool follows where the hand would have it.
-func test_a_tool_touches_the_model_at_once_and_the_far_one_follows() -> void:
-	await _connect(MMTLink.SCENARIO_MMT, 0.1)
-	add_floor(_far, STIFFNESS)
-	_add_tools()
-	_tool(_operator).grasp_rotation = Vector3(0, 0, 0.05)
-	_advance(0.6)
-	check_equal(_tool(_operator).get_state_text(), "touching", "state")
-	check_near(_tool(_operator).get_force().y, 19.5, 1.0, "force, without any delay")
-	check_near(_tool(_operator).get_torque().z, -0.05, 5e-3, "torque")
-	check_near(_tool(_operator).global_position.y, 0.0095, 1e-3, "place")
-	_advance(0.2)
-	check_near(_tool(_far).get_force(), _tool(_operator).get_force(), 1e-3, "force at the far side")
-	check_near(_tool(_far).get_torque().z, -0.05, 5e-3, "torque at the far side")
-	check_near(_tool(_far).global_position, _tool(_operator).global_position, 1e-6, "place of the far tool")
-
-
-func test_traditional_touch_brings_back_the_force_and_torque_of_a_tool() -> void:
-	await _connect(MMTLink.SCENARIO_TRADITIONAL, 0.1)
-	add_floor(_far, STIFFNESS)
-	_add_tools()
-	_tool(_operator).grasp_rotation = Vector3(0, 0, 0.05)
-	_advance(0.62)
-	check_near(_tool(_operator).get_force(), Vector3.ZERO, 1e-9, "force before the far side has answered")
-	_advance(0.2)
-	check_near(_tool(_operator).get_force(), _tool(_far).get_force(), 1e-3, "force when it has")
-	check_near(_tool(_operator).get_torque().z, -0.05, 5e-3, "torque when it has")
-	check(_tool(_operator).is_touching(), "it does not touch when the far side has answered")
-	check_near(_tool(_operator).global_position, _tool(_far).global_position, 1e-6, "place")
-
-
-func test_robots_follow_no_tool() -> void:
-	await _connect(MMTLink.SCENARIO_MMT_ROBOT)
-	_add_tools()
-	_advance(0.1)
-	check(not _tool(_operator).is_present(), "it is there, and no robot is")
 
 
 func test_traditional_touch_is_felt_one_delay_later() -> void:
