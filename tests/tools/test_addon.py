@@ -120,12 +120,17 @@ def test_copied_to_another_folder_it_finds_its_meshes(tmp_path):
     assert "BODIES 1 PROBLEMS []" in printed, printed
 
 
+def others_built() -> list[platforms.Platform]:
+    """Those that ./run addon --platform=… has built here, debug and release."""
+    return [one for one in platforms.FOREIGN if len(addon.built(one)) == len(addon.manifest.TARGETS)]
+
+
 @pytest.fixture(scope="module")
 def own_project(tmp_path_factory):
     """An empty project with the archive unzipped into it and the scene of its README, imported without a list of
     extensions written first: as the editor does it."""
     folder = tmp_path_factory.mktemp("own_project")
-    with zipfile.ZipFile(addon.pack()) as archive:
+    with zipfile.ZipFile(addon.pack(others_built())) as archive:
         archive.extractall(folder)
     (folder / "project.godot").write_text(PROJECT + '\n[autoload]\n\nUser="*res://user.gd"\n')
     (folder / "first_touch.tscn").write_text(FIRST_TOUCH)
@@ -151,6 +156,9 @@ def test_the_archive_names_what_is_in_it(own_project):
     description = (folder / "tactus.gdextension").read_text()
     for name in addon._libraries(description):
         assert (folder / name).is_file(), name
+    for one in [platforms.host(), *others_built()]:
+        for target in addon.manifest.TARGETS:
+            assert f"{one.system}.{target}.single.{one.architecture} = " in description
 
 
 def test_the_oldest_godot_is_the_one_whose_api_was_used():
