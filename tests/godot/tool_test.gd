@@ -1,8 +1,6 @@
 extends "nodes_case.gd"
 ## Tools through the nodes, in stepped time.
 
-const Stepping := preload("res://gallery/stage/stepping.gd")
-
 
 func bar(size := Vector3(0.2, 0.02, 0.02)) -> BoxMesh:
 	var mesh := BoxMesh.new()
@@ -76,23 +74,6 @@ func test_a_tool_larger_than_its_room_is_absent() -> void:
 	check(tool.get_state_text().contains("does not fit"), tool.get_state_text())
 	world.advance(1.0)
 	check(tool.is_present(), "it is absent in the air")
-
-
-## Bodies that are put right leave it room: its place is put right with them.
-func test_a_tool_over_a_link_is_not_lost_between_bodies_that_are_put_right() -> void:
-	var scene := (load("res://gallery/remote_tool/remote_tool.tscn") as PackedScene).instantiate() as Node
-	var worlds := Stepping.hold(scene)
-	add_child(scene)
-	var views := scene.get_node("Views")
-	var here: HapticTool = views.get_node("Operator/View/PegInHole/HapticWorld/HapticTool")
-	var there: HapticTool = views.get_node("Far/View/PegInHole/HapticWorld/HapticTool")
-	for _i in 300:
-		Stepping.advance(worlds, 0.04)
-		check(here.is_present(), "the operator's is lost")
-		check(there.is_present(), "the far one is lost")
-	var link: MMTLink = views.get_node("Operator/View/PegInHole/HapticWorld/MMTLink")
-	check(link.get_statistics().corrections > 10, "nothing was put right")
-	scene.free()
 
 
 ## On its path the peg goes into the hole and topples the stack.
