@@ -48,6 +48,7 @@ inline void whole_fields(WireReader& s, Vec3& value, WholeVector& number, const 
         s.require(difference > -no_overflow && difference < no_overflow);
         number[i] = s.good() ? expected[i] + difference : 0;
         s.require(number[i] >= -limit && number[i] <= limit);
+        number[i] = s.good() ? number[i] : 0;  // what follows is still told from it
         value[static_cast<int>(i)] = s.good() ? static_cast<double>(number[i]) * quantum : 0.0;
     }
 }
@@ -158,6 +159,7 @@ inline void turn_fields(WireReader& s, Quat& q, WholeTurn& turn, const WholeVect
         s.require(difference > -no_overflow && difference < no_overflow);
         turn.parts[i] = s.good() ? expected[i] + difference : 0;
         s.require(std::abs(turn.parts[i]) <= max_rotation_part);
+        turn.parts[i] = s.good() ? turn.parts[i] : 0;
         const double part = static_cast<double>(turn.parts[i]) / rotation_scale;
         rest -= part * part;
     }

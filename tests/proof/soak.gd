@@ -2,8 +2,8 @@ extends "../godot/nodes_case.gd"
 ## Hours of virtual time in which bodies, joints, devices, pointers, tools, what gives, recordings and
 ## links come and go in two worlds, each a side of the other's link: tools/proof/soak.py judges the memory.
 ##
-## A line "SAMPLE …" is JSON: virtual time (s), memory (MB), objects, nodes, files and threads, what has come and
-## gone so far, and in how many frames a pointer and a tool have pressed on something.
+## A line "SAMPLE …" is JSON: virtual time (s), memory (MB), objects, nodes, files and threads, what has
+## come and gone so far, and in how many frames a pointer and a tool have pressed on something.
 
 const FRAME := 1.0 / 60.0
 const MOST_BODIES := 12
