@@ -49,6 +49,7 @@ needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
 # Plays devices for the tests, on USB and behind a service.
 wants pkg-config command -v pkg-config
 wants libumockdev-dev pkg-config --exists umockdev-1.0
+wants umockdev command -v umockdev-run  # what is loaded before the C library comes with it
 wants libwslay1 python3 -c 'import ctypes; ctypes.CDLL("libwslay.so.1")'
 wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
 wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
