@@ -79,10 +79,11 @@ private:
 template <class Visit>
 double PackMemory::visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const {
     const Lanes travelled = splat(odometer + length);
-    Lanes least = splat(std::numeric_limits<double>::infinity());
+    const Lanes none = splat(std::numeric_limits<double>::infinity());
+    Lanes least = none;
     for (std::size_t first = 0; first < count_; first += lane_count) {
         const Lanes bound = clear_until_[first / lane_count] - travelled;
-        const LaneMask reached = bound <= splat(limit);
+        const LaneMask reached = (bound <= splat(limit)) & (bound < none);  // no limit has none beyond count_
         least = lanes_min(least, select(reached, least, bound));
         for (unsigned left = lane_bits(reached); left != 0; left &= left - 1) {
             visit(first + static_cast<std::size_t>(std::countr_zero(left)));
