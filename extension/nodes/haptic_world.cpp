@@ -73,6 +73,13 @@ void warn_of(Node& node, PackedStringArray& warnings) {
     }
 }
 
+// Of millions of triangles, that takes longer than a frame has. A run takes tens of megabytes, and scenes may
+// open and close worlds in every frame.
+void discard_run(std::shared_ptr<WorldRun> run) {
+    static BoundedDiscard discard(3);
+    discard([last = std::move(run)]() mutable { last.reset(); });
+}
+
 }  // namespace
 
 HapticWorld::HapticWorld() : gravity_(project_gravity()) {}
@@ -198,14 +205,13 @@ void HapticWorld::stop() {
     Roll<HapticWorld>::leave(this);
     run_->end();
     let_go_of_former();
-    Workers::discard([run = std::move(run_)]() mutable { run.reset(); });
+    discard_run(std::move(run_));
     post_signal(*this, "stopped");
 }
 
-// Of millions of triangles, that takes longer than a frame has.
 void HapticWorld::let_go_of_former() {
     if (former_ != nullptr) {
-        Workers::discard([run = std::move(former_)]() mutable { run.reset(); });
+        discard_run(std::move(former_));
     }
 }
 

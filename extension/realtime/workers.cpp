@@ -56,6 +56,18 @@ void Workers::discard(std::function<void()> destroy) {
     }
 }
 
+void BoundedDiscard::operator()(std::function<void()> destroy) {
+    if (waiting_->load(std::memory_order_acquire) >= max_waiting_) {
+        destroy();
+        return;
+    }
+    waiting_->fetch_add(1, std::memory_order_relaxed);
+    Workers::discard([waiting = waiting_, destroy = std::move(destroy)] {
+        destroy();
+        waiting->fetch_sub(1, std::memory_order_release);
+    });
+}
+
 void Workers::start() {
     const unsigned processors = std::thread::hardware_concurrency();
     for (unsigned i = 0; i < std::max(processors, 1u); ++i) {

@@ -5,6 +5,7 @@
 // job. None of them may be the haptic thread. They start with the first job.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
@@ -65,6 +66,20 @@ private:
     std::deque<std::shared_ptr<Batch>> batches_;  // that may still have tasks to give
     std::size_t working_ = 0;                     // on a job
     bool ending_ = false;
+};
+
+// Discards what is large: where it is discarded faster than the threads destroy it (they give way to all
+// that is ordinary, and may get no time), it is destroyed by who discards it.
+//
+// Threads: any one but the haptic thread, one at a time.
+class BoundedDiscard {
+public:
+    explicit BoundedDiscard(int max_waiting) : max_waiting_(max_waiting) {}
+    void operator()(std::function<void()> destroy);
+
+private:
+    const int max_waiting_;
+    std::shared_ptr<std::atomic<int>> waiting_ = std::make_shared<std::atomic<int>>(0);
 };
 
 }  // namespace tactus

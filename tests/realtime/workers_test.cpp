@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <latch>
 #include <numeric>
 #include <thread>
 
@@ -68,6 +70,26 @@ TEST(Workers, WhatIsFreedAsideIsFreedAtOnceWhereNoThreadRuns) {
     kept.reset();
     Workers::end_shared();
     EXPECT_EQ(freed, 2);
+}
+
+// No more wait than are allowed, whatever keeps the threads busy.
+TEST(Workers, WhatIsDiscardedFasterThanItIsDestroyedIsDestroyedAtOnce) {
+    std::latch busy{1};
+    for (unsigned i = 0; i < std::max(std::thread::hardware_concurrency(), 1u); ++i) {
+        Workers::shared().add([&busy] { busy.wait(); });
+    }
+    BoundedDiscard discard(2);
+    std::atomic<int> destroyed{0};
+    for (int i = 0; i < 5; ++i) {
+        discard([&destroyed] { ++destroyed; });
+    }
+    EXPECT_EQ(destroyed, 3);
+    busy.count_down();
+    Workers::shared().wait();
+    EXPECT_EQ(destroyed, 5);
+    discard([&destroyed] { ++destroyed; });
+    Workers::end_shared();
+    EXPECT_EQ(destroyed, 6);
 }
 
 }  // namespace

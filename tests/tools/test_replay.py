@@ -126,10 +126,10 @@ def test_as_an_experiment_it_has_its_figures_and_plots(bundle):
 
 def test_a_damaged_one_is_said_and_what_is_whole_is_played(bundle, tmp_path, capsys):
     inputs = (bundle / f"hand{replay.INPUTS}").read_bytes()
-    for name, bytes_ in {
-        "short": inputs[: len(inputs) // 2],
-        "flipped": inputs[: len(inputs) // 2] + b"?" + inputs[len(inputs) // 2 + 1 :],
-    }.items():
+    middle = len(inputs) // 2
+    flipped = bytearray(inputs)
+    flipped[middle] ^= 1
+    for name, bytes_ in {"short": inputs[:middle], "flipped": flipped}.items():
         (tmp_path / f"{name}{replay.INPUTS}").write_bytes(bytes_)
     assert replay.main([str(tmp_path)]) == 2
     said = capsys.readouterr().out
