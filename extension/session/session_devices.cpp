@@ -79,11 +79,12 @@ void SessionLoop::place_hand(DeviceSlot& slot) const {
         drift = drift_at_edge(slot.workspace, slot.capabilities.radius, slot.sample.position);
         slot.offset += drift * seconds_;
     }
-    const Quat turned = slot.workspace.pose.rotation * slot.sample.rotation;
+    // Rotations are taken that are nearly one: what is off would grow with each use of the clutch.
+    const Quat turned = glm::normalize(slot.workspace.pose.rotation * slot.sample.rotation);
     if (held && slot.was_held) {
         slot.turn_offset = slot.orientation * glm::conjugate(turned);
     }
-    slot.orientation = slot.turn_offset * turned;
+    slot.orientation = glm::normalize(slot.turn_offset * turned);
     slot.was_held = held;
     slot.hand = reached + slot.offset;
     slot.hand_velocity = held ? Vec3(0.0) : velocity_in_scene(slot.workspace, slot.sample.velocity) + drift;

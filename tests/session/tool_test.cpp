@@ -56,6 +56,22 @@ TEST(Tool, PressedAndTurnedOnTheGroundItGivesForceAndTorque) {
     EXPECT_NEAR(rig.device.torque.z, state.torque.z, 1e-9);
 }
 
+// Some are off by rounding in single precision; the clutch multiplies them, again and again.
+TEST(Tool, ARotationThatIsNearlyOneIsMadeOne) {
+    ToolRig rig;
+    rig.device.rotation = Quat(1.0004, 0.0, 0.0, 0.0);
+    rig.ticks(2);
+    EXPECT_NEAR(glm::length(rig.tool_state().pose.rotation), 1.0, 1e-12);
+    for (int i = 0; i < 20; ++i) {
+        Workspace held;
+        held.clutch = i % 2 == 0;
+        rig.session.set_workspace(rig.hand, held);
+        rig.ticks(3);
+    }
+    EXPECT_NEAR(glm::length(rig.tool_state().hand.rotation), 1.0, 1e-12);
+    EXPECT_EQ(rig.tool_state().status, 0u);
+}
+
 // Held at its end, it is pressed up at its middle: the hand feels that as a torque.
 TEST(Tool, TheTorqueIsAboutTheHand) {
     ToolRig rig;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <glm/common.hpp>
 
 #include "core/math/types.hpp"
 
@@ -45,9 +46,13 @@ inline FloatLanes splat_float(float v) {
     return FloatLanes{v, v, v, v, v, v, v, v};
 }
 
+// Beyond that it is as far away as can be: its square stays a number, and so the infinite distance of unused
+// slots stays one. Meshes end at 1e9 m, so no distance is overestimated.
 inline FloatPoint to_float_point(const Vec3& p) {
-    return {splat_float(static_cast<float>(p.x)), splat_float(static_cast<float>(p.y)),
-            splat_float(static_cast<float>(p.z))};
+    constexpr double farthest = 1e18;  // (unit: meters)
+    const Vec3 near = glm::min(glm::max(p, Vec3(-farthest)), Vec3(farthest));
+    return {splat_float(static_cast<float>(near.x)), splat_float(static_cast<float>(near.y)),
+            splat_float(static_cast<float>(near.z))};
 }
 
 namespace box_detail {

@@ -394,7 +394,10 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
 
 ToolTick ToolProxy::move(const TouchScene& scene, const Pose& given_hand) {
     scene_ = &scene;
-    const Pose hand = hand_ = is_hand_pose(given_hand) ? given_hand : hand_;
+    if (is_hand_pose(given_hand)) {
+        hand_ = {given_hand.position, glm::normalize(given_hand.rotation)};
+    }
+    const Pose hand = hand_;
     if (!present_) {
         return appear(hand);
     }

@@ -78,6 +78,19 @@ double rounding(const TriangleTree& tree) {
     return 1e-14 * std::max(1.0, tree.magnitude());
 }
 
+// No slot that is empty is mistaken for a pack where the distance is beyond single precision.
+TEST(TriangleTree, FromBeyondAllFloatsOnlyPacksAreFound) {
+    const TriangleTree tree = TriangleTree::build(shared::soup(20, 1.0, 5));
+    for (const double far : {1e17, 1e19, 1e20, 1e39, 1e55, 1e300}) {
+        std::array<FoundPack, 64> found;
+        WorkBudget work(1'000'000);
+        const FoundPacks packs = tree.packs_around({-far, 0.1 * far, 0.0}, 10.0 * far, work, found);
+        for (std::size_t i = 0; i < packs.count; ++i) {
+            EXPECT_LT(found[i].pack, tree.pack_count()) << far;
+        }
+    }
+}
+
 TEST(TriangleTree, NearestDistanceIsThatOfBruteForce) {
     RandomValues random(41);
     for (const Sample& sample : samples()) {
