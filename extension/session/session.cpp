@@ -158,7 +158,7 @@ std::string check_tool(const ToolUse& use) {
 }
 
 template <typename Command, typename... Calls>
-constexpr bool is_call(const std::variant<Calls...>*) {
+constexpr bool is_one_of(const std::variant<Calls...>*) {
     return (std::is_same_v<Command, Calls> || ...);
 }
 
@@ -192,12 +192,19 @@ struct Session::Impl {
         }
     }
     // A command that is plain values is noted as it is, any other one by who sends it.
+    using NotedByTheirSenders =
+        std::variant<command::AddBody, command::DeformBody, command::AddDevice, command::AddProxy,
+                     command::AddTool, command::Record, command::EndRecording, command::Attach>;
     void note_plain(const Command& command) {
         std::visit(
             [this](const auto& c) {
-                using Plain = std::remove_cvref_t<decltype(c)>;
-                if constexpr (is_call<Plain>(static_cast<const InputCall*>(nullptr))) {
+                using Asked = std::remove_cvref_t<decltype(c)>;
+                if constexpr (is_one_of<Asked>(static_cast<const InputCall*>(nullptr))) {
                     recorder->note(c);
+                } else {
+                    static_assert(
+                        is_one_of<Asked>(static_cast<const NotedByTheirSenders*>(nullptr)),
+                        "a recording would miss it: make it an InputCall, or note it where it is sent");
                 }
             },
             command);

@@ -123,6 +123,8 @@ When a tick begins after its deadline, while a hand pushes boxes about, beside c
 and with an ordinary process that never rests on each processor. On {where}.
 
 {_table(head, rows)}
+A virtual machine's host takes a processor away now and then, and a few such pauses in the turns of one of the two decide the ratio: run again and
+again on the machine of 23 November 2026 it was 0.93 and 0.20 idle, 2.16, 0.17 and 0.05 loaded. Below 1 is no merit of the loop's, and 1.2 is not shown there.
 {_picture("proof_lateness.png", "How late ticks begin")}"""
 
 
