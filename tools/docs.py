@@ -15,11 +15,11 @@ from setup import cache
 
 # Pages by the heading they stand under beside every page. README.md is the first page.
 CONTENTS = {
-    "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera"],
+    "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera", "troubleshooting"],
     "Research": ["tutorials/own_experiment", "experiments", "bundles", "teleoperation"],
     "Extend": ["tutorials/own_force_effect", "tutorials/own_driver", "wire_format"],
     "Reference": ["classes/index"],
-    "How it works": ["proxy", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],
+    "How it works": ["architecture", "proxy", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],
     "Changes": ["changes"],
 }
 
