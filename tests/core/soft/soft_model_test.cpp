@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "shared/meshes.hpp"
 
@@ -31,7 +32,7 @@ TEST(SoftModel, ABallWeighsAboutWhatItHoldsAndItsSurfaceHangsOnItsNodes) {
     const TriangleMesh ball = shared::icosphere(3, 0.05);
     const auto made = make_soft_volume(ball, 6, {}, {}, tick);
     ASSERT_EQ(made.error, "");
-    EXPECT_NEAR(made.model->total_mass(), 1000.0 * 4.0 / 3.0 * M_PI * 0.05 * 0.05 * 0.05, 0.04);
+    EXPECT_NEAR(made.model->total_mass(), 1000.0 * 4.0 / 3.0 * std::numbers::pi * 0.05 * 0.05 * 0.05, 0.04);
     for (std::size_t i = 0; i < ball.vertices.size(); ++i) {
         const SoftAnchor& anchor = made.model->anchors[i];
         Vec3 place(0.0);
