@@ -3,10 +3,12 @@
 // Shared by the motion of one tool (nearest_motion.hpp) and of several (group_motion.hpp).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <span>
 
 #include "core/math/small_matrix.hpp"
 #include "core/math/types.hpp"
@@ -88,6 +90,36 @@ public:
         return false;
     }
 
+    // Begins with half-spaces that have pressed in a problem much like this one: with those of them that
+    // press here as well. Only before the first is taken in.
+    void begin_with(std::span<const MotionHalfSpace<n>> spaces) {
+        const SmallVector<n> goal = best_.x;
+        SmallVector<n> missing{};
+        for (const MotionHalfSpace<n>& space : spaces) {
+            if (count() < size() && is_independent(space.row)) {
+                missing[count()] = space.offset - dot(space.row, goal);
+                rows_[count()] = space.row;
+                best_.pushes[count()] = {space.bound, space.direction, 0.0};
+                ++best_.push_count;
+            }
+        }
+        while (count() > 0) {
+            const SmallVector<n> sizes = solved(missing);
+            const auto last = sizes.begin() + static_cast<std::ptrdiff_t>(count());
+            const auto least = std::min_element(sizes.begin(), last);
+            if (*least > 0.0) {
+                for (std::size_t j = 0; j < count(); ++j) {
+                    best_.pushes[j].size = sizes[j];
+                    add(best_.x, rows_[j], sizes[j]);
+                }
+                return;
+            }
+            const auto place = static_cast<std::size_t>(least - sizes.begin());
+            let_go(place);
+            std::copy(missing.begin() + after(place), missing.end(), missing.begin() + after(place) - 1);
+        }
+    }
+
 private:
     // Of a row's squared length: less of it beside those of the active ones is rounding.
     static constexpr double dependent = 1e-10;
@@ -108,12 +140,30 @@ private:
         }
     }
 
+    static std::ptrdiff_t after(std::size_t place) { return static_cast<std::ptrdiff_t>(place) + 1; }
+
+    bool is_independent(const SmallVector<n>& row) const {
+        const SmallVector<n> share = shares_of(row);
+        SmallVector<n> free = row;
+        for (std::size_t j = 0; j < count(); ++j) {
+            add(free, rows_[j], -share[j]);
+        }
+        return dot(free, free) > 1e3 * dependent * dot(row, row);
+    }
+
     // Of the active rows in `wanted`: (N^T N) share = N^T wanted. The active rows are independent.
     SmallVector<n> shares_of(const SmallVector<n>& wanted) const {
-        SmallMatrix<n> gram;
         SmallVector<n> right{};
         for (std::size_t i = 0; i < count(); ++i) {
             right[i] = dot(rows_[i], wanted);
+        }
+        return solved(right);
+    }
+
+    // Of N^T N x = right; nothing where that cannot be told.
+    SmallVector<n> solved(const SmallVector<n>& right) const {
+        SmallMatrix<n> gram;
+        for (std::size_t i = 0; i < count(); ++i) {
             for (std::size_t j = 0; j <= i; ++j) {
                 gram[i][j] = dot(rows_[i], rows_[j]);
             }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <glm/geometric.hpp>
 
 namespace tactus {
 
@@ -19,32 +20,74 @@ constexpr std::size_t first_of(int tool) {
     return 6 * at(tool);
 }
 
-MotionHalfSpace<6 * max_group> worst_of(std::span<const GroupBound> bounds, const GroupVector& x,
-                                        const GroupSpace& space, double& most) {
-    std::array<RigidMotion, max_group> motions;
-    for (int i = 0; i < space.tools; ++i) {
-        motions[at(i)] = space.of(x, i);
+// Bounds that were violated most before: few of them, and most rounds find the next one among them.
+class Pressing {
+public:
+    std::span<const int> all() const { return {items_.data(), count_}; }
+    void add(int bound) {
+        if (count_ < items_.size()) {
+            items_[count_++] = bound;
+        }
     }
-    MotionHalfSpace<6 * max_group> worst;
-    for (std::size_t i = 0; i < bounds.size(); ++i) {
-        const GroupBound& bound = bounds[i];
-        Vec3 way = motions[at(bound.tool)].at(bound.of.arm);
+
+private:
+    std::array<int, 64> items_;
+    std::size_t count_ = 0;
+};
+
+// The half-space that is violated most.
+class Violations {
+public:
+    Violations(std::span<const GroupBound> bounds, const GroupSpace& space, const GroupVector& x)
+        : bounds_(bounds), space_(space) {
+        for (int i = 0; i < space.tools; ++i) {
+            motions_[at(i)] = space.of(x, i);
+        }
+    }
+    void look(int index) {
+        const GroupBound& bound = bounds_[at(index)];
+        Vec3 way = motions_[at(bound.tool)].at(bound.of.arm);
         if (bound.other >= 0) {
-            way -= motions[at(bound.other)].at(bound.other_arm);
+            way -= motions_[at(bound.other)].at(bound.other_arm);
         }
         const BoundLook look = look_at(bound.of, way);
         if (look.missing > most) {
             most = look.missing;
-            worst.bound = static_cast<int>(i);
-            worst.direction = look.direction(bound.of);
+            worst_.bound = index;
+            worst_.direction = look.direction(bound.of);
         }
     }
-    if (worst.bound >= 0) {
-        const GroupBound& bound = bounds[at(worst.bound)];
-        worst.offset = -bound.of.gap - bound.of.friction * bound.of.slide;
-        worst.row = bound.row(worst.direction, space);
+    MotionHalfSpace<6 * max_group> worst() {
+        if (worst_.bound >= 0) {
+            const GroupBound& bound = bounds_[at(worst_.bound)];
+            worst_.offset = -bound.of.gap - bound.of.friction * bound.of.slide;
+            worst_.row = bound.row(worst_.direction, space_);
+        }
+        return worst_;
     }
-    return worst;
+    bool found() const { return worst_.bound >= 0; }
+
+    double most = 0.0;  // (unit: meters)
+
+private:
+    std::span<const GroupBound> bounds_;
+    const GroupSpace& space_;
+    std::array<RigidMotion, max_group> motions_;
+    MotionHalfSpace<6 * max_group> worst_;
+};
+
+// As the bound is now: along n - mu t with the t that it had; without one, the mean of all, n.
+MotionHalfSpace<6 * max_group> half_space(const MotionPush& push, const GroupBound& bound,
+                                          const GroupSpace& space) {
+    const Vec3 aside = bound.of.normal - push.direction;
+    const double length = glm::length(aside);
+    MotionHalfSpace<6 * max_group> made;
+    made.bound = push.bound;
+    made.direction =
+        length > 1e-12 ? bound.of.normal - aside * (bound.of.friction / length) : bound.of.normal;
+    made.offset = -bound.of.gap - bound.of.friction * bound.of.slide;
+    made.row = bound.row(made.direction, space);
+    return made;
 }
 
 void put_row(GroupVector& row, int tool, const Vector6& part, double share) {
@@ -91,20 +134,44 @@ GroupVector GroupBound::row(const Vec3& direction, const GroupSpace& space) cons
 }
 
 GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupBound> bounds,
-                                 const GroupSpace& space, double tolerance, WorkBudget& work) {
+                                 const GroupSpace& space, double tolerance, WorkBudget& work,
+                                 const GroupMotion* like) {
     GroupMotion best;
     best.x = goal;
     ActiveSet<6 * max_group> active(best, first_of(space.tools));
+    Pressing pressing;
+    if (like) {
+        std::array<MotionHalfSpace<6 * max_group>, 6 * max_group> spaces;
+        for (int i = 0; i < like->push_count; ++i) {
+            spaces[at(i)] = half_space(like->pushes[at(i)], bounds[at(like->pushes[at(i)].bound)], space);
+            pressing.add(spaces[at(i)].bound);
+        }
+        active.begin_with(std::span(spaces).first(at(like->push_count)));
+        work.spend(round_cost * (1 + like->push_count));
+    }
     for (int round = 0; best.possible; ++round) {
-        double most = tolerance;
-        const MotionHalfSpace<6 * max_group> worst = worst_of(bounds, best.x, space, most);
-        work.spend(static_cast<std::int64_t>(bounds.size()) * bound_cost + round_cost +
+        Violations violations(bounds, space, best.x);
+        violations.most = tolerance;
+        for (const int bound : pressing.all()) {
+            violations.look(bound);
+        }
+        std::size_t looked = pressing.all().size();
+        if (!violations.found()) {
+            for (std::size_t i = 0; i < bounds.size(); ++i) {
+                violations.look(static_cast<int>(i));
+            }
+            looked += bounds.size();
+            if (violations.found()) {
+                pressing.add(violations.worst().bound);
+            }
+        }
+        work.spend(static_cast<std::int64_t>(looked) * bound_cost + round_cost +
                    std::int64_t{best.push_count} * best.push_count);
-        best.missing = worst.bound < 0 ? 0.0 : most;
-        if (worst.bound < 0 || round == max_rounds || work.is_gone()) {
+        best.missing = violations.found() ? violations.most : 0.0;
+        if (!violations.found() || round == max_rounds || work.is_gone()) {
             break;
         }
-        best.possible = active.take_in(worst);
+        best.possible = active.take_in(violations.worst());
     }
     return best;
 }

@@ -45,8 +45,10 @@ struct GroupBound {
     GroupVector row(const Vec3& direction, const GroupSpace& space) const;
 };
 
-// See nearest_motion().
+// See nearest_motion(). `like`: of the same bounds with other frictions, slides or another goal; what pressed
+// there is where it begins.
 GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupBound> bounds,
-                                 const GroupSpace& space, double tolerance, WorkBudget& work);
+                                 const GroupSpace& space, double tolerance, WorkBudget& work,
+                                 const GroupMotion* like = nullptr);
 
 }  // namespace tactus

@@ -210,7 +210,7 @@ void ToolGroup::advance(Cluster& cluster) {
 
 bool ToolGroup::goes_on(const Cluster& cluster, const Plan& plan) {
     const bool fails = work_.is_gone() || !plan.possible;
-    const bool rests = !fails && is_at_rest(cluster, plan.motion);
+    const bool rests = !fails && plan.complete && is_at_rest(cluster, plan.motion);
     bool tired = false;
     for (int i = 0; i < cluster.count; ++i) {
         Member& one = member(cluster.members[at(i)]);

@@ -78,6 +78,7 @@ private:
         GroupVector motion{};
         GroupMotion holding;
         bool possible = true;
+        bool complete = true;  // false: friction is not all that it should be
     };
     using Motions = std::array<RigidMotion, max_tools>;  // of the members
 
@@ -109,8 +110,10 @@ private:
     bool is_held(const GroupMotion& holding) const;
     void bound_friction();
     bool bound_slides(const Cluster& cluster, const GroupVector& x);
-    GroupMotion nearest(const Cluster& cluster, const GroupVector& goal, double tolerance);
-    GroupMotion hold(const Cluster& cluster, const GroupVector& goal);
+    GroupMotion nearest(const Cluster& cluster, const GroupVector& goal, double tolerance, WorkBudget& work,
+                        const GroupMotion* like = nullptr);
+    GroupMotion hold(const Cluster& cluster, const GroupVector& goal, const GroupMotion& like,
+                     WorkBudget& work);
     bool begins_to_slide(const Cluster& cluster, const GroupMotion& held);
     bool is_at_rest(const Cluster& cluster, const GroupVector& x) const;
     GroupVector goal_with_friction(const Cluster& cluster, const GroupVector& goal,

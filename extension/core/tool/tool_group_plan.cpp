@@ -89,14 +89,16 @@ void ToolGroup::release_bounds() {
     }
 }
 
-GroupMotion ToolGroup::nearest(const Cluster& cluster, const GroupVector& goal, double tolerance) {
-    GroupMotion nearest = nearest_group_motion(goal, bounds_, cluster.space, tolerance * cluster.skin, work_);
+GroupMotion ToolGroup::nearest(const Cluster& cluster, const GroupVector& goal, double tolerance,
+                               WorkBudget& work, const GroupMotion* like) {
+    GroupMotion nearest =
+        nearest_group_motion(goal, bounds_, cluster.space, tolerance * cluster.skin, work, like);
     if (!nearest.possible) {
         // See ToolProxy::nearest.
         for (GroupBound& bound : bounds_) {
             bound.of.gap = std::max(bound.of.gap, 0.0);
         }
-        nearest = nearest_group_motion(goal, bounds_, cluster.space, tolerance * cluster.skin, work_);
+        nearest = nearest_group_motion(goal, bounds_, cluster.space, tolerance * cluster.skin, work);
     }
     return nearest;
 }
@@ -128,20 +130,24 @@ void ToolGroup::bound_friction() {
     }
 }
 
-// What slides may do so without lifting. False where nothing does.
+// What slides may do so without lifting. False where that is known already.
 bool ToolGroup::bound_slides(const Cluster& cluster, const GroupVector& x) {
-    bool any = false;
+    constexpr double same = 0.01;
+    double most = 0.0;
+    double changed = 0.0;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {
         const Source& source = sources_[i];
         const bool slides =
             source.meeting ? source.meeting->pair->sliding() : member(source.member).tool->sliding_;
         MotionBound& bound = bounds_[i].of;
         if (slides && bound.friction > 0.0) {
+            const double before = bound.slide;
             bound.slide = glm::length(along_surface(bounds_[i].way(cluster.space, x), bound.normal));
-            any = true;
+            most = std::max(most, bound.slide);
+            changed = std::max(changed, std::abs(bound.slide - before));
         }
     }
-    return any;
+    return changed > same * most;
 }
 
 bool ToolGroup::is_at_rest(const Cluster& cluster, const GroupVector& x) const {
@@ -155,11 +161,12 @@ bool ToolGroup::is_at_rest(const Cluster& cluster, const GroupVector& x) const {
 }
 
 // Where Coulomb's friction lets the tools go, with the forces that hold them.
-GroupMotion ToolGroup::hold(const Cluster& cluster, const GroupVector& goal) {
+GroupMotion ToolGroup::hold(const Cluster& cluster, const GroupVector& goal, const GroupMotion& like,
+                            WorkBudget& work) {
     bound_friction();
-    GroupMotion held = nearest(cluster, goal, cones_met);
+    GroupMotion held = nearest(cluster, goal, cones_met, work, &like);
     for (int i = 0; i < slide_rounds && !is_at_rest(cluster, held.x) && bound_slides(cluster, held.x); ++i) {
-        held = nearest(cluster, goal, cones_met);
+        held = nearest(cluster, goal, cones_met, work, &held);
     }
     return held;
 }
@@ -210,21 +217,30 @@ ToolGroup::Plan ToolGroup::plan(Cluster& cluster) {
         cluster.space.put(goal, i, motion_between(tool.pose_, tool.hand_));
     }
     Plan plan;
-    plan.holding = nearest(cluster, goal, bounds_met);
+    plan.holding = nearest(cluster, goal, bounds_met, work_);
     plan.motion = plan.holding.x;
     plan.possible = plan.holding.possible && plan.holding.missing == 0.0;
     if (!plan.possible || !is_held(plan.holding)) {
         return plan;
     }
-    plan.holding = hold(cluster, goal);
-    for (int i = 0; i < max_breaks && begins_to_slide(cluster, plan.holding); ++i) {
-        plan.holding = hold(cluster, goal);
+    // Friction that the work does not suffice for is weaker or elsewhere than it should be in this step. What
+    // is kept back is for the motion with it: so they get on in every tick.
+    const std::int64_t for_friction = work_.left() * 2 / 3;
+    WorkBudget work(for_friction);
+    GroupMotion held = hold(cluster, goal, plan.holding, work);
+    for (int i = 0; i < max_breaks && begins_to_slide(cluster, held) && !work.is_gone(); ++i) {
+        held = hold(cluster, goal, held, work);
     }
-    plan.motion = plan.holding.x;
-    if (!is_at_rest(cluster, plan.motion)) {
-        const GroupVector along_goal = goal_with_friction(cluster, goal, plan.holding);
+    work_.spend(for_friction - work.left());
+    plan.complete = held.missing == 0.0 && !work.is_gone();
+    if (plan.complete) {
+        plan.holding = held;
+        plan.motion = held.x;
+    }
+    if (!plan.complete || !is_at_rest(cluster, plan.motion)) {
+        const GroupVector along_goal = goal_with_friction(cluster, goal, held);
         release_bounds();
-        const GroupMotion along = nearest(cluster, along_goal, bounds_met);
+        const GroupMotion along = nearest(cluster, along_goal, bounds_met, work_, &held);
         plan.motion = along.x;
         plan.possible = along.possible && along.missing == 0.0;
     }
