@@ -6,8 +6,8 @@
 
 #include "shared/bench_kit.hpp"
 #include "shared/field_figures.hpp"
-#include "shared/rough_meshes.hpp"
 #include "shared/pair_figures.hpp"
+#include "shared/rough_meshes.hpp"
 #include "shared/soft_figures.hpp"
 #include "shared/stack_figures.hpp"
 #include "shared/tool_figures.hpp"
@@ -123,7 +123,8 @@ void report_pair(Report& report, int ticks) {
     report.set("pair.balance_error_percent", all.balance_error);
     report.set("pair.friction_error_percent", slid.friction_error);
     std::printf(
-        "pair: force off by %.3f %%, torque by %.3f %%, one hand's from the other's by %.4f %%, friction from "
+        "pair: force off by %.3f %%, torque by %.3f %%, one hand's from the other's by %.4f %%, friction "
+        "from "
         "Coulomb's by %.3f %%\n",
         all.tool.force_error, all.tool.torque_error, all.balance_error, slid.friction_error);
 }

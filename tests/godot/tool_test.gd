@@ -54,8 +54,8 @@ func test_two_tools_press_each_other() -> void:
 	var upper := add_tool(world, path(Vector3(0, 0.05, 0), Vector3(0.01, 0.014, 0)), bar())
 	var plate := bar(Vector3(0.08, 0.02, 0.08))
 	var lower := add_tool(world, path(Vector3.ZERO, Vector3.ZERO), plate)
-	upper.device = upper.get_path_to(world.get_child(0))
-	lower.device = lower.get_path_to(world.get_child(2))
+	for tool: HapticTool in [upper, lower]:
+		tool.device = tool.get_path_to(world.get_child(tool.get_index() - 1))
 	var heard := []
 	upper.contact_started.connect(func(body: Node3D) -> void: heard.append(body))
 	world.advance(1.2)

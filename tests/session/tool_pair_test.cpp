@@ -178,7 +178,8 @@ TEST(ToolPair, IsTheSameOnEveryRunAndAllocatesNothing) {
         testing::AuditScope audit;
         for (int i = 0; i < 300; ++i) {
             rig.device.position = {0.01 * std::sin(0.05 * i), 1.06 - 0.0003 * std::min(i, 130), 0.0};
-            rig.device.rotation = glm::angleAxis(0.1 * std::sin(0.03 * i), glm::normalize(Vec3(0.5, 0.2, 1.0)));
+            rig.device.rotation =
+                glm::angleAxis(0.1 * std::sin(0.03 * i), glm::normalize(Vec3(0.5, 0.2, 1.0)));
             rig.other.position = {0.0, 1.0, 0.003 * std::sin(0.04 * i)};
             rig.tick();
         }

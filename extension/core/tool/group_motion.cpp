@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "core/tool/tool_steps.hpp"
+
 namespace tactus {
+
+using tool_steps::at;
 
 namespace {
 
 constexpr int max_rounds = 128;
 constexpr std::int64_t round_cost = 60;  // of one half-space taken in (see WorkBudget)
 constexpr std::int64_t bound_cost = 2;   // both sides of a half-space
-
-constexpr std::size_t at(int i) {
-    return static_cast<std::size_t>(i);
-}
 
 constexpr std::size_t first_of(int tool) {
     return 6 * at(tool);

@@ -11,10 +11,6 @@ using namespace tool_steps;
 
 namespace {
 
-constexpr std::size_t at(int i) {
-    return static_cast<std::size_t>(i);
-}
-
 // Of its coupling, at least: a hand that is given nothing gives way to everything.
 constexpr double least_share = 1e-6;
 

@@ -13,10 +13,6 @@ using namespace tool_steps;
 
 namespace {
 
-constexpr std::size_t at(int i) {
-    return static_cast<std::size_t>(i);
-}
-
 // Each of them lets go of what sticks, and there are no more than four tools and six pairs.
 constexpr int max_breaks = 4;
 

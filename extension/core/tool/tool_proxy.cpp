@@ -15,14 +15,6 @@ namespace tactus {
 
 using namespace tool_steps;
 
-namespace {
-
-constexpr std::size_t at(int i) {
-    return static_cast<std::size_t>(i);
-}
-
-}  // namespace
-
 ToolProxy::ToolProxy(std::shared_ptr<const ToolShape> shape, std::size_t max_parts,
                      const ToolSettings& settings)
     : around_(std::move(shape), max_parts) {

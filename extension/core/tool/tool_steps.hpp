@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "core/math/small_matrix.hpp"
 
@@ -19,6 +20,10 @@ constexpr int slide_rounds = 4;  // of the pressure and the friction that goes w
 
 // Of the tool's reach: how far bodies may take it in a tick.
 constexpr double farthest_ride = 0.2;
+
+constexpr std::size_t at(int i) {
+    return static_cast<std::size_t>(i);
+}
 
 inline double length_of(const Vector6& x) {
     double sum = 0.0;
