@@ -67,6 +67,7 @@ func test_two_tools_press_each_other() -> void:
 	var contacts := upper.get_contacts()
 	check(contacts.size() > 0 and contacts[0].body == lower, "contacts: %s" % [contacts])
 	check_equal(upper.get_state_text(), "touching", "state")
+	check_equal(world.get_problems().size(), 0, "problems")
 	# In no layer of the other's mask they meet no more.
 	lower.collision_layer = 2
 	upper.collision_mask = 1
