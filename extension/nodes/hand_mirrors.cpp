@@ -17,12 +17,29 @@ using namespace godot;
 namespace {
 
 template <class State>
-auto body_ids(const State& state, const HandMirrors::NodeOf& node_of) {
-    std::array<std::uint64_t, std::tuple_size_v<decltype(state.bodies)>> ids{};
+using ContactIds = std::array<std::uint64_t, std::tuple_size_v<decltype(State::bodies)>>;
+
+template <class State>
+ContactIds<State> body_ids(const State& state, const HandMirrors::NodeOf& node_of) {
+    ContactIds<State> ids{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(state.contact_count); ++i) {
-        ids[i] = node_of(state.bodies[i]);
+        ids[i] = state.bodies[i] != no_handle ? node_of(state.bodies[i]) : 0;
     }
     return ids;
+}
+
+// What else than bodies it touches.
+template <class Mirror>
+void add_others(const ProxyState&, const std::vector<Mirror>&, ContactIds<ProxyState>&) {}
+
+template <class Mirror>
+void add_others(const ToolState& state, const std::vector<Mirror>& tools, ContactIds<ToolState>& ids) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(state.contact_count); ++i) {
+        const auto other = std::ranges::find_if(tools, [&](const Mirror& tool) {
+            return state.tools[i] != no_handle && tool.twin.handle() == state.tools[i];
+        });
+        ids[i] = other != tools.end() ? other->id : ids[i];
+    }
 }
 
 // no_handle where the node has none.
@@ -180,7 +197,7 @@ void HandMirrors::show(const std::vector<Mirror>& mirrors, const std::array<Stat
     struct News {
         std::uint64_t node;
         State state;
-        decltype(body_ids(State{}, node_of)) bodies;
+        ContactIds<State> bodies;
     };
     std::vector<News> all;
     for (const auto& [id, twin] : mirrors) {
@@ -188,8 +205,9 @@ void HandMirrors::show(const std::vector<Mirror>& mirrors, const std::array<Stat
             all.push_back({id, *state, body_ids(*state, node_of)});
         }
     }
-    for (const News& news : all) {
+    for (News& news : all) {
         std::ranges::copy_if(news.bodies, std::back_inserter(touched_), [](auto body) { return body != 0; });
+        add_others(news.state, mirrors, news.bodies);
         if (auto* node = node_of_id<NodeType>(news.node)) {
             node->take_state(news.state, news.bodies);
         }

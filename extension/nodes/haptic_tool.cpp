@@ -40,7 +40,7 @@ void HapticTool::make_shape(bool waits) {
     sampling_ = std::make_shared<Sampling>();
     const auto make = [sampling = sampling_, source = source_of(mesh_), settings = sampling_settings_] {
         const TriangleSource::Checked& triangles = source->triangles();
-        sampling->result = triangles.mesh != nullptr ? make_tool_shape(*triangles.mesh, settings)
+        sampling->result = triangles.mesh != nullptr ? make_tool_shape(triangles.mesh, settings)
                                                      : ToolShapeResult{nullptr, triangles.error};
         sampling->is_done.store(true, std::memory_order_release);
     };

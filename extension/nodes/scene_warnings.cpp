@@ -16,6 +16,7 @@
 #include "nodes/haptic_effect.hpp"
 #include "nodes/haptic_material.hpp"
 #include "nodes/haptic_mesh.hpp"
+#include "nodes/haptic_tool.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/mmt_link.hpp"
@@ -148,6 +149,15 @@ bool needs_no_bodies(const Node& node) {
     return sensor != nullptr && sensor->makes_bodies();
 }
 
+// They touch each other.
+bool has_two_tools(const Node& world) {
+    int tools = 0;
+    return find_below(world, [&tools](const Node& node) {
+               tools += Object::cast_to<HapticTool>(&node) != nullptr ? 1 : 0;
+               return tools == 2;
+           }) != nullptr;
+}
+
 }  // namespace
 
 bool is_edited() {
@@ -194,7 +204,7 @@ SceneReading read_scene(const HapticWorld& world, const Vec3& hand, double radiu
 }
 
 String problem_of_emptiness(const HapticWorld& world) {
-    if (find_below(world, needs_no_bodies) != nullptr) {
+    if (find_below(world, needs_no_bodies) != nullptr || has_two_tools(world)) {
         return String();
     }
     const Node* outside = body_outside(top_of(world), Outside::any);

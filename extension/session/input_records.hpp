@@ -253,13 +253,13 @@ inline constexpr int members<ProxyDescription> = 6;
 template <>
 inline constexpr int members<FieldMoment> = 5;
 template <>
-inline constexpr int members<ToolSettings> = 5;
+inline constexpr int members<ToolSettings> = 8;
 template <>
 inline constexpr int members<ToolUse> = 4;
 template <>
 inline constexpr int members<ToolSphere> = 2;
 template <>
-inline constexpr int members<ToolShape> = 3;
+inline constexpr int members<ToolShape> = 4;
 template <>
 inline constexpr int members<Workspace> = 8;
 template <>

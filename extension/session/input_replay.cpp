@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/mesh_check.hpp"
 #include "core/geometry/touch_shape.hpp"
 #include "core/math/bit_hash.hpp"
 
@@ -310,7 +311,8 @@ void InputReplay::carry_out(const call::AddProxy& c) {
 }
 
 void InputReplay::carry_out(const call::AddTool& c) {
-    check(c.shape != nullptr && !c.shape->spheres.empty());
+    check(c.shape != nullptr && !c.shape->spheres.empty() &&
+          (c.shape->mesh == nullptr || check_mesh(*c.shape->mesh).empty()));
     if (!is_over_) {
         session_->use_handle(c.handle);
         check(session_->add_tool(c.shape, c.use).handle == c.handle);

@@ -189,7 +189,7 @@ private:
 
     // --- operator_tools.cpp
     void round_tools(SessionLoop& loop) const;
-    bool tool_lands(SessionLoop& loop, std::size_t index);
+    bool tools_land(SessionLoop& loop);
     void feel_tools(SessionLoop& loop);
     Wrench modelled_wrench(const SessionLoop& loop, Tool& tool, ToolSlot& slot, bool changed);
     Wrench far_wrench(std::size_t index, ToolSlot& slot, bool& changed);

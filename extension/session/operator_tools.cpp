@@ -1,6 +1,7 @@
 // The operator's hand where it holds a tool: what a pointer has (operator_touch.cpp, operator_sending.cpp),
 // with a torque. Its changes are hidden whichever stealthy correction is chosen; none is carried along.
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -37,21 +38,40 @@ void OperatorSide::round_tools(SessionLoop& loop) const {
     }
 }
 
-// The tool is left as it was. True where it has just come to touch something.
-bool OperatorSide::tool_lands(SessionLoop& loop, std::size_t index) {
-    ToolSlot* const slot = loop.tool(index);
-    if (!slot || !slot->hand.holds) {
+// The tools are left as they were. True where one of them has just come to touch something.
+bool OperatorSide::tools_land(SessionLoop& loop) {
+    struct Before {
+        ToolMemory memory;
+        Wrench wrench;
+        bool free = true;
+    };
+    std::array<Before, max_tools> before;
+    const auto for_each_held = [&](auto&& use) {
+        for (std::size_t i = 0; i < max_tools; ++i) {
+            if (ToolSlot* const slot = loop.tool(i); slot && slot->hand.holds) {
+                use(*slot, before[i], tools_[i]);
+            }
+        }
+    };
+    bool any_held = false;
+    for_each_held([&](const ToolSlot& slot, Before& kept, const Tool&) {
+        kept = {slot.proxy.memory(), slot.wrench,
+                slot.proxy.touching().empty() && slot.proxy.meetings().empty()};
+        any_held = true;
+    });
+    if (!any_held) {
         return false;
     }
-    const bool was_free = slot->proxy.touching().empty();
-    const ToolMemory memory = slot->proxy.memory();
-    const Wrench before = slot->wrench;
-    loop.touch(*slot);
-    tools_[index].uncorrected = slot->wrench;
-    tools_[index].jumped = slot->jumped;
-    slot->proxy.recall(memory, loop.scene());
-    slot->wrench = before;
-    return was_free && glm::length(tools_[index].uncorrected.force) > no_force;
+    loop.touch_tools();
+    bool any = false;
+    for_each_held([&](ToolSlot& slot, const Before& kept, Tool& tool) {
+        tool.uncorrected = slot.wrench;
+        tool.jumped = slot.jumped;
+        slot.proxy.recall(kept.memory, loop.scene());
+        slot.wrench = kept.wrench;
+        any = any || (kept.free && glm::length(tool.uncorrected.force) > no_force);
+    });
+    return any;
 }
 
 void OperatorSide::feel_tools(SessionLoop& loop) {

@@ -73,10 +73,8 @@ bool OperatorSide::lands(SessionLoop& loop, Nanoseconds now) {
         pointer.uncorrected = force_uncorrected(loop, pointer, slot, now);
         any = any || (was_free && glm::length(pointer.uncorrected.force) > no_force);
     }
-    for (std::size_t i = 0; i < max_tools; ++i) {
-        const bool lands = tool_lands(loop, i);
-        any = any || lands;
-    }
+    const bool tools = tools_land(loop);
+    any = any || tools;
     return any && is_stealthy(settings().correction);
 }
 

@@ -1,6 +1,7 @@
 #include "session/session.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <glm/geometric.hpp>
@@ -154,6 +155,11 @@ std::string check_tool(const ToolUse& use) {
     if (!is_stiffness(use.settings.stiffness) || !is_stiffness(use.settings.turning_stiffness)) {
         return "the tool's stiffness or turning stiffness is not above 0: set both anew";
     }
+    for (const double value : {use.settings.static_friction, use.settings.dynamic_friction}) {
+        if (!(value >= 0.0 && value <= limits::stiffest)) {
+            return "the tool's friction is below 0 or not a number: set static and dynamic friction anew";
+        }
+    }
     return limits::is_pose(use.grasp) ? "" : "the tool's grasp is no place: reset it";
 }
 
@@ -283,6 +289,7 @@ struct Session::Impl {
     SessionLoop loop;
 
     HandlePool bodies, devices, proxies, tools, joints;
+    std::array<std::shared_ptr<const ToolShape>, max_tools> tool_shapes;  // by handle
     bool has_twin = false;     // the side that was attached last has one
     bool hears_tools = false;  // likewise, see TeleopSide
     std::vector<RecorderRing<SessionRecord>*> recorded;
@@ -549,12 +556,24 @@ AddResult Session::add_tool(std::shared_ptr<const ToolShape> shape, const ToolUs
         return {no_handle, "a world takes at most " + std::to_string(max_tools) + " tools: remove one"};
     }
     impl_->note(call::AddTool{handle, shape, use});
-    const auto make = [&] { return std::make_unique<ToolSlot>(shape, impl_->settings.max_parts, use); };
+    const auto make = [&] {
+        auto slot = std::make_unique<ToolSlot>(shape, impl_->settings.max_parts, use);
+        for (SessionHandle other = 0; other < max_tools; ++other) {
+            if (other != handle && impl_->tools.in_use(other)) {
+                slot->pairs[other] = ToolPair::make(impl_->tool_shapes[other], shape);
+                if (slot->pairs[other] && !slot->group) {
+                    slot->group = std::make_unique<ToolGroup>();
+                }
+            }
+        }
+        return slot;
+    };
     command::AddTool add{handle, make(), impl_->has_twin ? make() : nullptr};
     if (impl_->hears_tools) {
         add.tool->heard = std::make_unique<JitterBuffer<OperatorSample>>();
     }
     impl_->send(std::move(add));
+    impl_->tool_shapes[handle] = std::move(shape);
     return {handle, {}};
 }
 
@@ -566,6 +585,7 @@ void Session::set_tool(SessionHandle tool, const ToolUse& use) {
 
 void Session::remove_tool(SessionHandle tool) {
     if (impl_->tools.let_go(tool)) {
+        impl_->tool_shapes[tool].reset();
         impl_->send(command::RemoveTool{tool});
     }
 }

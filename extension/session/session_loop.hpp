@@ -152,8 +152,8 @@ public:
 
     // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
     void touch(ProxySlot& slot, Nanoseconds now);
-    // The same for a tool; the wrench is in the slot.
-    void touch(ToolSlot& slot);
+    // The same for all tools; the wrenches are in their slots.
+    void touch_tools();
     // What the hand may be given of a pointer's or a tool's force (unit: newtons).
     double force_limit(const ProxySlot& slot) const { return force_limit(slot.description.device); }
     double force_limit(const ToolSlot& slot) const;
@@ -249,7 +249,10 @@ private:
     double force_limit(SessionHandle device) const;
     void hold_tools();
     ToolHand hand_at(const DeviceSlot& device, const ToolUse& use) const;
-    void touch_tools();
+    bool takes_hold(ToolSlot& slot) const;
+    ToolGroup* tool_group() const;
+    SessionHandle handle_of(const ToolProxy& tool) const;
+    void feel(ToolSlot& slot, const ToolTick& tick);
     void fade_tools();
     void press_bodies(const ToolSlot& slot);
     void describe(ToolSlot& slot, const ToolTick& tick) const;

@@ -12,6 +12,12 @@ namespace tactus {
 
 bool SessionLoop::carry_out(command::AddTool& c, Retired&) {
     tools_[c.handle] = std::move(c.tool);
+    ToolSlot& added = *tools_[c.handle];
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (added.pairs[i] && tools_[i]) {
+            added.pairs[i]->join(tools_[i]->proxy, added.proxy);
+        }
+    }
     return false;
 }
 
@@ -30,6 +36,14 @@ bool SessionLoop::carry_out(command::RemoveTool& c, Retired& retired) {
     retired.kind = Retired::Kind::tool;
     retired.handle = c.handle;
     retired.tool = std::move(tools_[c.handle]);
+    for (std::size_t i = 0; i < max_tools && retired.tool; ++i) {
+        if (tools_[i] && tools_[i]->pairs[c.handle]) {
+            retired.tool->pairs[i] = std::move(tools_[i]->pairs[c.handle]);
+        }
+        if (retired.tool->pairs[i]) {
+            retired.tool->pairs[i]->part();
+        }
+    }
     return true;
 }
 
@@ -90,29 +104,55 @@ double SessionLoop::force_limit(const ToolSlot& slot) const {
 }
 
 // A side that does not simulate has nothing here to touch.
-void SessionLoop::touch_tools() {
+bool SessionLoop::takes_hold(ToolSlot& slot) const {
+    if ((side_ && !side_->simulates()) || !slot.hand.holds) {
+        slot.let_go();
+        return false;
+    }
+    if (std::exchange(slot.rested, false) &&
+        glm::distance(slot.hand.goal.position, slot.state.hand.position) > slot.proxy.shape().reach) {
+        slot.proxy.restart();  // the hand may be deep inside a body by now
+    }
+    return true;
+}
+
+// Null: no two tools are there that may meet.
+ToolGroup* SessionLoop::tool_group() const {
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
-        if (slot) {
-            if (side_ && !side_->simulates()) {
-                slot->let_go();
-                continue;
-            }
-            touch(*slot);
+        if (slot && slot->group) {
+            return slot->group.get();
         }
+    }
+    return nullptr;
+}
+
+void SessionLoop::touch_tools() {
+    ToolGroup* const group = tool_group();
+    if (!group) {
+        for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+            if (slot && takes_hold(*slot)) {
+                feel(*slot, slot->proxy.move(scene_, slot->hand.goal));
+            }
+        }
+        return;
+    }
+    std::array<ToolSlot*, max_tools> held;
+    std::size_t count = 0;
+    group->clear();
+    for (const std::unique_ptr<ToolSlot>& slot : tools_) {
+        if (slot && takes_hold(*slot)) {
+            group->add(slot->proxy, slot->hand.goal, slot->hand.share);
+            held[count++] = slot.get();
+        }
+    }
+    group->move(scene_);
+    for (std::size_t i = 0; i < count; ++i) {
+        feel(*held[i], group->tick_of(i));
     }
 }
 
-void SessionLoop::touch(ToolSlot& slot) {
-    if (!slot.hand.holds) {
-        slot.let_go();
-        return;
-    }
+void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
     const Pose& goal = slot.hand.goal;
-    if (std::exchange(slot.rested, false) &&
-        glm::distance(goal.position, slot.state.hand.position) > slot.proxy.shape().reach) {
-        slot.proxy.restart();  // the hand may be deep inside a body by now
-    }
-    const ToolTick tick = slot.proxy.move(scene_, goal);
     tool_work_ += slot.proxy.work_spent();
     slot.wrench.force = tick.force * slot.hand.share;
     slot.wrench.torque =
@@ -123,10 +163,20 @@ void SessionLoop::touch(ToolSlot& slot) {
         const Vec3 way = way_of_surface(scene_, surface_of(touch));
         given += glm::dot(touch.force, way) * slot.hand.share;
     }
+    for (const ToolMeeting& meeting : slot.proxy.meetings()) {
+        const Vec3 way = meeting.other->way().at(meeting.point - meeting.other->pose().position);
+        given += glm::dot(meeting.force, way) * slot.hand.share;
+    }
     slot.source = std::max(0.0, given);
     status_ |= tick.status & tool_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;
     slot.state.torque = slot.wrench.torque;
     describe(slot, tick);
+}
+
+SessionHandle SessionLoop::handle_of(const ToolProxy& tool) const {
+    const auto found =
+        std::ranges::find_if(tools_, [&](const auto& slot) { return slot && &slot->proxy == &tool; });
+    return found == tools_.end() ? no_handle : static_cast<SessionHandle>(found - tools_.begin());
 }
 
 void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
@@ -141,6 +191,17 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
         state.bodies[i] = handle_of_slot_[static_cast<std::size_t>(touch.body)];
         state.points[i] = touch.point;
         state.normals[i] = touch.normal;
+        state.tools[i] = no_handle;
+    }
+    for (const ToolMeeting& meeting : slot.proxy.meetings()) {
+        if (state.contact_count == static_cast<int>(ToolState::max_contacts)) {
+            break;
+        }
+        const auto i = static_cast<std::size_t>(state.contact_count++);
+        state.bodies[i] = no_handle;
+        state.points[i] = meeting.point;
+        state.normals[i] = meeting.normal;
+        state.tools[i] = handle_of(*meeting.other);
     }
 }
 

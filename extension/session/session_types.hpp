@@ -139,6 +139,9 @@ struct ToolState {
     int contact_count = 0;
     std::array<SessionHandle, max_contacts> bodies{no_handle, no_handle, no_handle,
                                                    no_handle, no_handle, no_handle};
+    // Other tools that it touches, where `bodies` has none; after those.
+    std::array<SessionHandle, max_contacts> tools{no_handle, no_handle, no_handle,
+                                                  no_handle, no_handle, no_handle};
     std::array<Vec3, max_contacts> points{};
     std::array<Vec3, max_contacts> normals{};
 };

@@ -1,6 +1,7 @@
 // A tool in the loop: what the hand holds it by, and what comes of it in a tick. Private to session/.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -10,6 +11,8 @@
 #include "core/haptics/fading_force.hpp"
 #include "core/math/wrench.hpp"
 #include "core/teleop/jitter_buffer.hpp"
+#include "core/tool/tool_group.hpp"
+#include "core/tool/tool_pair.hpp"
 #include "core/tool/tool_proxy.hpp"
 #include "network/messages.hpp"
 #include "session/session_types.hpp"
@@ -17,6 +20,7 @@
 namespace tactus {
 
 static_assert(first_tool == max_proxies);
+static_assert(max_tools <= ToolGroup::max_tools && max_tools - 1 <= ToolProxy::max_pairs);
 
 // What holds a tool.
 struct ToolHand {
@@ -35,6 +39,10 @@ struct ToolSlot {
         : proxy(std::move(shape), max_parts, first_use.settings), use(first_use) {}
 
     ToolProxy proxy;
+    // With the tools that were there before it, by handle, and what moves all of them: null where there were
+    // none.
+    std::array<std::unique_ptr<ToolPair>, max_tools> pairs;
+    std::unique_ptr<ToolGroup> group;
     ToolUse use;
     ToolHand hand;
     Wrench wrench;            // of the scene as it is, about the hand; what that is given is in `state`

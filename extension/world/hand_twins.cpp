@@ -22,6 +22,8 @@ bool same(const ToolUse& a, const ToolUse& b) {
     return a.device == b.device && a.settings.mask == b.settings.mask &&
            a.settings.stiffness == b.settings.stiffness &&
            a.settings.turning_stiffness == b.settings.turning_stiffness &&
+           a.settings.layer == b.settings.layer && a.settings.static_friction == b.settings.static_friction &&
+           a.settings.dynamic_friction == b.settings.dynamic_friction &&
            a.grasp.position == b.grasp.position && a.grasp.rotation == b.grasp.rotation &&
            a.enabled == b.enabled;
 }

@@ -6,6 +6,7 @@
 
 #include "shared/bench_kit.hpp"
 #include "shared/field_figures.hpp"
+#include "shared/pair_figures.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/soft_figures.hpp"
 #include "shared/stack_figures.hpp"
@@ -103,6 +104,29 @@ void report_stack(Report& report) {
     report_plays(report, "stack", all);
     report.set("stack.lost", lost);
     std::printf("stack: lost for %d ticks, %.3f mm in a box at most\n", lost, 1e3 * all.deepest);
+}
+
+void report_pair(Report& report, int ticks) {
+    PairFigures all;
+    for (const double ratio : {1.0, 0.2, 5.0}) {
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+            const PairFigures pressed = press_pair(ratio, seed);
+            all.tool.add(pressed.tool);
+            all.balance_error = std::max(all.balance_error, pressed.balance_error);
+        }
+    }
+    all.tool.add(rub_pair(ticks, 500, 1).tool);
+    const PairFigures slid = slide_pair();
+    report_plays(report, "pair", all.tool);
+    report.set("pair.force_error_percent", all.tool.force_error);
+    report.set("pair.torque_error_percent", all.tool.torque_error);
+    report.set("pair.balance_error_percent", all.balance_error);
+    report.set("pair.friction_error_percent", slid.friction_error);
+    std::printf(
+        "pair: force off by %.3f %%, torque by %.3f %%, one hand's from the other's by %.4f %%, friction "
+        "from "
+        "Coulomb's by %.3f %%\n",
+        all.tool.force_error, all.tool.torque_error, all.balance_error, slid.friction_error);
 }
 
 void report_field(Report& report, int samples, int ticks) {
@@ -217,6 +241,9 @@ int main(int count, char** arguments) {
     }
     if (is_chosen("stack", only)) {
         report_stack(report);
+    }
+    if (is_chosen("pair", only)) {
+        report_pair(report, ticks);
     }
     if (is_chosen("field", only)) {
         report_field(report, samples, ticks);

@@ -239,7 +239,7 @@ std::vector<Bytes> seeds() {
     joined.ask(command::RemoveDevice{0}).move(Vec3(0.0), 4);
     all.push_back(std::move(joined.bytes()));
     Written held = with_a_hand();
-    const ToolShape spheres{{{Vec3(0.0), 0.02}, {Vec3(0.05, 0.0, 0.0), 0.01}}, 1e-3, 0.07};
+    const ToolShape spheres{{{Vec3(0.0), 0.02}, {Vec3(0.05, 0.0, 0.0), 0.01}}, 1e-3, 0.07, nullptr};
     ToolUse use;
     use.device = 0;
     held.ask(call::AddTool{0, std::make_shared<const ToolShape>(spheres), use});

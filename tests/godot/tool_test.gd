@@ -48,6 +48,33 @@ func test_a_tool_pushes_a_body() -> void:
 	check(block.global_position.x > 0.44, "it was not pushed: %s" % block.global_position)
 
 
+## Two hands press two tools onto each other: what the one feels the other feels turned around.
+func test_two_tools_press_each_other() -> void:
+	var world := add_world()
+	var upper := add_tool(world, path(Vector3(0, 0.05, 0), Vector3(0.01, 0.014, 0)), bar())
+	var plate := bar(Vector3(0.08, 0.02, 0.08))
+	var lower := add_tool(world, path(Vector3.ZERO, Vector3.ZERO), plate)
+	for tool: HapticTool in [upper, lower]:
+		tool.device = tool.get_path_to(world.get_child(tool.get_index() - 1))
+	var heard := []
+	upper.contact_started.connect(func(body: Node3D) -> void: heard.append(body))
+	world.advance(1.2)
+	check(upper.is_touching() and lower.is_touching(), "they pass")
+	check(upper.get_force().y > 1.0, "force: %s" % upper.get_force())
+	check_near(lower.get_force(), -upper.get_force(), 5e-3, "the other hand's force")
+	check(upper.global_position.y - lower.global_position.y > 0.018, "it is inside")
+	check_equal(heard, [lower], "signals")
+	var contacts := upper.get_contacts()
+	check(contacts.size() > 0 and contacts[0].body == lower, "contacts: %s" % [contacts])
+	check_equal(upper.get_state_text(), "touching", "state")
+	check_equal(world.get_problems().size(), 0, "problems")
+	# In no layer of the other's mask they meet no more.
+	lower.collision_layer = 2
+	upper.collision_mask = 1
+	world.advance(0.1)
+	check_near(upper.get_force(), Vector3.ZERO, 1e-6, "force without a mask")
+
+
 func test_what_is_no_tool_is_said() -> void:
 	var world := add_world()
 	add_floor(world)

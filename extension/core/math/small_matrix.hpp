@@ -17,10 +17,10 @@ using Matrix6 = SmallMatrix<6>;
 
 // The lower triangle L of A = L transposed(L); false where A is not positive definite. Only A's lower
 // triangle is read. `least`: share of a diagonal element that must be left when what the elements before it
-// explain is gone.
+// explain is gone. `size`: of the leading part that is meant.
 template <std::size_t n>
-bool cholesky(const SmallMatrix<n>& a, SmallMatrix<n>& l, double least = 1e-12) {
-    for (std::size_t i = 0; i < n; ++i) {
+bool cholesky(const SmallMatrix<n>& a, SmallMatrix<n>& l, double least = 1e-12, std::size_t size = n) {
+    for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
             double sum = a[i][j];
             for (std::size_t k = 0; k < j; ++k) {
@@ -40,15 +40,15 @@ bool cholesky(const SmallMatrix<n>& a, SmallMatrix<n>& l, double least = 1e-12) 
 
 // x of L transposed(L) x = b.
 template <std::size_t n>
-SmallVector<n> solve_cholesky(const SmallMatrix<n>& l, SmallVector<n> b) {
-    for (std::size_t i = 0; i < n; ++i) {
+SmallVector<n> solve_cholesky(const SmallMatrix<n>& l, SmallVector<n> b, std::size_t size = n) {
+    for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t k = 0; k < i; ++k) {
             b[i] -= l[i][k] * b[k];
         }
         b[i] /= l[i][i];
     }
-    for (std::size_t i = n; i-- > 0;) {
-        for (std::size_t k = i + 1; k < n; ++k) {
+    for (std::size_t i = size; i-- > 0;) {
+        for (std::size_t k = i + 1; k < size; ++k) {
             b[i] -= l[k][i] * b[k];
         }
         b[i] /= l[i][i];

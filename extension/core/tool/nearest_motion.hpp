@@ -16,12 +16,11 @@
 // would lift by mu |u_t|; with s = |u_t| it does not (de Saxce and Feng 1998).
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "core/geometry/work.hpp"
-#include "core/math/small_matrix.hpp"
 #include "core/math/types.hpp"
+#include "core/tool/dual_method.hpp"
 
 namespace tactus {
 
@@ -57,21 +56,23 @@ struct MotionBound {
     double slide = 0.0;          // s (unit: meters)
 };
 
-struct NearestMotion {
-    struct Push {
-        int bound = -1;
-        Vec3 direction{0.0};  // n - mu t
-        double size = 0.0;    // (unit: meters)
-    };
-    Vector6 x{};                 // goal + sum of size * lifted_row(direction, arm)
-    std::array<Push, 6> pushes;  // what holds it back
-    int push_count = 0;
-    bool possible = true;  // false: the bounds leave nothing
-    double missing = 0.0;  // the largest violation that the work has left over (unit: meters)
-};
+// How a bound sees a motion of its point.
+struct BoundLook {
+    double missing = 0.0;  // by so much it is violated (unit: meters)
+    Vec3 slide{0.0};       // along the surface (unit: meters)
+    double slid = 0.0;     // its length, where there is friction
 
-// The dual method of Goldfarb and Idnani (1983): begins at the goal and takes in the half-space that is
-// violated most until none is by more than `tolerance` (unit: meters).
+    // Of the half-space that is violated most: n - mu t.
+    Vec3 direction(const MotionBound& bound) const {
+        return slid > 0.0 ? bound.normal - slide * (bound.friction / slid) : bound.normal;
+    }
+};
+BoundLook look_at(const MotionBound& bound, const Vec3& way);
+
+using NearestMotion = BoundedMotion<6>;
+
+// By the dual method: takes in the half-space that is violated most until none is by more than `tolerance`
+// (unit: meters).
 NearestMotion nearest_motion(const Vector6& goal, std::span<const MotionBound> bounds, double length,
                              double tolerance, WorkBudget& work);
 

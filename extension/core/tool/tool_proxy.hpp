@@ -15,8 +15,15 @@
 
 namespace tactus {
 
+class ToolPair;
+class ToolProxy;
+
 struct ToolSettings {
     std::uint32_t mask = 0xffff'ffffu;  // layers it touches
+    std::uint32_t layer = 1;            // that it is in for other tools
+    // Coulomb's, where it touches another tool, see ToolPair::friction. A body's is that of its material.
+    double static_friction = 0.4;
+    double dynamic_friction = 0.3;
     // Of the virtual coupling between hand and tool.
     double stiffness = 1000.0;       // (unit: newtons per meter), > 0
     double turning_stiffness = 1.0;  // (unit: newton meters per radian), > 0
@@ -43,6 +50,14 @@ struct ToolTouch {
     FeatureId feature;           // of the scene, now
 };
 
+// A contact of two tools that holds this one back.
+struct ToolMeeting {
+    Vec3 point{0.0};             // in the world (unit: meters)
+    Vec3 normal{0.0, 1.0, 0.0};  // unit, from the other tool to this one, in the world
+    Vec3 force{0.0};             // on this one, of its coupling as a whole (unit: newtons)
+    const ToolProxy* other = nullptr;
+};
+
 struct ToolTick {
     Pose pose;                 // of the tool, in the world
     Vec3 force{0.0};           // on the hand (unit: newtons)
@@ -61,26 +76,42 @@ struct ToolMemory {
     bool rests = false;
     double pace = 0.0;  // (unit: meters)
     ToolTouch on;
+    std::uint32_t slides_on = 0;  // bits, by the order of its pairs
 };
 
 class ToolProxy {
 public:
+    static constexpr std::size_t max_pairs = 3;
+    static constexpr std::size_t max_meetings = 6;
+
     ToolProxy(std::shared_ptr<const ToolShape> shape, std::size_t max_parts, const ToolSettings& settings);
 
-    // One tick: the scene as it is, the hand where it is. Allocates nothing.
+    ToolProxy(const ToolProxy&) = delete;  // pairs know where it is
+    ToolProxy& operator=(const ToolProxy&) = delete;
+
+    // One tick: the scene as it is, the hand where it is. Allocates nothing. What tools it is in a pair with
+    // stand still for it: ToolGroup moves them together.
     ToolTick move(const TouchScene& scene, const Pose& hand);
 
     void set_settings(const ToolSettings& settings);
     std::span<const ToolTouch> touching() const {
         return {touches_.data(), static_cast<std::size_t>(touch_count_)};
     }
+    // At most max_meetings of them, the hardest.
+    std::span<const ToolMeeting> meetings() const {
+        return {meetings_.data(), static_cast<std::size_t>(meeting_count_)};
+    }
+    const ToolSettings& settings() const { return settings_; }
     const Pose& pose() const { return pose_; }
+    bool is_present() const { return present_; }
+    // That it has made in its last move.
+    RigidMotion way() const { return motion_between(start_, pose_); }
     const ToolShape& shape() const { return around_.shape(); }
     double skin() const { return around_.skin(); }
     // As if just started: present again as soon as the hand is in a free place.
     void restart() {
         present_ = false;
-        touch_count_ = 0;
+        touch_count_ = meeting_count_ = 0;
     }
 
     ToolMemory memory() const;
@@ -92,7 +123,16 @@ public:
     // Of the last move, as WorkBudget counts.
     std::int64_t work_spent() const { return work_given_ - work_.left(); }
 
+    // For ToolPair: one more tool that it may meet, and one less.
+    void meet(ToolPair& pair);
+    void leave(const ToolPair& pair);
+    std::span<ToolPair* const> pairs() const {
+        return {pairs_.data(), static_cast<std::size_t>(pair_count_)};
+    }
+
 private:
+    friend class ToolGroup;  // which takes the steps of several tools together
+
     struct Plan {
         Vector6 motion{};  // (unit: meters)
         NearestMotion
@@ -101,7 +141,14 @@ private:
         bool slides = false;
     };
 
+    bool begin(const TouchScene& scene, const Pose& hand, ToolTick& tick);
+    void finish(ToolTick& tick);
     ToolTick appear(const Pose& hand);
+    bool fits_beside_tools();
+    double straight_share(const RigidMotion& motion) const;
+    double free_share(const RigidMotion& motion, int except = -1);
+    void go_free(const RigidMotion& motion, int except);
+    double farthest_to_go() const;
     bool ride();
     bool ride_forms(double& taken);
     RigidMotion way_of_form(int body) const;
@@ -116,14 +163,18 @@ private:
     NearestMotion nearest(const Vector6& goal, double tolerance);
     void keep_touches(const NearestMotion& holding);
     void give_work(std::int64_t units);
-    void go(const RigidMotion& motion);
+    void go(const RigidMotion& motion) {
+        pose_ = moved(pose_, motion);
+        around_.went(motion);
+    }
 
     ToolSettings settings_;
     double length_ = 0.0;  // L of nearest_motion.hpp (unit: meters)
     ToolSurroundings around_;
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
-    Pose hand_;  // that was given last and is one
+    Pose hand_;   // that was given last and is one
+    Pose start_;  // of the last move
     Pose pose_;
     bool present_ = false;
     bool sliding_ = false;
@@ -134,6 +185,10 @@ private:
     std::array<MotionBound, ToolContacts::capacity> bounds_;  // of contacts_
     std::array<ToolTouch, 6> touches_;
     int touch_count_ = 0;
+    std::array<ToolPair*, max_pairs> pairs_{};
+    int pair_count_ = 0;
+    std::array<ToolMeeting, max_meetings> meetings_;
+    int meeting_count_ = 0;
 };
 
 }  // namespace tactus

@@ -222,6 +222,12 @@ private:
 }  // namespace
 
 ToolShapeResult make_tool_shape(const TriangleMesh& mesh, const ToolShapeSettings& settings) {
+    return make_tool_shape(std::make_shared<const TriangleMesh>(mesh), settings);
+}
+
+ToolShapeResult make_tool_shape(std::shared_ptr<const TriangleMesh> shared,
+                                const ToolShapeSettings& settings) {
+    const TriangleMesh& mesh = *shared;
     if (std::string error = check_mesh(mesh); !error.empty()) {
         return {nullptr, std::move(error)};
     }
@@ -255,6 +261,7 @@ ToolShapeResult make_tool_shape(const TriangleMesh& mesh, const ToolShapeSetting
             for (const ToolSphere& sphere : shape->spheres) {
                 shape->reach = std::max(shape->reach, glm::length(sphere.center) + sphere.radius);
             }
+            shape->mesh = std::move(shared);
             return {shape, {}};
         }
     }

@@ -19,6 +19,8 @@ struct ToolShape {
     std::vector<ToolSphere> spheres;
     double tolerance = 0.0;  // no point of the mesh's surface is farther outside of them (unit: meters)
     double reach = 0.0;      // of the spheres from the tool's origin (unit: meters)
+    // Whose surface other tools meet; null: they pass through, unless their own mesh is known.
+    std::shared_ptr<const TriangleMesh> mesh;
 };
 
 struct ToolShapeSettings {
@@ -32,6 +34,8 @@ struct ToolShapeResult {
 };
 
 // Refuses what check_mesh refuses, what is not closed, and what has no inside.
+ToolShapeResult make_tool_shape(std::shared_ptr<const TriangleMesh> mesh,
+                                const ToolShapeSettings& settings = {});
 ToolShapeResult make_tool_shape(const TriangleMesh& mesh, const ToolShapeSettings& settings = {});
 
 }  // namespace tactus

@@ -17,9 +17,8 @@ constexpr double skin_share = 2e-5;
 constexpr double hood_share = 0.1;      // how far around a sphere features are remembered
 constexpr double farthest_share = 0.2;  // no hood looks farther than parts are looked for beyond the way
 
-// Of a skin: sweeps end this far above a surface, and have arrived when they are this close to that.
+// Of a skin: sweeps end this far above a surface.
 constexpr double stop_share = 0.5;
-constexpr double arrival_share = 0.125;
 constexpr double same_share = 1e-3;  // distances that differ by less are the same
 constexpr double window_share = 4.0;
 
@@ -34,6 +33,11 @@ double sag_of(double turn, double arm) {
 }
 
 }  // namespace
+
+ToolWay steady_way(const Pose& pose, const RigidMotion& motion) {
+    const double turn = glm::length(motion.turn);
+    return {pose, moved(pose, motion), motion, 0.0, turn * turn};
+}
 
 Pose moved(const Pose& pose, const RigidMotion& motion) {
     return {pose.position + motion.way, glm::normalize(turn_by(motion.turn, 1.0) * pose.rotation)};
@@ -107,13 +111,17 @@ void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, c
     }
 }
 
-bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work) {
+bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work, double depth) {
     for (std::uint32_t i = 0; i < hoods_.size() && !parts_.empty(); ++i) {
+        const double least = -depth * shape_->spheres[i].radius;
+        if (room_[i] > least) {
+            continue;
+        }
         const Vec3 center = to_parent(pose, shape_->spheres[i].center);
         hoods_[i].gather(*scene_, parts_, center, rest(i) + hood_share * shape_->reach, same_share * skin_,
                          work);
         room_[i] = hoods_[i].least(center) - rest(i);
-        if (room_[i] <= 0.0 || work.is_gone()) {
+        if (room_[i] <= least || work.is_gone()) {
             return false;
         }
     }
@@ -202,7 +210,7 @@ double ToolSurroundings::straight_share(const RigidMotion& motion) const {
 double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag,
                                       double limit, int except, WorkBudget& work) {
     const double stop = shape_->spheres[index].radius + stop_share * skin_ + sag;
-    const double arrival = arrival_share * skin_;
+    const double arrival = this->arrival();
     if (std::min(hoods_[index].least(from), hoods_[index].least(to)) > stop + arrival) {
         return limit;
     }
@@ -224,116 +232,53 @@ double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, con
     return limit;
 }
 
+double ToolSurroundings::straight_share(const ToolWay& way) const {
+    const double length = glm::length(way.motion.way);
+    const double turn = glm::length(way.motion.turn);
+    double share = 1.0;
+    for (std::size_t i = 0; i < arms_.size(); ++i) {
+        if (room_[i] <= length + turn * arms_[i] + strays(way, turn, arms_[i])) {
+            const double sag = sag_share * std::max(room_[i], skin_);
+            if (way.off_chord(arms_[i]) * share * share > sag) {
+                share = std::sqrt(sag / way.off_chord(arms_[i]));
+            }
+        }
+    }
+    return share;
+}
+
+// A steady way is no longer than its way and its turn say. Any other is near its chord.
+double ToolSurroundings::strays(const ToolWay& way, double turn, double arm) {
+    return std::max(0.0, way.off_chord(arm) - sag_of(turn, arm));
+}
+
 // Nearest first: where the work ends, the others go no farther than the room that they are known to have.
-double ToolSurroundings::free_share(const Pose& pose, const RigidMotion& motion, WorkBudget& work,
-                                    int except) {
-    const Pose end = moved(pose, motion);
-    const double way = glm::length(motion.way);
-    const double turn = glm::length(motion.turn);
+double ToolSurroundings::free_share(const ToolWay& swing, WorkBudget& work, int except) {
+    const double way = glm::length(swing.motion.way);
+    const double turn = glm::length(swing.motion.turn);
     double limit = 1.0;
     stopped_by_.sphere = no_sphere;
     work.spend(static_cast<std::int64_t>(hoods_.size()) / 2);
     for (const bool is_near : {true, false}) {
         for (std::uint32_t i = 0; i < hoods_.size() && !parts_.empty(); ++i) {
             const double far = way + turn * arms_[i];
-            if (room_[i] > limit * far || (room_[i] <= 0.25 * far) != is_near) {
+            const double stray = strays(swing, turn, arms_[i]);
+            if (room_[i] > limit * far + stray || (room_[i] <= 0.25 * far + stray) != is_near) {
                 continue;
             }
             if (work.is_gone()) {
-                limit = std::clamp(room_[i] / far, 0.0, limit);
+                limit = far > 0.0 ? std::clamp((room_[i] - stray) / far, 0.0, limit) : 0.0;
                 continue;
             }
-            const double sag = std::max(0.0, sag_of(turn, arms_[i]) - sag_share * skin_);
-            limit = sweep_sphere(i, to_parent(pose, shape_->spheres[i].center),
-                                 to_parent(end, shape_->spheres[i].center), sag, limit, except, work);
+            const double sag = std::max(0.0, swing.off_chord(arms_[i]) - sag_share * skin_);
+            limit = sweep_sphere(i, to_parent(swing.from, shape_->spheres[i].center),
+                                 to_parent(swing.to, shape_->spheres[i].center), sag, limit, except, work);
         }
     }
     if (stopped_by_.sphere != no_sphere) {
         note_stop(stopped_by_);
     }
     return limit;
-}
-
-double ToolSurroundings::share_until_entered(int body, const Pose& before, const Pose& now, double depth,
-                                             WorkBudget& work) {
-    double limit = 1.0;
-    for (const std::uint32_t part : parts_) {
-        const ScenePart& placed = scene_->parts()[part];
-        if (static_cast<int>(placed.body) != body) {
-            continue;
-        }
-        for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
-            if (cannot_be_entered(i, depth)) {
-                continue;
-            }
-            const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
-            const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
-            const double stop = (1.0 - depth) * shape_->spheres[i].radius;
-            if (glm::distance(to, placed.part->center) - placed.part->radius >
-                stop + glm::distance(from, to) + skin_) {
-                continue;
-            }
-            const Hit hit =
-                sweep_surface(*placed.part, {from, to - from, stop, arrival_share * skin_}, limit, work);
-            limit = hit.is_free() ? limit : std::min(limit, hit.t);
-        }
-    }
-    return limit;
-}
-
-// Until the point, on its way, is no farther than the room from a triangle on its own.
-double ToolSurroundings::share_until_near(const DeformSweep& sweep, const Vec3& from, const Vec3& to,
-                                          double room, double limit, WorkBudget& work) {
-    constexpr double arrived = 1e-3;  // of the tick
-    constexpr int max_looks = 64;
-    double t = 0.0;
-    for (int i = 0; i < max_looks && t < limit; ++i) {
-        const double next = sweep.free_until(t, from + (to - from) * t, to - from, room, work);
-        if (next < 1.0 && next - t <= arrived) {
-            return t;
-        }
-        t = next;
-    }
-    return std::min(t, limit);
-}
-
-ToolSurroundings::Entering ToolSurroundings::entered_by_form(int body, const Pose& before, const Pose& now,
-                                                             double depth, WorkBudget& work) {
-    Entering entering;
-    const TouchBody& given = scene_->body(body);
-    for (const std::uint32_t part : parts_) {
-        const ScenePart& placed = scene_->parts()[part];
-        if (static_cast<int>(placed.body) != body) {
-            continue;
-        }
-        const TouchPart& former = given.former->parts[part - given.first_part];
-        const DeformSweep sweep(*former.tree(), *placed.part->tree());
-        for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
-            if (cannot_be_entered(i, depth)) {
-                continue;
-            }
-            const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
-            const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
-            const double room = (1.0 - depth) * shape_->spheres[i].radius;
-            const double ball = std::max(former.radius, placed.part->radius);
-            if (glm::distance(to, placed.part->center) >
-                ball + room + glm::distance(from, to) + given.gave_by) {
-                continue;
-            }
-            const double share = share_until_near(sweep, from, to, room, entering.share, work);
-            if (share < entering.share) {
-                const Vec3 at = from + (to - from) * share;
-                double nearest = shape_->spheres[i].radius;
-                Vec3 way(0.0);
-                sweep.visit_near(share, at, nearest, work, [&](const DeformSweep::Seen& seen) {
-                    nearest = seen.distance;
-                    way = sweep.motion_of(seen, share, at);
-                });
-                entering = {share, direction_to_parent(placed.pose, way) * (1.0 - share)};
-            }
-        }
-    }
-    return entering;
 }
 
 void ToolSurroundings::went(const RigidMotion& motion) {

@@ -38,6 +38,22 @@ struct ToolContacts {
     std::span<const ToolContact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
 };
 
+// A small motion of the tool's spheres, from one place to another.
+struct ToolWay {
+    Pose from;
+    Pose to;
+    RigidMotion motion;  // that leads there
+    // How it gets there: no centre is accelerated by more than fixed + per_arm * (its distance from the
+    // tool's origin) on its way, in units of the time that takes. A turn by w about an axis: w^2 per arm.
+    double fixed = 0.0;    // (unit: meters)
+    double per_arm = 0.0;  // (dimensionless)
+
+    // How far its way may be from its chord: |x''| / 8 (unit: meters).
+    double off_chord(double arm) const { return (fixed + per_arm * arm) / 8.0; }
+};
+// At a steady speed, seen from where everything else stands still.
+ToolWay steady_way(const Pose& pose, const RigidMotion& motion);
+
 class ToolSurroundings {
 public:
     ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::size_t max_parts);
@@ -50,16 +66,21 @@ public:
     void begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way);
     void forget();
     bool is_empty() const { return parts_.empty(); }
-    // Whether the tool neither touches nor is inside anything. False where the work is gone.
-    bool is_free(const Pose& pose, WorkBudget& work);
+    // Whether the tool neither touches nor is inside anything, by more than this share of a sphere's radius.
+    // False where the work is gone.
+    bool is_free(const Pose& pose, WorkBudget& work, double depth = 0.0);
 
     // The contacts that a motion may meet before its farthest point has gone `far` (unit: meters).
     void collect(const Pose& pose, const RigidMotion& motion, double far, ToolContacts& contacts,
                  WorkBudget& work);
     // What of the motion is a small enough turn.
     double straight_share(const RigidMotion& motion) const;
+    double straight_share(const ToolWay& way) const;
     // What of the motion no sphere meets anything on, but the body `except`.
-    double free_share(const Pose& pose, const RigidMotion& motion, WorkBudget& work, int except = -1);
+    double free_share(const Pose& pose, const RigidMotion& motion, WorkBudget& work, int except = -1) {
+        return free_share(steady_way(pose, motion), work, except);
+    }
+    double free_share(const ToolWay& way, WorkBudget& work, int except = -1);
     // What of its way in this tick the body has gone when it is this share of a sphere's radius in the tool,
     // which went from `before` to `now`; 1: it is not.
     double share_until_entered(int body, const Pose& before, const Pose& now, double depth, WorkBudget& work);
@@ -93,6 +114,10 @@ private:
     bool has_stopped(std::uint32_t sphere, const HoodPlane& plane) const;
     void note_stop(const Stop& stop);
     double rest(std::uint32_t sphere) const { return shape_->spheres[sphere].radius + skin_; }
+    // How much farther than the motion's way and `turn` say a sphere may get before it has arrived.
+    static double strays(const ToolWay& way, double turn, double arm);
+    // Sweeps have arrived when they are this close to where they end (unit: meters).
+    double arrival() const { return 0.125 * skin_; }
     // By this share of its radius. Its room counts already with all ways of the tick, the bodies' and its
     // own.
     bool cannot_be_entered(std::uint32_t sphere, double depth) const {

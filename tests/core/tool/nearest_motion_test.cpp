@@ -41,7 +41,7 @@ void expect_nearest(const Vector6& goal, const std::vector<MotionBound>& bounds,
     }
     Vector6 sum = goal;
     for (int i = 0; i < best.push_count; ++i) {
-        const NearestMotion::Push& push = best.pushes[static_cast<std::size_t>(i)];
+        const MotionPush& push = best.pushes[static_cast<std::size_t>(i)];
         const MotionBound& bound = bounds[static_cast<std::size_t>(push.bound)];
         EXPECT_GE(push.size, 0.0);
         EXPECT_NEAR(glm::dot(push.direction, bound.normal), 1.0, 1e-9);

@@ -73,7 +73,7 @@ TEST(ToolShape, WhatIsNoSolidIsRefused) {
     EXPECT_NE(make_tool_shape(turned).error.find("flip"), std::string::npos);
     TriangleMesh flat{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}, {{0, 1, 2}, {0, 2, 1}}};
     EXPECT_NE(make_tool_shape(flat).error.find("no volume"), std::string::npos);
-    EXPECT_NE(make_tool_shape({}).error, "");
+    EXPECT_NE(make_tool_shape(TriangleMesh{}).error, "");
     EXPECT_NE(make_tool_shape(shared::box(Vec3(0.02)), {0.0, 10}).error, "");
     EXPECT_NE(make_tool_shape(shared::box(Vec3(0.02)), {1e-3, 0}).error, "");
 }

@@ -1,0 +1,36 @@
+// How the steps of tools end: of one by itself (tool_proxy.cpp), and of several together (tool_group.cpp).
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "core/math/small_matrix.hpp"
+
+namespace tactus::tool_steps {
+
+// Of the skin.
+constexpr double least_step = 0.125;  // the tool is where it should be
+constexpr double touching_gap = 4.0;  // what the tool is still above does not hold it by friction
+constexpr double far_enough = 64.0;   // how far ahead contacts are looked for while the hand is slow
+constexpr double bounds_met = 1e-3;   // by motions
+constexpr double cones_met = 1e-2;    // by friction
+
+constexpr int max_stalls = 6;    // steps that lead nowhere
+constexpr int slide_rounds = 4;  // of the pressure and the friction that goes with it
+
+// Of the tool's reach: how far bodies may take it in a tick.
+constexpr double farthest_ride = 0.2;
+
+constexpr std::size_t at(int i) {
+    return static_cast<std::size_t>(i);
+}
+
+inline double length_of(const Vector6& x) {
+    double sum = 0.0;
+    for (const double value : x) {
+        sum += value * value;
+    }
+    return std::sqrt(sum);
+}
+
+}  // namespace tactus::tool_steps
