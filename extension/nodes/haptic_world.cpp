@@ -120,8 +120,9 @@ HapticWorld* HapticWorld::of(const Node* node) {
             return world;
         }
     }
+    // One that is to start yet has its nodes for itself.
     const std::vector<HapticWorld*>& running = Roll<HapticWorld>::all();
-    return running.empty() ? nullptr : running.front();
+    return running.empty() || above(node) != nullptr ? nullptr : running.front();
 }
 
 HapticWorld* HapticWorld::above(const Node* node) {

@@ -14,11 +14,21 @@ constexpr std::string_view magic = "tactus inputs 1\n";
 
 struct PieceHead {
     InputPiece kind;
-    std::uint32_t reserved;
+    std::uint32_t check;  // of the others
     std::uint64_t size;
     ContentHash hash;
 };
 static_assert(sizeof(PieceHead) == 32);
+
+std::uint32_t check_of(const PieceHead& head) {
+    BitHash hash;
+    hash.add(static_cast<std::uint64_t>(head.kind));
+    hash.add(head.size);
+    for (const auto& byte : head.hash) {
+        hash.add(static_cast<std::uint64_t>(byte));
+    }
+    return static_cast<std::uint32_t>(hash.value());
+}
 
 // How long the values of every kind are when they are empty: another number where something has got another
 // member, so that nobody takes one layout for another.
@@ -57,7 +67,8 @@ bool write_input_head(std::FILE* file) {
 }
 
 bool write_input_piece(std::FILE* file, InputPiece kind, std::span<const std::byte> content) {
-    const PieceHead head{kind, 0, content.size(), content_hash(content)};
+    PieceHead head{kind, 0, content.size(), content_hash(content)};
+    head.check = check_of(head);
     return std::fwrite(&head, sizeof head, 1, file) == 1 &&
            std::fwrite(content.data(), 1, content.size(), file) == content.size();
 }
@@ -96,7 +107,8 @@ bool InputFileReader::next() {
     }
     kind_ = head.kind;
     content_.resize(head.size);
-    if (!read(content_.data(), content_.size()) || content_hash(content_) != head.hash) {
+    if (head.check != check_of(head) || !read(content_.data(), content_.size()) ||
+        content_hash(content_) != head.hash) {
         problem_ = "piece " + std::to_string(number_) + " of it is damaged";
         return false;
     }

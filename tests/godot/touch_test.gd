@@ -203,3 +203,23 @@ func test_a_simulated_arm_is_pushed_back_and_changes_where_it_is() -> void:
 	for wrong: Array in [["arm_mass", 0.0], ["arm_damping", -1.0], ["arm_stiffness", NAN]]:
 		expect_error("%s = %s was refused" % wrong)
 		device.set(wrong[0], wrong[1])
+
+
+## Both stand in the tree before either runs.
+func test_a_hand_belongs_to_the_world_above_it_also_while_that_is_to_start_yet() -> void:
+	var scene := Node3D.new()
+	var worlds: Array[HapticWorld] = [HapticWorld.new(), HapticWorld.new()]
+	for world in worlds:
+		world.clock = HapticWorld.CLOCK_STEPPED
+		scene.add_child(world)
+	add_floor(worlds[0])
+	var pushed := with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0)) as RigidBody3D
+	worlds[0].add_child(pushed)
+	var proxy := add_hand(worlds[1], path(Vector3(-0.2, 0.05, 0), Vector3(0.2, 0.05, 0), 0.5))
+	expect_error("nothing in it can be touched")
+	add_child(scene)
+	for _i in 60:
+		for world in worlds:
+			world.advance(1.0 / 60.0)
+	check_near(pushed.position, Vector3(0, 0.05, 0), 1e-3, "a box of the other world")
+	check_near(proxy.get_force(), Vector3.ZERO, 1e-6, "force")

@@ -482,6 +482,16 @@ TEST_F(InputReplayDamaged, AFlippedBitIsFoundAndWhatStandsBeforeItIsPlayed) {
     }
 }
 
+// The first bytes have all kinds of what a piece begins with.
+TEST_F(InputReplayDamaged, NoBitOfAPieceHeadMayFlip) {
+    const std::string whole = inputs_.bytes();
+    for (std::size_t bit = 0; bit < 8 * 56; ++bit) {
+        std::string damaged = whole;
+        damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << bit % 8));
+        EXPECT_NE(RecordedInputs::play_bytes(damaged).problem, "") << bit;
+    }
+}
+
 TEST_F(InputReplayDamaged, WhatIsNoRecordingSaysSo) {
     EXPECT_NE(RecordedInputs::play_bytes("").problem, "");
     EXPECT_NE(RecordedInputs::play_bytes("time_us,force_x\n0,0\n0,0\n0,0\n").problem.find("no recording"),
