@@ -49,7 +49,8 @@ class Ears:
 		_traces: Array[ScriptBacktrace]
 	) -> void:
 		heard += 1
-		if kind == ERROR_TYPE_SCRIPT:
+		# Godot itself frees nothing that is on the way to a handler, and says so.
+		if kind == ERROR_TYPE_SCRIPT and not "locked object" in code + rationale:
 			script_errors.append(code + " " + rationale)
 
 
