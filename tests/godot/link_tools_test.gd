@@ -31,9 +31,7 @@ func test_a_tool_touches_the_model_at_once_and_the_far_one_follows() -> void:
 	_advance(0.2)
 	check_near(_tool(_far).get_force(), _tool(_operator).get_force(), 1e-3, "force at the far side")
 	check_near(_tool(_far).get_torque().z, -0.05, 5e-3, "torque at the far side")
-	check_near(
-		_tool(_far).global_position, _tool(_operator).global_position, 1e-6, "place of the far tool"
-	)
+	check_near(_tool(_far).global_position, _tool(_operator).global_position, 1e-6, "place of the far tool")
 
 
 func test_traditional_touch_brings_back_the_force_and_torque_of_a_tool() -> void:
@@ -42,9 +40,7 @@ func test_traditional_touch_brings_back_the_force_and_torque_of_a_tool() -> void
 	_add_tools()
 	_tool(_operator).grasp_rotation = Vector3(0, 0, 0.05)
 	_advance(0.62)
-	check_near(
-		_tool(_operator).get_force(), Vector3.ZERO, 1e-9, "force before the far side has answered"
-	)
+	check_near(_tool(_operator).get_force(), Vector3.ZERO, 1e-9, "force before the far side has answered")
 	_advance(0.2)
 	check_near(_tool(_operator).get_force(), _tool(_far).get_force(), 1e-3, "force when it has")
 	check_near(_tool(_operator).get_torque().z, -0.05, 5e-3, "torque when it has")

@@ -21,25 +21,7 @@ const FLOATS: Array[float] = [
 	0.0, -0.0, 1.0, -1.0, 0.01, 0.5, 3.0, 100.0, 1e-9, 1e6, 1e20, 1e300, -1e300, INF, -INF, NAN
 ]
 const INTEGERS: Array[int] = [
-	0,
-	1,
-	2,
-	3,
-	5,
-	7,
-	50,
-	99,
-	500,
-	1000,
-	4096,
-	70000,
-	-1,
-	-2,
-	-3,
-	0xffffffff,
-	0x7fffffff,
-	1 << 40,
-	-(1 << 62)
+	0, 1, 2, 3, 5, 7, 50, 99, 500, 1000, 4096, 70000, -1, -2, -3, 0xffffffff, 0x7fffffff, 1 << 40, -(1 << 62)
 ]
 const STRINGS: Array[String] = [
 	"", " ", "x", "bunny", "127.0.0.1", "::1", "fe80::zz", "short", "a long enough key", "\n\t\"'\\"
@@ -109,19 +91,13 @@ func _value(type: int, name: String, kind: String) -> Variant:
 			if name.contains("path") or name.contains("file"):
 				return _any(PATHS)
 			# Others are looked up in the network, for as long as that takes.
-			return (
-				_any(STRINGS) if not name.ends_with("address") else _any(["127.0.0.1", "::1", ""])
-			)
+			return _any(STRINGS) if not name.ends_with("address") else _any(["127.0.0.1", "::1", ""])
 		TYPE_STRING_NAME:
 			return StringName(_any(STRINGS))
 		TYPE_NODE_PATH:
 			var node := _node()
 			var known := node != null and node.is_inside_tree() and _chance.randi() % 2 == 0
-			return (
-				node.get_path()
-				if known
-				else NodePath(_any(["", "..", ".", "../Nothing", "../Device"]))
-			)
+			return node.get_path() if known else NodePath(_any(["", "..", ".", "../Nothing", "../Device"]))
 		TYPE_VECTOR2:
 			return Vector2(_any(FLOATS), _any(FLOATS))
 		TYPE_VECTOR3:
@@ -135,13 +111,9 @@ func _value(type: int, name: String, kind: String) -> Variant:
 		TYPE_DICTIONARY:
 			return _any([{}, {"Box": 1}, {"Box": {"move": [NAN]}}, {1: {"turn": "x"}}])
 		TYPE_PACKED_VECTOR3_ARRAY:
-			return _any(
-				[PackedVector3Array(), PackedVector3Array([Vector3.ZERO, Vector3(NAN, 0, 0)])]
-			)
+			return _any([PackedVector3Array(), PackedVector3Array([Vector3.ZERO, Vector3(NAN, 0, 0)])])
 		TYPE_PACKED_FLOAT64_ARRAY:
-			return _any(
-				[PackedFloat64Array(), PackedFloat64Array([1.0, 0.0]), PackedFloat64Array([NAN])]
-			)
+			return _any([PackedFloat64Array(), PackedFloat64Array([1.0, 0.0]), PackedFloat64Array([NAN])])
 		TYPE_OBJECT:
 			var fitting := _living(kind if not kind.is_empty() else "Object")
 			return _any(fitting) if not fitting.is_empty() and _chance.randi() % 4 != 0 else null
@@ -169,9 +141,7 @@ func _set_something(object: Object) -> String:
 			taken = taken or value is float and is_equal_approx(now, value)
 		if value is String:
 			taken = taken or now == (value as String).strip_edges()
-		check(
-			taken or _ears.heard > before, "%s was refused without a word, it is %s" % [what, now]
-		)
+		check(taken or _ears.heard > before, "%s was refused without a word, it is %s" % [what, now])
 	return what
 
 
@@ -199,18 +169,14 @@ func _make_something() -> String:
 			made = ClassDB.instantiate(kind if has_room else "HapticPath")
 		1:
 			made = with_shape(
-				_any([StaticBody3D, RigidBody3D, AnimatableBody3D, CharacterBody3D]).new(),
-				sphere(0.1)
+				_any([StaticBody3D, RigidBody3D, AnimatableBody3D, CharacterBody3D]).new(), sphere(0.1)
 			)
 		2:
 			made = _any([CollisionShape3D, HingeJoint3D, PinJoint3D, Node3D, Camera3D]).new()
 	_objects.append(made)
 	if made is Node:
 		var parent := _node()
-		(
-			(parent if parent != null and parent != made and parent.is_inside_tree() else self)
-			. add_child(made)
-		)
+		(parent if parent != null and parent != made and parent.is_inside_tree() else self).add_child(made)
 	return "made %s" % made.get_class()
 
 
@@ -243,9 +209,7 @@ func _move_something() -> String:
 				(node as Node3D).transform.origin = _value(TYPE_VECTOR3, "", "")
 		5:
 			if node is Node3D and node.get_class() in CLASSES:
-				(node as Node3D).scale = _any(
-					[Vector3.ONE, Vector3.ZERO, Vector3(1, 2, 3), -Vector3.ONE]
-				)
+				(node as Node3D).scale = _any([Vector3.ONE, Vector3.ZERO, Vector3(1, 2, 3), -Vector3.ONE])
 			elif node is Node3D:
 				(node as Node3D).scale = _any([Vector3.ONE, Vector3(1, 2, 3), Vector3.ONE * 1e20])
 	return what
@@ -266,9 +230,7 @@ func _do_something() -> String:
 func _answer(object: Object) -> void:
 	for info: Dictionary in ClassDB.class_get_signal_list(object.get_class(), true):
 		var answer := func() -> void: _do_something()
-		object.connect(
-			info.name, answer.unbind(info.args.size()) if not info.args.is_empty() else answer
-		)
+		object.connect(info.name, answer.unbind(info.args.size()) if not info.args.is_empty() else answer)
 
 
 func test_ten_thousand_calls() -> void:

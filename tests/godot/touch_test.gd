@@ -71,9 +71,7 @@ func test_moving_turning_and_scaling_the_device_carries_the_hand_along() -> void
 	var world := add_world()
 	var proxy := add_hand(world, path(Vector3(0.1, 0, 0), Vector3(0.2, 0, 0)))
 	var device: HapticDevice = world.get_node("Device")
-	device.transform = Transform3D(
-		Basis(Vector3.UP, PI / 2).scaled(Vector3(2, 2, 2)), Vector3(1, 2, 3)
-	)
+	device.transform = Transform3D(Basis(Vector3.UP, PI / 2).scaled(Vector3(2, 2, 2)), Vector3(1, 2, 3))
 	world.advance(1.2)
 	check_near(proxy.get_hand_position(), Vector3(1, 2, 3) + Vector3(0, 0, -0.4), 1e-5, "hand")
 	check_near(device.get_hand_position(), proxy.get_hand_position(), 1e-6, "the device's hand")
@@ -133,10 +131,7 @@ func test_the_hand_pushes_a_rigid_body_and_gravity_holds_it_down() -> void:
 	var world := add_world()
 	world.gravity = Vector3(0, -9.81, 0)
 	add_floor(world)
-	var body := (
-		with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0))
-		as RigidBody3D
-	)
+	var body := with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0)) as RigidBody3D
 	body.mass = 0.2
 	world.add_child(body)
 	add_hand(world, path(Vector3(-0.15, 0.05, 0), Vector3(0.05, 0.05, 0), 2.0))
@@ -202,9 +197,7 @@ func test_a_simulated_arm_is_pushed_back_and_changes_where_it_is() -> void:
 	var before := device.get_hand_position().y
 	device.arm_stiffness = 300.0
 	world.advance(TICK)
-	check_near(
-		device.get_hand_position().y, before, 1e-4, "place just after it has become stiffer (m)"
-	)
+	check_near(device.get_hand_position().y, before, 1e-4, "place just after it has become stiffer (m)")
 	world.advance(3.0)
 	check_near(device.get_hand_position().y, -4.0 / 800.0, 1e-5, "where they balance then (m)")
 	for wrong: Array in [["arm_mass", 0.0], ["arm_damping", -1.0], ["arm_stiffness", NAN]]:
@@ -221,8 +214,7 @@ func test_a_hand_belongs_to_the_world_above_it_also_while_that_is_to_start_yet()
 		scene.add_child(world)
 	add_floor(worlds[0])
 	var pushed := (
-		with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0))
-		as RigidBody3D
+		with_shape(RigidBody3D.new(), box(Vector3(0.1, 0.1, 0.1)), Vector3(0, 0.05, 0)) as RigidBody3D
 	)
 	worlds[0].add_child(pushed)
 	var proxy := add_hand(worlds[1], path(Vector3(-0.2, 0.05, 0), Vector3(0.2, 0.05, 0), 0.5))
