@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <latch>
+#include <future>
 #include <numeric>
 #include <thread>
 
@@ -74,9 +74,10 @@ TEST(Workers, WhatIsFreedAsideIsFreedAtOnceWhereNoThreadRuns) {
 
 // No more wait than are allowed, whatever keeps the threads busy.
 TEST(Workers, WhatIsDiscardedFasterThanItIsDestroyedIsDestroyedAtOnce) {
-    std::latch busy{1};
+    std::promise<void> busy;
+    const std::shared_future<void> until = busy.get_future();
     for (unsigned i = 0; i < std::max(std::thread::hardware_concurrency(), 1u); ++i) {
-        Workers::shared().add([&busy] { busy.wait(); });
+        Workers::shared().add([until] { until.wait(); });
     }
     BoundedDiscard discard(2);
     std::atomic<int> destroyed{0};
@@ -84,7 +85,7 @@ TEST(Workers, WhatIsDiscardedFasterThanItIsDestroyedIsDestroyedAtOnce) {
         discard([&destroyed] { ++destroyed; });
     }
     EXPECT_EQ(destroyed, 3);
-    busy.count_down();
+    busy.set_value();
     Workers::shared().wait();
     EXPECT_EQ(destroyed, 5);
     discard([&destroyed] { ++destroyed; });

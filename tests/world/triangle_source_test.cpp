@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <latch>
+#include <future>
 #include <thread>
 
 namespace tactus {
@@ -81,20 +81,20 @@ TEST(TriangleSource, CornersThatMovedAreRefittedInATreeThatNobodyTouches) {
 }
 
 TEST(TriangleSource, OneThatIsStillBeingBuiltIsRefittedLater) {
-    std::latch begun(1), may_end(1);
+    std::promise<void> begun, may_end;
     const auto before = std::make_shared<TriangleSource>(
         [&] {
-            begun.count_down();
-            may_end.wait();
+            begun.set_value();
+            may_end.get_future().wait();
             return sheet(0.0);
         },
         2);
     BuiltMesh flat;
     std::thread builder([&] { flat = before->built(Mat3(1.0), run_serially); });
-    begun.wait();
+    begun.get_future().wait();
     TriangleSource second([] { return sheet(0.5); }, 2);
     second.succeed(before);
-    may_end.count_down();
+    may_end.set_value();
     builder.join();
     const std::uint64_t refitted = TriangleSource::trees_refitted();
     EXPECT_NEAR(second.built(Mat3(1.0), run_serially).mesh->vertices[1].y, 0.5, 0.0);
