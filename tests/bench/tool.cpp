@@ -124,8 +124,7 @@ void report_pair(Report& report, int ticks) {
     report.set("pair.friction_error_percent", slid.friction_error);
     std::printf(
         "pair: force off by %.3f %%, torque by %.3f %%, one hand's from the other's by %.4f %%, friction "
-        "from "
-        "Coulomb's by %.3f %%\n",
+        "from Coulomb's by %.3f %%\n",
         all.tool.force_error, all.tool.torque_error, all.balance_error, slid.friction_error);
 }
 

@@ -19,12 +19,6 @@ std::shared_ptr<const ToolShape> bar() {
     return made.shape;
 }
 
-// A device that turns, and gives torque.
-void let_turn(HeldDevice& device) {
-    device.can.rotates = true;
-    device.can.max_torque = 10.0;
-}
-
 ToolUse held_by(SessionHandle device) {
     ToolUse use;
     use.device = device;

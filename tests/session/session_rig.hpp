@@ -29,6 +29,12 @@ public:
     std::uint32_t buttons = 0;
 };
 
+// It turns, and gives torque.
+inline void let_turn(HeldDevice& device) {
+    device.can.rotates = true;
+    device.can.max_torque = 10.0;
+}
+
 inline BodyAddition body(const Shape& shape, const Vec3& position, Motion motion, double mass = 1.0) {
     BodyAddition addition;
     addition.description.shapes = {PlacedShape{shape, Pose{}}};

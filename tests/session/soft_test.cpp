@@ -226,8 +226,7 @@ struct SoftToolRig : SoftRig {
         static const ToolShapeResult made = make_tool_shape(shared::box({0.02, 0.01, 0.02}), {1e-3, 200});
         brick = made.shape;
         session.remove_proxy(proxy);
-        device.can.rotates = true;
-        device.can.max_torque = 10.0;
+        let_turn(device);
         ToolUse use;
         use.device = hand;
         session.add_tool(brick, use);

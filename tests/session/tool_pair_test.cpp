@@ -27,8 +27,8 @@ class TwoTools : public SessionRig {
 public:
     explicit TwoTools(InputRecorder* recorder = nullptr) : SessionRig({}, recorder) {
         session.remove_proxy(proxy);
-        device.can.rotates = other.can.rotates = true;
-        device.can.max_torque = other.can.max_torque = 10.0;
+        let_turn(device);
+        let_turn(other);
         device.position = {0.0, 1.06, 0.0};
         other.position = {0.0, 1.0, 0.0};
         Workspace workspace;

@@ -23,8 +23,7 @@ public:
     explicit ToolRig(const SessionSettings& settings = {}) : SessionRig(settings) {
         session.remove_proxy(proxy);
         use.device = hand;
-        device.can.rotates = true;
-        device.can.max_torque = 10.0;
+        let_turn(device);
         device.position = {0.0, 0.1, 0.0};
         tool = session.add_tool(bar(), use).handle;
     }

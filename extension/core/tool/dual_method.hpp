@@ -52,10 +52,7 @@ public:
         double given = 0.0;
         for (std::size_t turn = 0; turn <= size(); ++turn) {
             const SmallVector<n> share = shares_of(taken.row);
-            SmallVector<n> free = taken.row;
-            for (std::size_t j = 0; j < count(); ++j) {
-                add(free, rows_[j], -share[j]);
-            }
+            const SmallVector<n> free = beside_active(taken.row, share);
             const double left = dot(free, free);
             const bool is_free = count() < size() && left > dependent * dot(taken.row, taken.row);
             const double whole = is_free ? (taken.offset - dot(taken.row, best_.x)) / left : infinity;
@@ -142,12 +139,16 @@ private:
 
     static std::ptrdiff_t after(std::size_t place) { return static_cast<std::ptrdiff_t>(place) + 1; }
 
-    bool is_independent(const SmallVector<n>& row) const {
-        const SmallVector<n> share = shares_of(row);
-        SmallVector<n> free = row;
+    // What of a row the shares of the active ones leave.
+    SmallVector<n> beside_active(SmallVector<n> row, const SmallVector<n>& share) const {
         for (std::size_t j = 0; j < count(); ++j) {
-            add(free, rows_[j], -share[j]);
+            add(row, rows_[j], -share[j]);
         }
+        return row;
+    }
+
+    bool is_independent(const SmallVector<n>& row) const {
+        const SmallVector<n> free = beside_active(row, shares_of(row));
         return dot(free, free) > 1e3 * dependent * dot(row, row);
     }
 

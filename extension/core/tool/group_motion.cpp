@@ -60,7 +60,7 @@ public:
     MotionHalfSpace<6 * max_group> worst() {
         if (worst_.bound >= 0) {
             const GroupBound& bound = bounds_[at(worst_.bound)];
-            worst_.offset = -bound.of.gap - bound.of.friction * bound.of.slide;
+            worst_.offset = bound.of.least();
             worst_.row = bound.row(worst_.direction, space_);
         }
         return worst_;
@@ -85,7 +85,7 @@ MotionHalfSpace<6 * max_group> half_space(const MotionPush& push, const GroupBou
     made.bound = push.bound;
     made.direction =
         length > 1e-12 ? bound.of.normal - aside * (bound.of.friction / length) : bound.of.normal;
-    made.offset = -bound.of.gap - bound.of.friction * bound.of.slide;
+    made.offset = bound.of.least();
     made.row = bound.row(made.direction, space);
     return made;
 }

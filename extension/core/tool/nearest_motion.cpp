@@ -24,7 +24,7 @@ MotionHalfSpace<6> worst_of(std::span<const MotionBound> bounds, const Vector6& 
     }
     if (worst.bound >= 0) {
         const MotionBound& bound = bounds[static_cast<std::size_t>(worst.bound)];
-        worst.offset = -bound.gap - bound.friction * bound.slide;
+        worst.offset = bound.least();
         worst.row = lifted_row(worst.direction, bound.arm, length);
     }
     return worst;

@@ -54,6 +54,9 @@ struct MotionBound {
     double gap = 0.0;            // (unit: meters)
     double friction = 0.0;       // mu
     double slide = 0.0;          // s (unit: meters)
+
+    // What (n - mu t) . u has to be at least (unit: meters).
+    double least() const { return -gap - friction * slide; }
 };
 
 // How a bound sees a motion of its point.

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/haptics/surface_feel.hpp"
 #include "core/tool/tool_group.hpp"
 #include "core/tool/tool_steps.hpp"
 
@@ -15,10 +14,6 @@ namespace {
 
 // Each of them lets go of what sticks, and there are no more than four tools and six pairs.
 constexpr int max_breaks = 4;
-
-Vec3 along_surface(const Vec3& way, const Vec3& normal) {
-    return way - normal * glm::dot(normal, way);
-}
 
 }  // namespace
 
@@ -105,10 +100,7 @@ double ToolGroup::friction_of(const Source& source) const {
         return source.meeting->pair->friction(source.meeting->pair->sliding());
     }
     const ToolProxy& tool = *members_[at(source.member)].tool;
-    const ToolContact& contact = source.contact;
-    const Feel feel = feel_at(*tool.scene_, contact.body, contact.feature);
-    return friction_share(*tool.scene_, feel, contact.body, contact.feature, contact.point, contact.normal) *
-           (tool.sliding_ ? feel.material->dynamic_friction : feel.material->static_friction);
+    return tool.friction_at(source.contact, tool.sliding_);
 }
 
 bool ToolGroup::is_held(const GroupMotion& holding) const {

@@ -54,23 +54,23 @@ void ToolProxy::bound_slides(const Vector6& x) {
     const RigidMotion motion = lowered(x, length_);
     for (int i = 0; i < contacts_.count; ++i) {
         MotionBound& bound = bounds_[at(i)];
-        const Vec3 way = motion.at(bound.arm);
-        bound.slide = glm::length(way - bound.normal * glm::dot(bound.normal, way));
+        bound.slide = glm::length(along_surface(motion.at(bound.arm), bound.normal));
     }
+}
+
+double ToolProxy::friction_at(const ToolContact& contact, bool sliding) const {
+    const Feel feel = feel_at(*scene_, contact.body, contact.feature);
+    return friction_share(*scene_, feel, contact.body, contact.feature, contact.point, contact.normal) *
+           (sliding ? feel.material->dynamic_friction : feel.material->static_friction);
 }
 
 // Where Coulomb's friction lets the tool go, with the forces that hold it.
 NearestMotion ToolProxy::hold(const Vector6& goal, bool sliding) {
     for (int i = 0; i < contacts_.count; ++i) {
         const ToolContact& contact = contacts_.items[at(i)];
-        const Feel feel = feel_at(*scene_, contact.body, contact.feature);
-        const bool touches = contact.gap <= touching_gap * skin();
-        bounds_[at(i)].friction =
-            touches ? friction_share(*scene_, feel, contact.body, contact.feature, contact.point,
-                                     contact.normal) *
-                          (sliding ? feel.material->dynamic_friction : feel.material->static_friction)
-                    : 0.0;
-        bounds_[at(i)].slide = 0.0;
+        MotionBound& bound = bounds_[at(i)];
+        bound.friction = contact.gap <= touching_gap * skin() ? friction_at(contact, sliding) : 0.0;
+        bound.slide = 0.0;
     }
     NearestMotion held = nearest(goal, cones_met);
     for (int i = 0; sliding && i < slide_rounds && length_of(held.x) > least_step * skin(); ++i) {
@@ -86,9 +86,8 @@ bool ToolProxy::slips(const NearestMotion& held) const {
     return std::ranges::any_of(
         std::span(held.pushes).first(at(held.push_count)), [&](const MotionPush& push) {
             const MotionBound& bound = bounds_[at(push.bound)];
-            const Vec3 way = motion.at(bound.arm);
             return bound.friction > 0.0 &&
-                   glm::length(way - bound.normal * glm::dot(bound.normal, way)) > least_step * skin();
+                   glm::length(along_surface(motion.at(bound.arm), bound.normal)) > least_step * skin();
         });
 }
 

@@ -157,6 +157,8 @@ private:
     void descend(const Pose& hand, ToolTick& tick);
     Plan plan(const RigidMotion& pull);
     bool slips(const NearestMotion& held) const;
+    // Coulomb's coefficient, against a body.
+    double friction_at(const ToolContact& contact, bool sliding) const;
     NearestMotion hold(const Vector6& goal, bool sliding);
     void bound_motion();
     void bound_slides(const Vector6& x);

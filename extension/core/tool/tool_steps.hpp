@@ -3,8 +3,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 
 #include "core/math/small_matrix.hpp"
+#include "core/math/types.hpp"
 
 namespace tactus::tool_steps {
 
@@ -31,6 +33,11 @@ inline double length_of(const Vector6& x) {
         sum += value * value;
     }
     return std::sqrt(sum);
+}
+
+// What of a way does not lift off.
+inline Vec3 along_surface(const Vec3& way, const Vec3& normal) {
+    return way - normal * glm::dot(normal, way);
 }
 
 }  // namespace tactus::tool_steps
