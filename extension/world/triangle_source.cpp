@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/geometry/mesh_check.hpp"
+#include "platform/large_pages.hpp"
 #include "realtime/workers.hpp"
 
 namespace tactus {
@@ -133,6 +134,7 @@ BuiltMesh TriangleSource::built(const Mat3& scaling, const ParallelRunner& run) 
     (tree != nullptr ? refit_count : build_count).fetch_add(1, std::memory_order_relaxed);
     if (tree == nullptr) {
         tree = Workers::freed_aside(TriangleTree::build(*mesh, run));
+        std::ranges::for_each(tree->memory(), move_to_large_pages);
     }
     kept_.push_back({scaling, mesh, tree});
     return {mesh, std::move(tree)};

@@ -7,6 +7,7 @@
 
 #include "shared/meshes.hpp"
 #include "shared/rough_meshes.hpp"
+#include "shared/settled_shape.hpp"
 
 namespace tactus::shared {
 
@@ -210,6 +211,7 @@ DenseMesh dense(const char* name, bool closed, TriangleMesh mesh) {
     DenseMesh made{name, std::make_shared<TriangleMesh>(std::move(mesh)), nullptr, nullptr, closed};
     const PlacedShape placed{MeshShape{made.mesh}, {}};
     made.shape = make_touch_shape({&placed, 1}).shape;
+    settle(*made.shape);
     made.tree = std::make_unique<const JudgeTree>(*made.mesh);
     return made;
 }

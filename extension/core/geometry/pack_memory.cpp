@@ -1,5 +1,7 @@
 #include "core/geometry/pack_memory.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -15,27 +17,38 @@ struct Candidate {
 
 }  // namespace
 
+std::size_t PackMemory::Gathering::index_of(std::uint32_t pack, std::size_t first, std::size_t count) const {
+    if (first < count && this->pack(first) == pack) {
+        return first;
+    }
+    for (std::size_t block = 0; block * node_width < count; ++block) {
+        if (const unsigned same = lane_bits(FloatMask(packs[block] == pack))) {
+            return std::min(count, block * node_width + static_cast<std::size_t>(std::countr_zero(same)));
+        }
+    }
+    return count;
+}
+
 void PackMemory::gather(const TriangleTree& tree, const Vec3& center, double radius, double away,
                         double odometer, WorkBudget& work) {
     std::array<FoundPack, capacity> found;
     const FoundPacks packs = tree.packs_around(center, radius, work, found);
-    last_packs_ = packs_;
-    last_seen_ = seen_;
+    const Gathering& last = gatherings_[now_];
+    now_ = 1 - now_;
+    Gathering& gathered = gatherings_[now_];
     const std::size_t last_count = std::exchange(count_, packs.count);
     center_ = center;
     radius_ = packs.radius;
     clear_until_.fill(splat(std::numeric_limits<double>::infinity()));
     std::size_t next = 0;  // both gatherings come node by node: after a pack mostly the same one follows
     for (std::size_t i = 0; i < count_; ++i) {
-        packs_[i] = found[i].pack;
-        seen_[i].at = -1.0;
-        for (std::size_t k = 0; k < last_count; ++k) {
-            const std::size_t last = next + k < last_count ? next + k : next + k - last_count;
-            if (last_packs_[last] == packs_[i]) {
-                seen_[i] = last_seen_[last];
-                next = last + 1;
-                break;
-            }
+        gathered.packs[i / node_width][i % node_width] = found[i].pack;
+        const std::size_t before = last.index_of(found[i].pack, next, last_count);
+        if (before < last_count) {
+            gathered.seen[i] = last.seen[before];
+            next = before + 1;
+        } else {
+            gathered.seen[i].at = -1.0;
         }
         set_clear(i, odometer + static_cast<double>(found[i].distance) - away);
     }
@@ -56,11 +69,11 @@ double PackMemory::covered_share(const Vec3& start, const Vec3& motion, double r
 
 const PackBound& PackMemory::look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
                                      double odometer) {
-    Seen& seen = seen_[index];
-    if (seen.at != odometer) {
-        seen = {bound_from(offset_from_triangles(tree.pack(packs_[index]), point), point), odometer};
+    Seen& last = seen(index);
+    if (last.at != odometer) {
+        last = {bound_from(offset_from_triangles(tree.pack(pack(index)), point), point), odometer};
     }
-    return seen.tangents;
+    return last.tangents;
 }
 
 // Tangents from before tell when a pack can be met at the earliest: the earliest are swept first, and end the
@@ -75,7 +88,7 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
     std::array<Candidate, capacity> candidates;
     std::size_t count = 0;
     visit_on_way(length * limit, reach, odometer, [&](std::size_t i) {
-        const PackBound& at = seen_[i].at >= 0.0 ? seen_[i].tangents : look_at(i, tree, from, odometer);
+        const PackBound& at = seen(i).at >= 0.0 ? seen(i).tangents : look_at(i, tree, from, odometer);
         const double t = earliest_below(at, from, direction, reach);
         if (t <= limit) {
             std::size_t place = count++;
@@ -95,18 +108,18 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
         }
         work.spend(cost::pack_look);
         const LanesVec3 to = splat(way.start + way.motion * hit.t);
-        const PackBound before = seen_[i].tangents;
+        const PackBound before = seen(i).tangents;
         const PackBound& last = look_at(i, tree, to, odometer + length * hit.t);
         set_clear(i, odometer + smallest(least_distances(last, to)) - length * hit.t);
         if (!may_come_within(before, last, from, to, reach)) {
             continue;
         }
-        const PackHit met = sweep_to_triangles(tree.pack(packs_[i]), way, hit.t, &last);
+        const PackHit met = sweep_to_triangles(tree.pack(pack(i)), way, hit.t, &last);
         work.spend(met.looks * cost::pack_look);
         if (met.found()) {
             hit.t = met.t;
             hit.found = true;
-            hit.triangle = packs_[i] * lane_count + static_cast<std::uint32_t>(met.lane);
+            hit.triangle = pack(i) * lane_count + static_cast<std::uint32_t>(met.lane);
         }
     }
     return hit;

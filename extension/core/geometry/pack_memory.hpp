@@ -53,7 +53,19 @@ private:
         PackBound tangents;
         double at = -1.0;  // odometer reading at that look; below 0: none yet
     };
+    using PackNumbers = std::uint32_t __attribute__((vector_size(4 * node_width)));
+    struct Gathering {
+        std::array<PackNumbers, capacity / node_width> packs{};
+        std::array<Seen, capacity> seen;
 
+        std::uint32_t pack(std::size_t index) const { return packs[index / node_width][index % node_width]; }
+        // Where that pack stands among the first `count`, looked for from `first` on; `count` where it does
+        // not.
+        std::size_t index_of(std::uint32_t pack, std::size_t first, std::size_t count) const;
+    };
+
+    std::uint32_t pack(std::size_t index) const { return gatherings_[now_].pack(index); }
+    Seen& seen(std::size_t index) { return gatherings_[now_].seen[index]; }
     // Calls visit(index) for every pack that may have a triangle within `limit` of a place on a way of that
     // length. Returns a lower bound of the distance of all other packs that are known.
     template <class Visit>
@@ -69,11 +81,8 @@ private:
     Vec3 center_{0.0};
     double radius_ = -1.0;
     std::array<Lanes, capacity / lane_count> clear_until_;  // odometer + distance; infinite beyond count_
-    std::array<std::uint32_t, capacity> packs_;
-    std::array<Seen, capacity> seen_;
-    std::array<std::uint32_t, capacity>
-        last_packs_;  // of the gathering before: what was seen then still holds
-    std::array<Seen, capacity> last_seen_;
+    Gathering gatherings_[2];  // the last one, and that before: what was seen then still holds
+    int now_ = 0;
 };
 
 template <class Visit>
@@ -99,8 +108,8 @@ double PackMemory::visit_near(const TriangleTree& tree, const Vec3& point, const
     double passed_by = std::numeric_limits<double>::infinity();
     const double others = visit_on_way(0.0, limit, odometer, [&](std::size_t i) {
         work.spend(cost::pack_look);
-        if (seen_[i].at >= 0.0) {
-            const double least = smallest(least_distances(seen_[i].tangents, center));
+        if (seen(i).at >= 0.0) {
+            const double least = smallest(least_distances(seen(i).tangents, center));
             if (least > limit) {
                 set_clear(i, odometer + least);
                 passed_by = std::min(passed_by, least);
@@ -111,7 +120,7 @@ double PackMemory::visit_near(const TriangleTree& tree, const Vec3& point, const
         const Lanes distances = least_distances(tangents, center);
         set_clear(i, odometer + smallest(distances));
         passed_by = std::min(passed_by, smallest(distances));
-        visit(packs_[i], tangents, distances);
+        visit(pack(i), tangents, distances);
     });
     return std::min(others, passed_by);
 }

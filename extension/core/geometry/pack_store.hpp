@@ -3,7 +3,9 @@
 // same.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
 
 #include "core/geometry/box_node.hpp"
 #include "core/geometry/triangle_pack.hpp"
@@ -44,6 +46,10 @@ public:
     void fetch(std::size_t index) const {
         single_ ? fetch_early(&single_[index], sizeof(SinglePack))
                 : fetch_early(&exact_[index], sizeof(TrianglePack));
+    }
+    std::span<const std::byte> memory() const {
+        return single_ ? std::as_bytes(std::span(single_.get(), count_))
+                       : std::as_bytes(std::span(exact_.get(), count_));
     }
     std::size_t bytes_each() const { return single_ ? sizeof(SinglePack) : sizeof(TrianglePack); }
 

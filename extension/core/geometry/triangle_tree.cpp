@@ -107,10 +107,11 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
                 hit.t = met.t;
                 hit.found = true;
                 hit.triangle = pack * lane_count + static_cast<std::uint32_t>(met.lane);
-                bound = a_little_more(hit.t);
+                // Nothing is met before the start.
+                bound = hit.t > 0.0 ? a_little_more(hit.t) : -std::numeric_limits<float>::infinity();
             }
         });
-    const double known = static_cast<double>(left_out) * (1.0 - 1e-6);
+    const double known = std::max(0.0, static_cast<double>(left_out) * (1.0 - 1e-6));
     if (left_out <= bound && known < hit.t) {
         hit.t = known;
         hit.found = false;

@@ -118,6 +118,10 @@ public:
     std::size_t pack_count() const { return ids_.size(); }
     std::size_t triangle_count() const { return triangle_count_; }
     std::size_t bytes() const;
+    // What queries read, as it lies in memory: until the next refit.
+    std::array<std::span<const std::byte>, 3> memory() const {
+        return {std::as_bytes(std::span(nodes_)), std::as_bytes(std::span(turned_)), packs_.memory()};
+    }
     Vec3 center() const { return origin_; }
     double radius() const { return radius_; }  // of the ball around center() that holds every triangle
     // Largest coordinate in use (unit: meters): what rounding errors scale with.

@@ -150,6 +150,8 @@ inline FloatLanes squared_distance(const BoxNode& boxes, const TurnedNode& turne
 // that it passes by or leaves behind, and for unused slots. They are convex, so their distance as a function
 // of t lies above its tangents at both ends of the way: the first falls to the sphere's radius no earlier
 // than t = gap / rate, and where the two cross above it (or the second still falls at the end), no t is left.
+// Of thousands that touch at the start, those that the sphere goes at fastest are below 0 by as much: what
+// stops it there is found first.
 inline FloatLanes earliest_meeting(const BoxNode& boxes, const TurnedNode& turned, const FloatWay& way) {
     using namespace box_detail;
     const FloatLanes zero = splat_float(0.0f);
@@ -167,7 +169,7 @@ inline FloatLanes earliest_meeting(const BoxNode& boxes, const TurnedNode& turne
     const auto apart =
         (first.gap > zero) & ((fall <= zero) | ((last.gap > zero) & (lowest > most(doubt, zero))));
     const auto used = boxes.low[0] <= boxes.high[0];
-    const FloatLanes key = (first.gap > zero) ? first.gap / fall : zero;
+    const FloatLanes key = (first.gap > zero) ? first.gap / fall : -most(first.rate, zero);
     const auto met = used & ~apart & ~is_behind(boxes, turned, axes, way);
     return (met & (key <= splat_float(way.limit * (1.0f + 4e-6f)))) ? key : never;
 }

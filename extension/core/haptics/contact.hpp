@@ -65,8 +65,6 @@ struct ContactList {
         }
         return least;
     }
-    // No contact with a larger gap finds room (unit: meters).
-    double max_gap() const { return std::ranges::max_element(all(), {}, &Contact::gap)->gap; }
     Contact& operator[](int index) { return items[static_cast<std::size_t>(index)]; }
     const Contact& operator[](int index) const { return items[static_cast<std::size_t>(index)]; }
     std::span<const Contact> all() const { return {items.data(), static_cast<std::size_t>(count)}; }

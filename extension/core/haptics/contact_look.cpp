@@ -93,6 +93,11 @@ bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoin
     const TriangleTree& tree = *part.part->tree();
     const Vec3 point = to_parent(part.pose, candidate.point);
     const double on_it = same_point * same_;
+    // A triangle lies behind its tangent: that tells most of them apart.
+    const auto may_contain = [&](const Contact& other) {
+        return other.feature.part == contact.feature.part && other.gap <= contact.gap + same_ &&
+               glm::dot(other.normal, point - center_) + other.gap + rest_ <= on_it;
+    };
     const auto contains = [&](const Contact& other) {
         work_.spend(cost::closest_point);
         // Neighbours mostly have their closest point in common.
@@ -106,10 +111,10 @@ bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoin
                glm::distance(candidate.point,
                              closest_point_on_triangle(candidate.point, t.a, t.b, t.c).point) <= on_it;
     };
+    work_.spend(1 + contacts.count / 8);
     for (int i = 0; i < contacts.count; ++i) {
         Contact& other = contacts[i];
-        if (i == index || other.feature.part != contact.feature.part || other.gap > contact.gap + same_ ||
-            !contains(other)) {
+        if (i == index || !may_contain(other) || !contains(other)) {
             continue;
         }
         const bool nearer = other.gap < contact.gap - same_;

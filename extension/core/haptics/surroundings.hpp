@@ -9,6 +9,7 @@
 
 #include "core/geometry/pack_memory.hpp"
 #include "core/haptics/broad_phase.hpp"
+#include "core/haptics/contact_gathering.hpp"
 #include "core/haptics/contact_look.hpp"
 #include "core/haptics/passed_bodies.hpp"
 
@@ -98,11 +99,11 @@ private:
     double wanted_margin() const;
     PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
-    void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
-    void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactList& out);
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
+    void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);
     void add_insisted(const Vec3& center, ContactList& out);
-    void add_seen(const Contact& contact, double& limit, ContactList& out);
+    void add_seen(const Contact& contact, double& limit, ContactGathering& out);
 
     const TouchScene* scene_ = nullptr;
     double radius_ = 0.0;

@@ -18,6 +18,7 @@ double limit_from(double nearest, double rest, double reach, double limit) {
 
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
+    ContactGathering gathering(out);
     saw_all_ = true;
     broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center, work_);
     double limit = rest() + tolerances().reach + beyond;
@@ -28,9 +29,9 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
         const ScenePart& placed = scene_->parts()[part];
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
-            find_tree_contacts(part, local, limit, out);
+            find_tree_contacts(part, local, limit, gathering);
         } else {
-            find_solid_contact(part, local, limit, out);
+            find_solid_contact(part, local, limit, gathering);
         }
     }
     // What was taken in before something nearer was found.
@@ -43,7 +44,7 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
 }
 
 void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, double& limit,
-                                      ContactList& out) {
+                                      ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
     const SolidDistance at = distance_to_solid(placed.part->solid(), local);
     work_.spend(cost::solid_look);
@@ -58,10 +59,10 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, do
 }
 
 void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double& limit,
-                                      ContactList& out) {
+                                      ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = *placed.part->tree();
-    const int first_count = out.count;
+    const int first_count = out.list().count;
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t last_id = Hit::no_triangle;
     const auto take = [&](std::uint32_t pack, const PackBound& tangents, const Lanes& distances) {
@@ -91,7 +92,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         is_known = limit <= std::max(covered, others);
     }
     if (!is_known) {
-        out.count = first_count;
+        out.shorten(first_count);
         const LanesVec3 center = splat(local);
         others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
             work_.spend(cost::pack_look);
@@ -105,17 +106,16 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
 
 // An edge or corner is found once with every triangle that shares it: the first stands for all. Once the list
 // is full, only what is nearer by more than rounding is let in: each time the list is looked through.
-void Surroundings::add_seen(const Contact& contact, double& limit, ContactList& out) {
-    work_.spend(1 + out.count / 8);
+void Surroundings::add_seen(const Contact& contact, double& limit, ContactGathering& out) {
+    work_.spend(1 + out.list().count / 32);
     Contact added = contact;
     const double same = tolerances().same;
-    for (int i = 0; i < out.count && added.state == ContactState::seen; ++i) {
-        const Contact& other = out[i];
-        if (std::abs(other.gap - contact.gap) <= same && other.feature.part == contact.feature.part &&
+    out.visit_as_far(contact.gap, same, [&](const Contact& other) {
+        if (other.feature.part == contact.feature.part &&
             glm::length(other.normal - contact.normal) * (rest() + contact.gap) <= same_point * same) {
             added.state = ContactState::covered;
         }
-    }
+    });
     out.add(added);
     if (out.is_full()) {
         limit = std::min(limit, out.max_gap() + rest() - same);

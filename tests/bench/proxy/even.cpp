@@ -15,6 +15,7 @@
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/reference_descent.hpp"
+#include "shared/settled_shape.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus::bench {
@@ -169,6 +170,7 @@ struct Built {
     Built(const TriangleMesh& triangles, int rounds) : mesh(triangles), judge(triangles) {
         const PlacedShape placed{MeshShape{std::make_shared<const TriangleMesh>(triangles)}, {}};
         shape = make_touch_shape({&placed, 1}, shared::run_on_two_threads).shape;
+        shared::settle(*shape);
         build_ms = build_milliseconds(triangles, rounds);
     }
 };

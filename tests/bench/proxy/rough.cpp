@@ -14,6 +14,7 @@
 #include "shared/reference_descent.hpp"
 #include "shared/rough_meshes.hpp"
 #include "shared/rough_paths.hpp"
+#include "shared/settled_shape.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus::bench {
@@ -293,6 +294,7 @@ void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings
         const PlacedShape placed{MeshShape{mesh}, {}};
         const std::shared_ptr<const TouchShape> shape =
             make_touch_shape({&placed, 1}, shared::run_on_two_threads).shape;
+        shared::settle(*shape);
         for (const auto& [radius, path] : chosen) {
             Verdict verdict;
             const std::vector<Vec3> way = path->make(tree, radius, settings.ticks);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 #include <thread>
 
@@ -475,6 +477,34 @@ TEST(TriangleTree, HoldsEveryTriangleOfLargeMeshes) {
             }
         }
         EXPECT_EQ(std::ranges::count(seen, 1), static_cast<std::ptrdiff_t>(seen.size()));
+    }
+}
+
+// A ball in a hole's mouth touches ten thousand triangles. Which one stops it where it goes sideways is not
+// looked for among those beside it and behind it.
+TEST(TriangleTree, OfThousandsThatTouchTheOneInTheWayIsFoundFirst) {
+    constexpr int count = 5'000;
+    constexpr double wide = 0.1, radius = 0.12;
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / count;
+        for (const double size : {wide, 2.0 * wide}) {
+            mesh.vertices.push_back({size * std::cos(angle), 0.0, size * std::sin(angle)});
+        }
+        const auto a = static_cast<std::uint32_t>(2 * i), b = (a + 2) % (2 * count);
+        mesh.triangles.push_back({a, a + 1, b});
+        mesh.triangles.push_back({b, a + 1, b + 1});
+    }
+    const TriangleTree tree = TriangleTree::build(mesh);
+    const Vec3 start(0.0, std::sqrt(radius * radius - wide * wide), 0.0);
+    for (int i = 0; i < 20; ++i) {
+        const double angle = 0.31 * i;
+        WorkBudget work(1'000'000);
+        const Vec3 motion = 0.01 * Vec3(std::cos(angle), 0.0, std::sin(angle));
+        const Hit hit = tree.sweep({start, motion, radius, 1e-6}, 1.0, work);
+        ASSERT_TRUE(hit.found && hit.complete);
+        EXPECT_EQ(hit.t, 0.0);
+        EXPECT_LE(1'000'000 - work.left(), 2'000) << "angle " << angle;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/haptics/contact_look.hpp"
 #include "core/haptics/proxy.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
@@ -228,6 +229,36 @@ TEST(ProxyBudget, OverAFlatFaceOfSliversItGlides) {
         ASSERT_NEAR(tick.position.x, hand.x, 1e-9) << "tick " << i;
         ASSERT_NEAR(tick.position.y, radius, 1e-8) << "tick " << i;
     }
+}
+
+// A ball too wide for a hole touches all of its rim: which edges stand for which is told mostly by tangents.
+TEST(ProxyBudget, OnARimOfManyEdgesToTellThemApartIsCheap) {
+    constexpr double wide = 0.1, height = 0.2, radius = 0.12;
+    const PlacedShape placed{MeshShape{std::make_shared<const TriangleMesh>(bore(1'000, wide, height))}, {}};
+    const TouchShapeResult made = make_touch_shape({&placed, 1});
+    TouchScene scene(1, 1);
+    scene.add(*made.shape, {}, {}, 1);
+    WorkBudget work(1'000'000);
+    const ContactLook look(scene, {0.0, height + std::sqrt(radius * radius - wide * wide), 0.0}, radius, 1e-9,
+                           work);
+    const TriangleTree& tree = *made.shape->parts.front().tree();
+    ContactList contacts;
+    for (std::uint32_t slot = 0; slot < tree.pack_count() * lane_count && !contacts.is_full(); ++slot) {
+        const Contact contact = look.exact_contact({0, slot});
+        if (std::abs(contact.gap) < 1e-6) {
+            contacts.add({contact.normal, contact.gap, contact.feature});
+        }
+    }
+    ASSERT_TRUE(contacts.is_full());
+    const std::int64_t before = work.left();
+    int counting = 0;
+    for (int i = 0; i < contacts.count; ++i) {
+        look.look_closely(contacts, i, 0.01);
+        counting += contacts[i].state != ContactState::covered;
+    }
+    EXPECT_LE(before - work.left(), 40 * contacts.count);
+    EXPECT_GE(counting, contacts.count / 4);  // an edge, its ends, and the triangles that share them
+    EXPECT_LT(counting, contacts.count);
 }
 
 // A proxy appears where up to a thousandth of its radius is missing, and is lifted off in the same tick: or,

@@ -1,0 +1,19 @@
+// A shape whose trees lie in memory as a world's do.
+#pragma once
+
+#include <algorithm>
+
+#include "core/geometry/touch_shape.hpp"
+#include "platform/large_pages.hpp"
+
+namespace tactus::shared {
+
+inline void settle(const TouchShape& shape) {
+    for (const TouchPart& part : shape.parts) {
+        if (const TriangleTree* const tree = part.tree()) {
+            std::ranges::for_each(tree->memory(), move_to_large_pages);
+        }
+    }
+}
+
+}  // namespace tactus::shared
