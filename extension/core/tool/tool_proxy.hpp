@@ -180,7 +180,8 @@ private:
     Pose pose_;
     bool present_ = false;
     bool sliding_ = false;
-    double pace_ = 0.0;  // of the farthest sphere, in the last tick (unit: meters)
+    bool at_rest_ = false;  // it was where it should be: contacts are looked for as exactly as that needs
+    double pace_ = 0.0;     // of the farthest sphere, in the last tick (unit: meters)
     WorkBudget work_{0};
     std::int64_t work_given_ = 0;
     ToolContacts contacts_;
