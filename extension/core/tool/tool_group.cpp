@@ -148,7 +148,7 @@ void ToolGroup::collect_meetings() {
         meeting.contacts.count = 0;
         if (meeting.is_near && !work_.is_gone()) {
             meeting.pair->collect(motions_of(meeting, pulls),
-                                  ahead_of_tick * pace + far_enough * meeting.pair->skin(), meeting.contacts,
+                                  ahead_in_air * pace + far_enough * meeting.pair->skin(), meeting.contacts,
                                   work_);
         }
     }

@@ -82,16 +82,23 @@ ToolTick ToolProxy::appear(const Pose& hand) {
     return tick;
 }
 
+double ToolProxy::way_since(const Pose& from) const {
+    return length_of(lifted(motion_between(from, pose_), length_));
+}
+
 void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
     const double least = least_step * skin();
     const Pose from = pose_;
     bool slid = false;
     bool ended = false;
     double trust = 1.0;
-    double ahead = ahead_of_tick * pace_;
+    const bool touches = touch_count_ > 0;
+    const double farthest = (touches ? ahead_of_tick : ahead_in_air) * pace_;
+    const double at_least = (touches ? near_enough : far_enough) * skin();
+    double ahead = farthest;
     for (int stalls = 0; stalls < max_stalls;) {
         const RigidMotion pull = motion_between(pose_, hand);
-        around_.collect(pose_, pull, ahead + far_enough * skin(), contacts_, work_, at_rest_);
+        around_.collect(pose_, pull, ahead + at_least, contacts_, work_, at_rest_);
         const Plan next = plan(pull);
         if (work_.is_gone() || !next.possible) {
             break;
@@ -103,8 +110,8 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
             continue;  // only with all that it touches
         }
         at_rest_ = tick.residual <= least;
-        ended =
-            at_rest_ || tick.residual <= left_over * length_of(lifted(motion_between(from, pose_), length_));
+        const bool is_held = next.holding.push_count > 0;
+        ended = at_rest_ || (is_held && tick.residual <= left_over * way_since(from));
         if (ended || tick.steps == settings_.max_steps) {
             break;
         }
@@ -118,7 +125,7 @@ void ToolProxy::descend(const Pose& hand, ToolTick& tick) {
         const bool stalled = way < least;
         stalls = stalled ? stalls + 1 : 0;
         trust = stalled ? 0.25 * trust : std::min(1.0, 2.0 * trust);
-        ahead = std::min(ahead_of_tick * pace_, ahead_of_step * way);
+        ahead = touches ? std::min(farthest, ahead_of_step * way) : farthest;
     }
     sliding_ = slid;
     tick.status |= ended ? 0u : static_cast<std::uint32_t>(tool_unfinished);

@@ -154,6 +154,7 @@ private:
     RigidMotion way_of_form(int body) const;
     std::span<const ToolTouch>::iterator hardest_touch() const;
     int carrier() const;
+    double way_since(const Pose& from) const;
     void descend(const Pose& hand, ToolTick& tick);
     Plan plan(const RigidMotion& pull);
     bool slips(const NearestMotion& held) const;
