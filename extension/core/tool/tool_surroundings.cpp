@@ -146,7 +146,6 @@ double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, con
                                       double limit, int except, WorkBudget& work) {
     const double stop = shape_->spheres[index].radius + stop_share * skin_ + sag;
     const double arrival = this->arrival();
-    work.spend(sphere_cost);
     if (std::min(hoods_[index].least(from), hoods_[index].least(to)) > stop + arrival) {
         return limit;
     }

@@ -110,7 +110,7 @@ private:
 
     // See WorkBudget: one sphere that may meet something, and how many that cannot are passed over for a
     // unit.
-    static constexpr std::int64_t sphere_cost = 3;
+    static constexpr std::int64_t sphere_cost = 2;
     static constexpr std::int64_t spheres_at_a_time = 6;
 
     struct Stop {
