@@ -15,24 +15,33 @@ using SmallMatrix = std::array<SmallVector<n>, n>;
 using Vector6 = SmallVector<6>;
 using Matrix6 = SmallMatrix<6>;
 
+// Row i of cholesky(), with the rows above it done.
+template <std::size_t n>
+bool cholesky_row(const SmallMatrix<n>& a, SmallMatrix<n>& l, std::size_t i, double least) {
+    for (std::size_t j = 0; j <= i; ++j) {
+        double sum = a[i][j];
+        for (std::size_t k = 0; k < j; ++k) {
+            sum -= l[i][k] * l[j][k];
+        }
+        if (i != j) {
+            l[i][j] = sum / l[j][j];
+        } else if (sum > least * a[i][i] && sum > 0.0) {
+            l[i][i] = std::sqrt(sum);
+        } else {
+            return false;
+        }
+    }
+    return true;
+}
+
 // The lower triangle L of A = L transposed(L); false where A is not positive definite. Only A's lower
 // triangle is read. `least`: share of a diagonal element that must be left when what the elements before it
 // explain is gone. `size`: of the leading part that is meant.
 template <std::size_t n>
 bool cholesky(const SmallMatrix<n>& a, SmallMatrix<n>& l, double least = 1e-12, std::size_t size = n) {
     for (std::size_t i = 0; i < size; ++i) {
-        for (std::size_t j = 0; j <= i; ++j) {
-            double sum = a[i][j];
-            for (std::size_t k = 0; k < j; ++k) {
-                sum -= l[i][k] * l[j][k];
-            }
-            if (i != j) {
-                l[i][j] = sum / l[j][j];
-            } else if (sum > least * a[i][i] && sum > 0.0) {
-                l[i][i] = std::sqrt(sum);
-            } else {
-                return false;
-            }
+        if (!cholesky_row(a, l, i, least)) {
+            return false;
         }
     }
     return true;

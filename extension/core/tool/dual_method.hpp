@@ -117,6 +117,9 @@ public:
         }
     }
 
+    // How many systems were solved so far.
+    int solves() const { return solves_; }
+
 private:
     // Of a row's squared length: less of it beside those of the active ones is rounding.
     static constexpr double dependent = 1e-10;
@@ -147,13 +150,13 @@ private:
         return row;
     }
 
-    bool is_independent(const SmallVector<n>& row) const {
+    bool is_independent(const SmallVector<n>& row) {
         const SmallVector<n> free = beside_active(row, shares_of(row));
         return dot(free, free) > 1e3 * dependent * dot(row, row);
     }
 
     // Of the active rows in `wanted`: (N^T N) share = N^T wanted. The active rows are independent.
-    SmallVector<n> shares_of(const SmallVector<n>& wanted) const {
+    SmallVector<n> shares_of(const SmallVector<n>& wanted) {
         SmallVector<n> right{};
         for (std::size_t i = 0; i < count(); ++i) {
             right[i] = dot(rows_[i], wanted);
@@ -161,21 +164,24 @@ private:
         return solved(right);
     }
 
-    // Of N^T N x = right; nothing where that cannot be told.
-    SmallVector<n> solved(const SmallVector<n>& right) const {
-        SmallMatrix<n> gram;
-        for (std::size_t i = 0; i < count(); ++i) {
-            for (std::size_t j = 0; j <= i; ++j) {
-                gram[i][j] = dot(rows_[i], rows_[j]);
+    // Of N^T N x = right; nothing where that cannot be told. Only of rows that are new since the last one,
+    // N^T N and its factor are computed.
+    SmallVector<n> solved(const SmallVector<n>& right) {
+        ++solves_;
+        for (; factored_ < count(); ++factored_) {
+            for (std::size_t j = 0; j <= factored_; ++j) {
+                gram_[factored_][j] = dot(rows_[factored_], rows_[j]);
+            }
+            if (!cholesky_row(gram_, lower_, factored_, 1e-12)) {
+                return {};
             }
         }
-        SmallMatrix<n> lower;
-        return cholesky(gram, lower, 1e-12, count()) ? solve_cholesky(lower, right, count())
-                                                     : SmallVector<n>{};
+        return solve_cholesky(lower_, right, count());
     }
 
     void let_go(std::size_t place) {
         --best_.push_count;
+        factored_ = std::min(factored_, place);
         for (std::size_t j = place; j < count(); ++j) {
             best_.pushes[j] = best_.pushes[j + 1];
             rows_[j] = rows_[j + 1];
@@ -185,6 +191,10 @@ private:
     BoundedMotion<n>& best_;
     std::size_t size_;
     std::array<SmallVector<n>, n> rows_;
+    SmallMatrix<n> gram_;
+    SmallMatrix<n> lower_;
+    std::size_t factored_ = 0;  // rows of lower_
+    int solves_ = 0;
 };
 
 }  // namespace tactus

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/tool/tool_steps.hpp"
 
@@ -13,8 +14,11 @@ using tool_steps::at;
 namespace {
 
 constexpr int max_rounds = 128;
-constexpr std::int64_t round_cost = 60;  // of one half-space taken in (see WorkBudget)
-constexpr std::int64_t bound_cost = 2;   // both sides of a half-space
+// See WorkBudget: of a look for the next half-space, and of a system, besides what grows with its size.
+constexpr std::int64_t round_cost = 4;
+constexpr std::int64_t solve_cost = 6;
+constexpr std::int64_t terms_at_a_time = 6;
+constexpr std::int64_t bounds_at_a_time = 2;  // looks at bounds, for a unit
 
 constexpr std::size_t first_of(int tool) {
     return 6 * at(tool);
@@ -147,8 +151,8 @@ GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupB
             pressing.add(spaces[at(i)].bound);
         }
         active.begin_with(std::span(spaces).first(at(like->push_count)));
-        work.spend(round_cost * (1 + like->push_count));
     }
+    int solved = 0;
     for (int round = 0; best.possible; ++round) {
         Violations violations(bounds, space, best.x);
         violations.most = tolerance;
@@ -165,8 +169,10 @@ GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupB
                 pressing.add(violations.worst().bound);
             }
         }
-        work.spend(static_cast<std::int64_t>(looked) * bound_cost + round_cost +
-                   std::int64_t{best.push_count} * best.push_count);
+        const std::int64_t terms = std::int64_t{best.push_count} * best.push_count;
+        work.spend(static_cast<std::int64_t>(looked) / bounds_at_a_time + round_cost +
+                   (active.solves() - std::exchange(solved, active.solves())) *
+                       (solve_cost + terms / terms_at_a_time));
         best.missing = violations.found() ? violations.most : 0.0;
         if (!violations.found() || round == max_rounds || work.is_gone()) {
             break;

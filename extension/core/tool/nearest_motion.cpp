@@ -1,13 +1,17 @@
 #include "core/tool/nearest_motion.hpp"
 
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace tactus {
 
 namespace {
 
 constexpr int max_rounds = 64;
-constexpr std::int64_t round_cost = 40;  // of one half-space taken in (see WorkBudget)
+// See WorkBudget: of a look for the next half-space, and of a system.
+constexpr std::int64_t round_cost = 4;
+constexpr std::int64_t solve_cost = 6;
+constexpr std::int64_t bounds_at_a_time = 3;  // looks at bounds, for a unit
 
 // The half-space that is violated most.
 MotionHalfSpace<6> worst_of(std::span<const MotionBound> bounds, const Vector6& x, double length,
@@ -58,10 +62,12 @@ NearestMotion nearest_motion(const Vector6& goal, std::span<const MotionBound> b
     NearestMotion best;
     best.x = goal;
     ActiveSet<6> active(best);
+    int solved = 0;
     for (int round = 0; best.possible; ++round) {
         double most = tolerance;
         const MotionHalfSpace<6> worst = worst_of(bounds, best.x, length, most);
-        work.spend(static_cast<std::int64_t>(bounds.size()) * cost::half_space + round_cost);
+        work.spend(static_cast<std::int64_t>(bounds.size()) / bounds_at_a_time + round_cost +
+                   (active.solves() - std::exchange(solved, active.solves())) * solve_cost);
         best.missing = worst.bound < 0 ? 0.0 : most;
         if (worst.bound < 0 || round == max_rounds || work.is_gone()) {
             break;

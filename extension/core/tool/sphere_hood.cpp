@@ -10,12 +10,16 @@ double SphereHood::others(const Vec3& center) const {
     return clear_ - glm::distance(center, gathered_at_);
 }
 
-double SphereHood::least(const Vec3& center) const {
-    double least = others(center);
+double SphereHood::nearest(const Vec3& center) const {
+    double nearest = std::numeric_limits<double>::infinity();
     for (const HoodPlane& plane : planes()) {
-        least = std::min(least, plane.at(center));
+        nearest = std::min(nearest, plane.at(center));
     }
-    return least;
+    return nearest;
+}
+
+double SphereHood::least(const Vec3& center) const {
+    return std::min(others(center), nearest(center));
 }
 
 // Where there is no room the farthest goes, and counts as one of the others.
@@ -39,7 +43,7 @@ void SphereHood::keep(const HoodPlane& plane, double distance, double& limit) {
 }
 
 void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> parts, const Vec3& center,
-                        double limit, double same, WorkBudget& work) {
+                        double limit, double keep_within, double same, WorkBudget& work) {
     count_ = 0;
     clear_ = limit;
     worn_ = 0.0;
@@ -76,6 +80,10 @@ void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> 
             }
         });
         clear_ = std::min(clear_, unseen);
+    }
+    // What is farther is one of the others.
+    while (count_ > 0 && distances_[static_cast<std::size_t>(count_ - 1)] > keep_within) {
+        clear_ = std::min(clear_, distances_[static_cast<std::size_t>(--count_)]);
     }
     for (HoodPlane& plane : std::span(planes_).first(static_cast<std::size_t>(count_))) {
         plane.offset = -std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <span>
 
@@ -53,21 +54,26 @@ public:
 
     // No feature but those of the planes is nearer to the centre than this (unit: meters).
     double others(const Vec3& center) const;
+    // No feature of the planes is nearer to it (unit: meters).
+    double nearest(const Vec3& center) const;
     // No feature is nearer to it (unit: meters).
     double least(const Vec3& center) const;
 
-    // Looks for features nearer than `limit` among the parts (unit: meters). Points within `same` of each
-    // other are one (unit: meters).
+    // Looks for features nearer than `limit` among the parts, and remembers those nearer than `keep_within`
+    // (unit: meters). Points within `same` of each other are one (unit: meters).
     void gather(const TouchScene& scene, std::span<const std::uint32_t> parts, const Vec3& center,
-                double limit, double same, WorkBudget& work);
+                double limit, double keep_within, double same, WorkBudget& work);
     // The same features, those nearer than `within` exactly as they are seen from `center`.
     void look(const TouchScene& scene, const Vec3& center, double within, double same, WorkBudget& work);
     bool is_full() const { return count_ == capacity; }
     // What has come nearer since it was gathered makes it see less than there is, by more than this (unit:
     // meters).
     bool is_worn(double by) const { return worn_ > by; }
-    bool is_seen_from(const Vec3& center, double within) const {
-        return looked_at_ == center && looked_within_ >= within;
+    bool is_gathered_at(const Vec3& center) const { return gathered_at_ == center; }
+    // Whether it was looked at no farther away than this (unit: meters).
+    bool is_seen_from(const Vec3& center, double within, double away) const {
+        const Vec3 apart = center - looked_at_;
+        return looked_within_ >= within && glm::dot(apart, apart) <= away * away;
     }
 
 private:

@@ -147,8 +147,9 @@ void ToolGroup::collect_meetings() {
         const double pace = a.tool->pace_ + b.tool->pace_;
         meeting.contacts.count = 0;
         if (meeting.is_near && !work_.is_gone()) {
-            meeting.pair->collect(motions_of(meeting, pulls), 4.0 * pace + far_enough * meeting.pair->skin(),
-                                  meeting.contacts, work_);
+            meeting.pair->collect(motions_of(meeting, pulls),
+                                  ahead_in_air * pace + far_enough * meeting.pair->skin(), meeting.contacts,
+                                  work_);
         }
     }
 }

@@ -24,7 +24,8 @@ bool ToolGroup::Source::touches() const {
 void ToolGroup::add_walls(const Cluster& cluster, int place) {
     ToolProxy& tool = *member(cluster.members[at(place)]).tool;
     const RigidMotion pull = motion_between(tool.pose_, tool.hand_);
-    tool.around_.collect(tool.pose_, pull, 4.0 * tool.pace_ + far_enough * tool.skin(), walls_, work_);
+    tool.around_.collect(tool.pose_, pull, ahead_in_air * tool.pace_ + far_enough * tool.skin(), walls_,
+                         work_);
     for (const ToolContact& contact : walls_.all()) {
         sources_.push_back({contact, nullptr, cluster.members[at(place)], tool.skin()});
         bounds_.push_back({{contact.normal, contact.point - tool.pose_.position, contact.gap, 0.0, 0.0},

@@ -154,6 +154,7 @@ private:
     RigidMotion way_of_form(int body) const;
     std::span<const ToolTouch>::iterator hardest_touch() const;
     int carrier() const;
+    double way_since(const Pose& from) const;
     void descend(const Pose& hand, ToolTick& tick);
     Plan plan(const RigidMotion& pull);
     bool slips(const NearestMotion& held) const;
@@ -180,7 +181,8 @@ private:
     Pose pose_;
     bool present_ = false;
     bool sliding_ = false;
-    double pace_ = 0.0;  // of the farthest sphere, in the last tick (unit: meters)
+    bool at_rest_ = false;  // it was where it should be: contacts are looked for as exactly as that needs
+    double pace_ = 0.0;     // of the farthest sphere, in the last tick (unit: meters)
     WorkBudget work_{0};
     std::int64_t work_given_ = 0;
     ToolContacts contacts_;

@@ -14,8 +14,19 @@ namespace tactus::tool_steps {
 constexpr double least_step = 0.125;  // the tool is where it should be
 constexpr double touching_gap = 4.0;  // what the tool is still above does not hold it by friction
 constexpr double far_enough = 64.0;   // how far ahead contacts are looked for while the hand is slow
+constexpr double near_enough = 8.0;   // the same for a tool that touches
 constexpr double bounds_met = 1e-3;   // by motions
 constexpr double cones_met = 1e-2;    // by friction
+
+// Of the way in the tick before: how far ahead contacts are looked for. One that touches does not get much
+// farther than it did, nor than in the step before; one in the air is led by how far it sees.
+constexpr double ahead_in_air = 4.0;
+constexpr double ahead_of_tick = 1.3;
+constexpr double ahead_of_step = 1.5;
+
+// Of the way in this tick: what the hand goes in 20 us. Where the next step is shorter, it is left to the
+// next tick, which begins with it.
+constexpr double left_over = 0.02;
 
 constexpr int max_stalls = 6;    // steps that lead nowhere
 constexpr int slide_rounds = 4;  // of the pressure and the friction that goes with it

@@ -12,15 +12,10 @@ namespace tactus {
 
 namespace {
 
-// All of the tool's reach.
-constexpr double skin_share = 2e-5;
-constexpr double hood_share = 0.1;      // how far around a sphere features are remembered
-constexpr double farthest_share = 0.2;  // no hood looks farther than parts are looked for beyond the way
+constexpr double skin_share = 2e-5;  // of the tool's reach
 
 // Of a skin: sweeps end this far above a surface.
 constexpr double stop_share = 0.5;
-constexpr double same_share = 1e-3;  // distances that differ by less are the same
-constexpr double window_share = 4.0;
 
 constexpr double unknown = -std::numeric_limits<double>::infinity();  // of a sphere's room
 
@@ -47,22 +42,12 @@ RigidMotion motion_between(const Pose& from, const Pose& to) {
     return {to.position - from.position, turn_vector(to.rotation * glm::conjugate(from.rotation))};
 }
 
-void ToolContacts::add(const ToolContact& contact) {
-    if (count < capacity) {
-        items[static_cast<std::size_t>(count++)] = contact;
-        return;
-    }
-    ToolContact& farthest = *std::ranges::max_element(items, {}, &ToolContact::gap);
-    if (contact.gap < farthest.gap) {
-        farthest = contact;
-    }
-}
-
 ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::size_t max_parts)
     : shape_(std::move(shape)),
       skin_(skin_share * shape_->reach),
       hoods_(shape_->spheres.size()),
-      room_(shape_->spheres.size(), unknown) {
+      room_(shape_->spheres.size(), unknown),
+      near_(shape_->spheres.size()) {
     parts_.reserve(max_parts);
     arms_.reserve(shape_->spheres.size());
     for (const ToolSphere& sphere : shape_->spheres) {
@@ -84,6 +69,7 @@ void ToolSurroundings::forget() {
 void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way) {
     scene_ = &scene;
     stop_count_ = 0;
+    is_first_ = true;
     const double near = shape_->reach * (1.0 + farthest_share) + way + skin_;
     double approach = 0.0;
     parts_.clear();
@@ -118,8 +104,8 @@ bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work, double depth)
             continue;
         }
         const Vec3 center = to_parent(pose, shape_->spheres[i].center);
-        hoods_[i].gather(*scene_, parts_, center, rest(i) + hood_share * shape_->reach, same_share * skin_,
-                         work);
+        const double around = rest(i) + hood_share * shape_->reach;
+        hoods_[i].gather(*scene_, parts_, center, around, around, same_share * skin_, work);
         room_[i] = hoods_[i].least(center) - rest(i);
         if (room_[i] <= least || work.is_gone()) {
             return false;
@@ -133,62 +119,11 @@ bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work, double depth)
     });
 }
 
-bool ToolSurroundings::has_stopped(std::uint32_t sphere, const HoodPlane& plane) const {
-    return std::ranges::any_of(
-        std::span(stops_).first(static_cast<std::size_t>(stop_count_)), [&](const Stop& stop) {
-            return stop.sphere == sphere && stop.part == plane.part && stop.triangle == plane.triangle;
-        });
-}
-
 void ToolSurroundings::note_stop(const Stop& stop) {
     room_[stop.sphere] = 0.0;
     hoods_[stop.sphere].forget();  // it may have forgotten what has stopped it
     if (stop_count_ < max_stops) {
         stops_[static_cast<std::size_t>(stop_count_++)] = stop;
-    }
-}
-
-void ToolSurroundings::look_at_sphere(std::uint32_t index, const Pose& pose, double window,
-                                      ToolContacts& contacts, WorkBudget& work) {
-    const Vec3 center = to_parent(pose, shape_->spheres[index].center);
-    const double rest = this->rest(index);
-    SphereHood& hood = hoods_[index];
-    const double others = hood.others(center) - rest;
-    // A hood that is full sees no farther from here: sweeps do, and what stops one makes it look anew.
-    if (others < window && (!hood.is_full() || hood.is_worn(0.5 * hood_share * shape_->reach))) {
-        const double around =
-            std::clamp(4.0 * window, hood_share * shape_->reach, farthest_share * shape_->reach);
-        hood.gather(*scene_, parts_, center, rest + around, same_share * skin_, work);
-    }
-    const double within = rest + window;
-    const auto is_near = [&](const HoodPlane& plane) { return plane.at(center) < within; };
-    if (!hood.is_seen_from(center, within) && std::ranges::any_of(hood.planes(), is_near)) {
-        hood.look(*scene_, center, within, same_share * skin_, work);
-    }
-    for (const HoodPlane& plane : hood.planes()) {
-        if (is_near(plane) && (!plane.covered || has_stopped(index, plane))) {
-            contacts.add({plane.point,
-                          plane.normal,
-                          plane.at(center) - rest,
-                          static_cast<int>(scene_->parts()[plane.part].body),
-                          {plane.part, plane.triangle}});
-        }
-    }
-    room_[index] = hood.least(center) - rest;
-}
-
-void ToolSurroundings::collect(const Pose& pose, const RigidMotion& motion, double far,
-                               ToolContacts& contacts, WorkBudget& work) {
-    contacts.count = 0;
-    const double most = std::min(far, 0.5 * farthest_share * shape_->reach);
-    const double way = glm::length(motion.way);
-    const double turn = glm::length(motion.turn);
-    work.spend(static_cast<std::int64_t>(hoods_.size()) / 4);
-    for (std::uint32_t i = 0; i < hoods_.size() && !work.is_gone(); ++i) {
-        const double window = std::min(way + turn * arms_[i], most) + window_share * skin_;
-        if (room_[i] < window) {
-            look_at_sphere(i, pose, window, contacts, work);
-        }
     }
 }
 
@@ -258,9 +193,12 @@ double ToolSurroundings::free_share(const ToolWay& swing, WorkBudget& work, int 
     const double turn = glm::length(swing.motion.turn);
     double limit = 1.0;
     stopped_by_.sphere = no_sphere;
-    work.spend(static_cast<std::int64_t>(hoods_.size()) / 2);
+    work.spend(static_cast<std::int64_t>(hoods_.size()) / spheres_at_a_time);
+    const std::span<const std::uint32_t> met = spheres_where(
+        [&](std::size_t i) { return room_[i] <= way + turn * arms_[i] + strays(swing, turn, arms_[i]); });
     for (const bool is_near : {true, false}) {
-        for (std::uint32_t i = 0; i < hoods_.size() && !parts_.empty(); ++i) {
+        for (std::size_t k = 0; k < met.size() && !parts_.empty(); ++k) {
+            const std::uint32_t i = met[k];
             const double far = way + turn * arms_[i];
             const double stray = strays(swing, turn, arms_[i]);
             if (room_[i] > limit * far + stray || (room_[i] <= 0.25 * far + stray) != is_near) {

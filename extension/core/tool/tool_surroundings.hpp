@@ -71,8 +71,9 @@ public:
     bool is_free(const Pose& pose, WorkBudget& work, double depth = 0.0);
 
     // The contacts that a motion may meet before its farthest point has gone `far` (unit: meters).
+    // `is_exact`: for a tool that is about to rest, all that it touches, as exactly as that can be told.
     void collect(const Pose& pose, const RigidMotion& motion, double far, ToolContacts& contacts,
-                 WorkBudget& work);
+                 WorkBudget& work, bool is_exact = false);
     // What of the motion is a small enough turn.
     double straight_share(const RigidMotion& motion) const;
     double straight_share(const ToolWay& way) const;
@@ -100,13 +101,41 @@ public:
 private:
     static constexpr int max_stops = 32;
     static constexpr std::uint32_t no_sphere = 0xffff'ffffu;
+
+    // All of the tool's reach.
+    static constexpr double hood_share = 0.1;      // how far around a sphere features are remembered
+    static constexpr double farthest_share = 0.2;  // no hood looks farther than parts are looked for
+
+    static constexpr double same_share = 1e-3;  // of a skin: distances that differ by less are the same
+
+    // See WorkBudget: one sphere that may meet something, and how many that cannot are passed over for a
+    // unit.
+    static constexpr std::int64_t sphere_cost = 2;
+    static constexpr std::int64_t spheres_at_a_time = 6;
+
     struct Stop {
         std::uint32_t sphere = 0, part = 0, triangle = 0;
     };
 
     static double way_of(const RigidMotion& motion, double arm);
-    void look_at_sphere(std::uint32_t index, const Pose& pose, double window, ToolContacts& contacts,
-                        WorkBudget& work);
+    // How exactly contacts are looked for: a tick's first are as near as they seem, those of a tool at rest
+    // are all that it touches.
+    enum class Care : std::uint8_t { usual, first, exact };
+
+    void refresh(SphereHood& hood, const Vec3& center, double rest, double window, Care care,
+                 WorkBudget& work);
+    void look_at_sphere(std::uint32_t index, const Pose& pose, double window, Care care,
+                        ToolContacts& contacts, WorkBudget& work);
+    // Until the next call.
+    template <typename Condition>
+    std::span<const std::uint32_t> spheres_where(Condition&& holds) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < near_.size(); ++i) {
+            near_[count] = static_cast<std::uint32_t>(i);
+            count += holds(i) ? 1u : 0u;  // without a branch
+        }
+        return {near_.data(), count};
+    }
     static double share_until_near(const DeformSweep& sweep, const Vec3& from, const Vec3& to, double room,
                                    double limit, WorkBudget& work);
     double sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag, double limit,
@@ -131,13 +160,15 @@ private:
     std::vector<std::uint32_t> parts_;  // of the scene, near the tool in this tick
     // One each a sphere.
     std::vector<SphereHood> hoods_;
-    std::vector<double> arms_;  // from the tool's origin to the centre (unit: meters)
-    std::vector<double> room_;  // it rests on nothing before it has gone so far (unit: meters)
+    std::vector<double> arms_;         // from the tool's origin to the centre (unit: meters)
+    std::vector<double> room_;         // it rests on nothing before it has gone so far (unit: meters)
+    std::vector<std::uint32_t> near_;  // of spheres_where()
     // What stops a sphere counts as a contact for the rest of the tick, even where another one seems to stand
     // for it.
     std::array<Stop, max_stops> stops_;
     int stop_count_ = 0;
-    Stop stopped_by_;  // the last sweep
+    bool is_first_ = true;  // the tick's next collect()
+    Stop stopped_by_;       // the last sweep
 };
 
 // The tool's place after the motion.
