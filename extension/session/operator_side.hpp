@@ -102,6 +102,8 @@ private:
         TouchedBody touched;               // one tick ago
         bool known = false;
         bool answered = false;
+        bool fixed = false;               // ToolHand::fixed, one tick ago
+        Quat turned{1.0, 0.0, 0.0, 0.0};  // where it is, as it is turned there
         WrenchPassivity passivity;
         // Sending.
         OperatorSample sent;
@@ -188,6 +190,7 @@ private:
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 
     // --- operator_tools.cpp
+    void hold_fixed_tools(SessionLoop& loop);
     void round_tools(SessionLoop& loop) const;
     bool tools_land(SessionLoop& loop);
     void feel_tools(SessionLoop& loop);

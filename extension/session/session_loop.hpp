@@ -126,6 +126,8 @@ public:
     // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
     Vec3 given_force(const ProxySlot& slot) const;
     Vec3 given_force(const ToolSlot& slot) const;
+    // Of all torques on its device, likewise (unit: newton meters).
+    Vec3 given_torque(const ToolSlot& slot) const;
 
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);

@@ -27,7 +27,7 @@ bool SessionLoop::carry_out(command::SetTool& c, Retired&) {
             changed->proxy.restart();
         }
         changed->use = c.use;
-        changed->proxy.set_settings(c.use.settings);
+        changed->settle_settings();
     }
     return false;
 }
@@ -109,6 +109,9 @@ bool SessionLoop::takes_hold(ToolSlot& slot) const {
         slot.let_go();
         return false;
     }
+    if (std::exchange(slot.is_fixed, slot.hand.fixed) != slot.hand.fixed) {
+        slot.settle_settings();
+    }
     if (std::exchange(slot.rested, false) &&
         glm::distance(slot.hand.goal.position, slot.state.hand.position) > slot.proxy.shape().reach) {
         slot.proxy.restart();  // the hand may be deep inside a body by now
@@ -155,8 +158,10 @@ void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
     const Pose& goal = slot.hand.goal;
     tool_work_ += slot.proxy.work_spent();
     slot.wrench.force = tick.force * slot.hand.share;
-    slot.wrench.torque =
-        tick.torque * slot.hand.share + glm::cross(goal.position - slot.hand.place, slot.wrench.force);
+    // A hand whose turn means nothing is given no torque: it would only be turned by it.
+    slot.wrench.torque = slot.hand.fixed ? Vec3(0.0)
+                                         : tick.torque * slot.hand.share +
+                                               glm::cross(goal.position - slot.hand.place, slot.wrench.force);
     slot.jumped = (tick.status & (tool_absent | tool_squeezed)) != 0;
     double given = 0.0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
@@ -184,7 +189,7 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
     state.pose = tick.pose;
     state.hand = slot.hand.goal;
     state.residual = tick.residual;
-    state.status = tick.status;
+    state.status = tick.status | (slot.hand.fixed ? static_cast<std::uint32_t>(tool_turn_fixed) : 0u);
     state.contact_count = 0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const auto i = static_cast<std::size_t>(state.contact_count++);
