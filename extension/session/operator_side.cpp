@@ -490,7 +490,11 @@ void OperatorSide::find_targets(SessionLoop& loop, Nanoseconds now) {
     }
     if (resimulator_.running() && resimulator_.advance(truths_, past_, sample_, settings().replay_steps) &&
         !lands(loop, now)) {
+        const std::size_t known = targets_.size();
         resimulator_.finish(loop, truths_, settings().threshold, targets_);
+        if (waits_for_tool(loop)) {
+            targets_.resize(known);
+        }
     }
 }
 

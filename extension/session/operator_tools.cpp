@@ -101,6 +101,34 @@ bool OperatorSide::tools_land(SessionLoop& loop) {
     return any;
 }
 
+// Bodies that the replay would put right might leave a tool no room that it has lost: the next replay has it
+// again, where the far side has told it. Where none does for long, the bodies are put right nevertheless.
+bool OperatorSide::waits_for_tool(SessionLoop& loop) {
+    constexpr std::uint32_t max_replays = 8;
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        const ToolSlot* const slot = loop.tool(i);
+        const ToolSlot* const replayed = resimulator_.twin()->tool(i);
+        if (slot && slot->proxy.is_present() && replayed && !replayed->proxy.is_present()) {
+            return ++replays_without_tool_ < max_replays;
+        }
+    }
+    replays_without_tool_ = 0;
+    return false;
+}
+
+// To where the replay has led them. One that it has lost, squeezed by what was put in, stays where it is.
+void OperatorSide::recall_tools(SessionLoop& loop) {
+    std::array<ToolMemory, max_tools> replayed;
+    SessionLoop::ToolPlaces places{};
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = resimulator_.twin()->tool(i); slot && slot->proxy.is_present()) {
+            replayed[i] = slot->proxy.memory();
+            places[i] = &replayed[i];
+        }
+    }
+    loop.put_tools(places);
+}
+
 void OperatorSide::feel_tools(SessionLoop& loop) {
     for (std::size_t i = 0; i < max_tools; ++i) {
         ToolSlot* const slot = loop.tool(i);

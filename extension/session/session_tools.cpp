@@ -154,6 +154,34 @@ void SessionLoop::touch_tools() {
     }
 }
 
+void SessionLoop::put_tools(const ToolPlaces& places) {
+    std::array<ToolMemory, max_tools> before;
+    std::array<bool, max_tools> is_put{};
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = tools_[i].get(); slot && places[i]) {
+            before[i] = slot->proxy.memory();
+            slot->proxy.recall(*places[i], scene_);
+            is_put[i] = true;
+        }
+    }
+    // One that stays may be in the way of another.
+    for (bool all_fit = false; !all_fit;) {
+        all_fit = true;
+        for (std::size_t i = 0; i < max_tools; ++i) {
+            if (!is_put[i] || fits_beside_tools(*tools_[i])) {
+                continue;
+            }
+            tools_[i]->proxy.recall(before[i], scene_);
+            is_put[i] = all_fit = false;
+        }
+    }
+}
+
+bool SessionLoop::fits_beside_tools(ToolSlot& slot) {
+    WorkBudget work(slot.use.settings.max_work);
+    return std::ranges::all_of(slot.proxy.pairs(), [&](ToolPair* pair) { return pair->fits_now(work); });
+}
+
 void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
     const Pose& goal = slot.hand.goal;
     tool_work_ += slot.proxy.work_spent();

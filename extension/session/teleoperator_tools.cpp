@@ -81,9 +81,13 @@ void TeleoperatorSide::send_wrenches(SessionLoop& loop, Nanoseconds now) {
     }
 }
 
-// With a model: where a tool is that touches something, as often as what moves is told. What is done again of
-// the model's past needs to have it there: between bodies that are put right it might not fit where it was.
+// With a model: where a tool is that touches something, whenever states of what moves are told. What is done
+// again of the model's past needs to have it there, at the same sample: between bodies that are put right it
+// might not fit where it was, nor where it is between those that are not yet.
 void TeleoperatorSide::tell_tools(SessionLoop& loop, Nanoseconds now) {
+    if (!telling_.has_told_states()) {
+        return;
+    }
     WrenchSamples message;
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
         const ToolSlot* const slot = tool_of(loop, i);
@@ -91,11 +95,7 @@ void TeleoperatorSide::tell_tools(SessionLoop& loop, Nanoseconds now) {
             message.samples[message.count++] = wrench_of(i, *slot, now);
         }
     }
-    if (message.count == 0) {
-        return;
-    }
-    force_pace_.adapt(channel_.link(), now);
-    if (++force_tick_ % (settings().states_every * force_pace_.stride()) == 0) {
+    if (message.count > 0) {
         channel_.send(message);
     }
 }

@@ -42,16 +42,16 @@ Quat turned(double angle, const Vec3& axis) {
 }
 
 // The plate goes along the ground to the block and pushes it. The bar comes down across the plate, presses it
-// by `press`, and rubs and turns on it.
-void press_and_push(HeldDevice& bar, HeldDevice& plate, int tick, double press) {
+// by `press`, and rubs and, by `turns`, turns on it.
+void press_and_push(HeldDevice& bar, HeldDevice& plate, int tick, double press, double turns = 1.0) {
     const double t = 1e-3 * tick;
     const double along = 0.1 * std::clamp(t - 0.6, 0.0, 1.4);
     const double speed = t > 0.6 && t < 2.0 ? 0.1 : 0.0;
     const double down = std::min(1.0, t / 0.4);
     put(plate, {0.08 + along, 0.03, 0.01 * std::sin(2.0 * t)},
-        turned(0.1 * std::sin(3.0 * t), {0.1, 1.0, 0.0}), {speed, 0.0, 0.02 * std::cos(2.0 * t)});
+        turned(0.1 * turns * std::sin(3.0 * t), {0.1, 1.0, 0.0}), {speed, 0.0, 0.02 * std::cos(2.0 * t)});
     put(bar, {0.07 + along + 0.01 * std::sin(4.0 * t), 0.11 - (0.05 + press) * down, 0.0},
-        turned(0.2 * std::sin(2.5 * t), {0.2, 1.0, 0.1}) * turned(1.5, {0.0, 1.0, 0.0}),
+        turned(0.2 * turns * std::sin(2.5 * t), {0.2, 1.0, 0.1}) * turned(1.5, {0.0, 1.0, 0.0}),
         {speed + 0.04 * std::cos(4.0 * t), 0.0, 0.0});
 }
 
@@ -72,41 +72,64 @@ TEST(LinkedToolPair, BarAndPlateMeetAsTheTestBelieves) {
     EXPECT_LE(bar()->spheres.size(), plate()->spheres.size());
 }
 
-// Nobody notices the link.
-TEST(LinkedToolPair, ARightModelFeelsAsWithoutALink) {
+struct Alone {
+    double force_off = 0.0, torque_off = 0.0;  // most, of either hand (units: newtons, newton meters)
+    double apart = 0.0;                        // of model and far side, most (unit: meters)
+};
+
+ToolUse with_friction(SessionHandle device, bool rough) {
+    ToolUse use = held_by(device);
+    use.settings.static_friction = rough ? 0.4 : 0.0;
+    use.settings.dynamic_friction = rough ? 0.3 : 0.0;
+    return use;
+}
+
+BodyAddition block_that_is(bool rough) {
+    BodyAddition made = block(0.3, 0.3);
+    made.touch_material = {1000.0, 0.0, rough ? 0.3 : 0.0, rough ? 0.3 : 0.0};
+    return made;
+}
+
+// The same two hands over a link, whose model is right, and in a session of their own.
+Alone compare_with_alone(double turns, bool rough) {
     TwoLinkedTools linked(0.1);
     linked.add(floor_of(0.3));
-    linked.add(block(0.3, 0.3));
+    linked.add(block_that_is(rough));
     SessionRig alone(LinkedPlaces::session_settings());
     HeldDevice other;
     alone.session.remove_proxy(alone.proxy);
     let_turn(alone.device);
     let_turn(other);
-    alone.device.position = other.position = {0.0, 5.0, 0.0};
     Workspace workspace;
     workspace.force_limit = 100.0;
     const SessionHandle second = alone.session.add_device(other, workspace).handle;
     alone.add(floor_of(0.3));
-    const SessionHandle pushed = alone.add(block(0.3, 0.3));
-    ASSERT_EQ(alone.session.add_tool(bar(), held_by(alone.hand)).error, "");
-    ASSERT_EQ(alone.session.add_tool(plate(), held_by(second)).error, "");
+    const SessionHandle pushed = alone.add(block_that_is(rough));
+    EXPECT_EQ(alone.session.add_tool(bar(), with_friction(alone.hand, rough)).error, "");
+    EXPECT_EQ(alone.session.add_tool(plate(), with_friction(second, rough)).error, "");
+    for (SessionHandle tool = 0; tool < 2; ++tool) {
+        linked.near.session.set_tool(tool, with_friction(tool, rough));
+        linked.far.session.set_tool(tool, with_friction(tool, rough));
+    }
     linked.settle();
     alone.session.settle();
+    Alone seen;
     std::array<double, 2> strongest{};
     int pressed = 0;
-    for (int i = 0; i < 3'000; ++i) {
-        press_and_push(linked.hand(0), linked.hand(1), i, 0.012);
-        press_and_push(alone.device, other, i, 0.012);
+    // Until the far side has them where they begin, the hands wait: each tool remembers its own way.
+    for (int i = -300; i < 3'000; ++i) {
+        press_and_push(linked.hand(0), linked.hand(1), std::max(i, 0), 0.012, turns);
+        press_and_push(alone.device, other, std::max(i, 0), 0.012, turns);
         linked.tick();
         alone.tick();
         const SessionSnapshot& mine = alone.newest();
         for (std::size_t tool = 0; tool < 2; ++tool) {
-            // But for the hands' spins, which are told in whole microradians a second.
-            ASSERT_LT(glm::distance(linked.ours(tool).force, mine.tools[tool].force), 1e-4) << i;
-            ASSERT_LT(glm::distance(linked.ours(tool).torque, mine.tools[tool].torque), 1e-5) << i;
+            const ToolState& ours = linked.ours(tool);
+            seen.force_off = std::max(seen.force_off, glm::distance(ours.force, mine.tools[tool].force));
+            seen.torque_off = std::max(seen.torque_off, glm::distance(ours.torque, mine.tools[tool].torque));
             strongest[tool] = std::max(strongest[tool], glm::length(mine.tools[tool].force));
         }
-        ASSERT_LT(linked.apart(1), 1e-6) << i;
+        seen.apart = std::max(seen.apart, linked.apart(1));
         pressed += mine.tools[0].contact_count > 0 && mine.tools[0].tools[0] == 1;
     }
     EXPECT_GT(pressed, 1'500);
@@ -119,11 +142,30 @@ TEST(LinkedToolPair, ARightModelFeelsAsWithoutALink) {
         EXPECT_LT(glm::distance(linked.theirs(tool).pose.position, linked.ours(tool).pose.position), 1e-9);
         EXPECT_LT(glm::distance(linked.theirs(tool).force, linked.ours(tool).force), 1e-6);
     }
+    return seen;
+}
+
+TEST(LinkedToolPair, ARightModelFeelsAsWithoutALink) {
+    const Alone seen = compare_with_alone(0.0, true);
+    EXPECT_LT(seen.force_off, 1e-9);
+    EXPECT_LT(seen.torque_off, 1e-11);
+    EXPECT_LT(seen.apart, 1e-6);
+}
+
+// Spins are told in whole microradians a second. Two tools are in balance to within an eighth of their skin,
+// 2.5e-4 N: that moves the end of their steps by as much. With friction it moves when they slip as well,
+// which the other session does a moment earlier or later.
+TEST(LinkedToolPair, ARightModelOfHandsThatTurnFeelsAsWithoutALink) {
+    const Alone seen = compare_with_alone(1.0, false);
+    EXPECT_LT(seen.force_off, 1e-3);
+    EXPECT_LT(seen.torque_off, 1e-4);
+    EXPECT_LT(seen.apart, 1e-6);
+    EXPECT_LT(compare_with_alone(1.0, true).apart, 1e-6);
 }
 
 struct NeverThrough {
     double deepest_here = -1.0, deepest_there = -1.0;  // (unit: meters)
-    int lost_here = 0, lost_there = 0;                 // ticks without one of the tools
+    int lost_here = 0, lost_there = 0;                 // ticks without one of the tools, of 2,850
     int passed = 0;                                    // ticks in which the bar is below the plate's middle
     int met = 0;                                       // ticks in which they press each other at the far side
     double apart = 0.0;                                // of the blocks in the end (unit: meters)
@@ -181,7 +223,6 @@ void expect_never_through(const NeverThrough& seen) {
     EXPECT_LT(seen.deepest_here, 1e-9);
     EXPECT_LT(seen.deepest_there, 1e-9);
     EXPECT_EQ(seen.passed, 0);
-    EXPECT_EQ(seen.lost_here, 0);
     EXPECT_EQ(seen.lost_there, 0);
     EXPECT_GT(seen.met, 1'000);
     EXPECT_LT(seen.apart, 2e-4);
@@ -189,11 +230,16 @@ void expect_never_through(const NeverThrough& seen) {
 }
 
 TEST(LinkedToolPair, AWrongMassIsCorrectedAndTheToolsNeverPassThroughEachOther) {
-    expect_never_through(press_wrong_block(Correction::stealthy_direction, false, block(0.6, 0.05)));
+    const NeverThrough seen = press_wrong_block(Correction::stealthy_direction, false, block(0.6, 0.05));
+    expect_never_through(seen);
+    EXPECT_EQ(seen.lost_here, 0);
 }
 
+// Of places that come late and singly some leave a tool of the model no room: it is lost for a while.
 TEST(LinkedToolPair, NorDoTheyWherePacketsAreLostInBursts) {
-    expect_never_through(press_wrong_block(Correction::stealthy_direction, true, block(0.6, 0.05)));
+    const NeverThrough seen = press_wrong_block(Correction::stealthy_direction, true, block(0.6, 0.05));
+    expect_never_through(seen);
+    EXPECT_LT(seen.lost_here, 285);
 }
 
 TEST(LinkedToolPair, NorWhereTheBlockIsElsewhere) {
@@ -207,7 +253,8 @@ TEST(LinkedToolPair, NorUnderAnyCorrection) {
         EXPECT_LT(seen.deepest_here, 1e-9) << scheme;
         EXPECT_LT(seen.deepest_there, 1e-9) << scheme;
         EXPECT_EQ(seen.passed, 0) << scheme;
-        EXPECT_EQ(seen.lost_here + seen.lost_there, 0) << scheme;
+        EXPECT_EQ(seen.lost_there, 0) << scheme;
+        EXPECT_LT(seen.lost_here, 285) << scheme;
     }
 }
 

@@ -34,7 +34,7 @@ public:
     // `tool` null: it carries none.
     PlayedRobot(const PlayedRobotSettings& settings, std::shared_ptr<const ToolShape> tool, const Pose& mount)
         : settings_(settings) {
-        tip_.can.feels = tip_.can.rotates = true;
+        tip_.can.rotates = true;
         tip_.can.max_torque = DeviceCapabilities::any;
         Workspace workspace;
         workspace.force_limit = 1e6;
@@ -43,8 +43,8 @@ public:
             ToolUse use;
             use.device = hand;
             use.grasp = mount;
-            use.settings.stiffness = 2000.0;
-            use.settings.turning_stiffness = 2.0;
+            use.settings.stiffness = 600.0;
+            use.settings.turning_stiffness = 0.6;
             place.add_tool(std::move(tool), use);
         }
     }
