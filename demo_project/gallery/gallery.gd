@@ -92,7 +92,7 @@ const SCENES := {
 	"robot_tool":
 	[
 		"A robot with a tool",
-		"A robot carries the bar as it is mounted, so yours keeps its turn, too. At the post that only it has, it stops."
+		"A robot carries the bar and cannot turn it, so yours does not turn. A post that it alone has stops it."
 	],
 	"depth_camera":
 	[

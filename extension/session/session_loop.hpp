@@ -159,7 +159,8 @@ public:
     // What the hand may be given of a pointer's or a tool's force (unit: newtons).
     double force_limit(const ProxySlot& slot) const { return force_limit(slot.description.device); }
     double force_limit(const ToolSlot& slot) const;
-    // Tools are put elsewhere, all at once; null: not this one. Those that would be in another tool there stay.
+    // Tools are put elsewhere, all at once; null: not this one. Those that would be in another one there
+    // stay.
     using ToolPlaces = std::array<const ToolMemory*, max_tools>;
     void put_tools(const ToolPlaces& places);
     // Work that tools have done in the last replays, as WorkBudget counts; begins anew when it is asked for.
