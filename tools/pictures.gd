@@ -28,6 +28,7 @@ const SECONDS := {
 	"remote_tool": 2.6,
 	"wrong_model": 4.0,
 	"teleoperated_robot": 3.0,
+	"robot_tool": 8.5,
 	"depth_camera": 6.0,
 	"point_cloud": 8.5,
 }

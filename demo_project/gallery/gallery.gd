@@ -89,6 +89,11 @@ const SCENES := {
 	["Two operators", "Somebody else pushes the same box from elsewhere; the pale ball is that finger."],
 	"teleoperated_robot":
 	["A robot", "A robot's tip goes where the hand goes. The table it runs into is felt, a moment later."],
+	"robot_tool":
+	[
+		"A robot with a tool",
+		"A robot carries the bar and cannot turn it, so yours does not turn. A post that it alone has stops it."
+	],
 	"depth_camera":
 	[
 		"A camera",

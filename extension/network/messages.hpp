@@ -211,6 +211,7 @@ struct WrenchSample {
     Vec3 torque{0.0};             // likewise, about where it would have the tool (unit: newton meters)
     Pose tool;                    // where the far side's tool is
     ObjectId object = no_object;  // that is touched
+    bool fixed = false;           // what holds it there cannot turn: nor does the operator's
 };
 
 struct WrenchSamples {

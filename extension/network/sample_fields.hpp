@@ -241,20 +241,22 @@ void wrench_sample_fields(Stream& s, auto& m) {
     s.require(m.newest_operator_sample <= plausible::max_sequence);
     whole_fields(s, m.force, force_quantum, plausible::max_force);
     whole_fields(s, m.torque, torque_quantum, plausible::max_torque);
-    std::uint8_t largest = 0;
+    enum : std::uint8_t { largest = 3, fixed = 4 };
+    std::uint8_t bits = 0;
     if constexpr (!Stream::reads) {
-        largest = largest_part(m.tool.rotation);
+        bits = static_cast<std::uint8_t>(largest_part(m.tool.rotation) | (m.fixed ? fixed : 0));
     }
-    s.integer(largest);
-    s.require(largest < 4);
+    s.integer(bits);
+    s.require(bits <= (largest | fixed));
     whole_fields(s, m.tool.position, position_quantum, plausible::max_position);
     if (s.good()) {
-        rotation_fields(s, m.tool.rotation, largest);
+        rotation_fields(s, m.tool.rotation, bits & largest);
     }
     std::uint64_t object = m.object == no_object ? 0 : std::uint64_t{m.object} + 1;  // 0: none
     s.varint(object);
     s.require(object <= no_object);
     if constexpr (Stream::reads) {
+        m.fixed = (bits & fixed) != 0;
         m.pointer = static_cast<std::uint16_t>(pointer);
         m.object = object == 0 ? no_object : static_cast<ObjectId>(object - 1);
     }

@@ -111,13 +111,6 @@ void HandMirrors::synchronise(ProxyPointer& node, ProxyTwin& twin, Session& sess
 void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints,
                               bool waits) {
     complaints.say(node, node.problem());
-    if (has_robots_) {
-        complaints.say(
-            node,
-            "over a link a robot follows fingertips alone: use a ProxyPointer, or another scenario "
-            "of the MMTLink");
-        return;
-    }
     node.make_shape(waits);
     complaints.say(node, node.problem_of_shape());
     if (node.is_kept_out()) {
@@ -125,6 +118,7 @@ void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session
                        "it touches something where its hand begins, and is not felt until it has been where "
                        "it fits: move the device, or make the tool smaller than the room it is in");
     }
+    complaints.say(node, node.hindrance());
     const SessionHandle device = handle_in(devices_, node.device_node());
     complaints.say(node, twin.synchronise(session, node.shape(), node.use(device)));
 }

@@ -20,9 +20,8 @@ class HandMirrors {
 public:
     // `stand_in`: what plays every device, as at a far side, where the hand is the operator's; null: each
     // its own.
-    // `has_robots`: hands are told over a link to robots, which follow fingertips alone.
-    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in, bool has_robots)
-        : world_(world), stand_in_(std::move(stand_in)), has_robots_(has_robots) {}
+    HandMirrors(const HapticWorld& world, std::shared_ptr<Device> stand_in)
+        : world_(world), stand_in_(std::move(stand_in)) {}
 
     // `waits`: what takes time to be made is waited for.
     void synchronise(Session& session, Complaints& complaints, bool waits);
@@ -77,7 +76,6 @@ private:
 
     const HapticWorld& world_;
     std::shared_ptr<Device> stand_in_;
-    bool has_robots_;
     std::vector<DeviceMirror> devices_;
     std::vector<ProxyMirror> proxies_;
     std::vector<ToolMirror> tools_;

@@ -83,6 +83,14 @@ String HapticTool::problem() const {
                : String();
 }
 
+String HapticTool::hindrance() const {
+    return state_.handle != no_handle && has(tool_wrist_loose)
+               ? String(
+                     "its robot turns and has no motors that hold it, so it does not move: use one that "
+                     "gives a torque, or one that does not turn")
+               : String();
+}
+
 String HapticTool::get_state_text() const {
     for (const String& wrong : {problem(), problem_of_shape()}) {
         if (!wrong.is_empty()) {

@@ -28,7 +28,9 @@ public:
         STATUS_TOUCHING = tool_touching,
         STATUS_SLIDING = tool_sliding,
         STATUS_UNFINISHED = tool_unfinished,
-        STATUS_SQUEEZED = tool_squeezed
+        STATUS_SQUEEZED = tool_squeezed,
+        STATUS_TURN_FIXED = tool_turn_fixed,
+        STATUS_WRIST_LOOSE = tool_wrist_loose
     };
 
     TACTUS_PROPERTIES(HapticTool)
@@ -58,6 +60,8 @@ public:
     // Null until they are made, and where the mesh is none for a tool.
     std::shared_ptr<const ToolShape> shape() const;
     godot::String problem_of_shape() const;
+    // Why a robot does not carry it, and what to do; empty where nothing hinders it.
+    godot::String hindrance() const;
     ToolUse use(SessionHandle device) const;
     using Touched = TouchedBodies<ToolState::max_contacts>;
     void take_state(const ToolState& state, const Touched::Ids& bodies);
@@ -78,7 +82,7 @@ private:
 
     void mesh_changed();
     void show_mesh();
-    bool has(ToolStatus bit) const { return (state_.status & bit) != 0; }
+    bool has(std::uint32_t bit) const { return (state_.status & bit) != 0; }
 
     DeviceChoice device_;
     godot::Ref<godot::Mesh> mesh_;

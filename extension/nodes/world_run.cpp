@@ -61,8 +61,7 @@ WorldRun::WorldRun(HapticWorld& world, RunSettings settings)
     // At the far side the hand is the operator's: what is plugged in here has no part in it, but for robots.
     const bool stands_in =
         !settings.links.empty() && model_ == nullptr && !settings.links.front()->has_robots();
-    hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr,
-                                           !settings.links.empty() && settings.links.front()->has_robots());
+    hands_ = std::make_unique<HandMirrors>(world_, stands_in ? std::make_shared<StandInDevice>() : nullptr);
 }
 
 WorldRun::~WorldRun() {

@@ -24,6 +24,7 @@ public:
     void tell_states(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now) {
         states_.tell(loop, channel, newest, now, yields());
     }
+    bool has_told_states() const { return states_.has_said(); }
     // `touch`: what has been learnt by touch, or null.
     void tell_estimates(SessionLoop& loop, Channel& channel, const TouchLearner* touch, Nanoseconds now) {
         estimates_.tell(loop, channel, touch, now);

@@ -38,6 +38,10 @@ inline Vec3 torque_on_device(const Workspace& workspace, const Vec3& torque) {
     return direction_to_local(workspace.pose, torque * (workspace.force_scale / workspace.scale));
 }
 
+inline Vec3 torque_in_scene(const Workspace& workspace, const Vec3& torque) {
+    return direction_to_parent(workspace.pose, torque * (workspace.scale / workspace.force_scale));
+}
+
 // A wall of the scene is K·scale·force_scale stiff at the device: what the device's damping is worth in the
 // scene, and likewise its energy.
 inline double damping_in_scene(const Workspace& workspace, double damping) {

@@ -45,6 +45,7 @@ void OperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     }
     ++sample_;
     round_hands(loop);
+    hold_fixed_tools(loop);
     round_tools(loop);
     past_.note_hands(loop, sample_, now);
     hands_.clear();
@@ -122,7 +123,8 @@ void OperatorSide::begin_model(SessionLoop& loop) {
     }
     for (std::size_t i = 0; i < max_tools; ++i) {
         ToolSlot* const slot = loop.tool(i);
-        if (slot && traditional_.far_tool(i).sample != no_sample) {
+        // Where a robot has it, it may be in a body of the model.
+        if (slot && !settings().robot && traditional_.far_tool(i).sample != no_sample) {
             ToolMemory memory;
             memory.pose = traditional_.far_tool(i).tool;
             memory.present = true;
@@ -396,7 +398,9 @@ void OperatorSide::take(const WrenchSample& wrench) {
         ++statistics_.stale_states;
         return;
     }
-    resimulator_.note_tool(wrench.pointer - first_tool, wrench.newest_operator_sample, here.tool);
+    if (!settings().robot) {  // a robot lags behind the hand, and what it touches is only seen
+        resimulator_.note_tool(wrench.pointer - first_tool, wrench.newest_operator_sample, here.tool);
+    }
     statistics_.round_trip = static_cast<double>(sample_ - wrench.newest_operator_sample) * seconds_;
 }
 
@@ -486,7 +490,11 @@ void OperatorSide::find_targets(SessionLoop& loop, Nanoseconds now) {
     }
     if (resimulator_.running() && resimulator_.advance(truths_, past_, sample_, settings().replay_steps) &&
         !lands(loop, now)) {
+        const std::size_t known = targets_.size();
         resimulator_.finish(loop, truths_, settings().threshold, targets_);
+        if (waits_for_tool(loop)) {
+            targets_.resize(known);
+        }
     }
 }
 

@@ -102,6 +102,8 @@ private:
         TouchedBody touched;               // one tick ago
         bool known = false;
         bool answered = false;
+        bool fixed = false;               // ToolHand::fixed, one tick ago
+        Quat turned{1.0, 0.0, 0.0, 0.0};  // where it is, as it is turned there
         WrenchPassivity passivity;
         // Sending.
         OperatorSample sent;
@@ -188,7 +190,10 @@ private:
     void tell_felt(Pointer& pointer, SessionLoop::ProxySlot& slot, std::size_t index);
 
     // --- operator_tools.cpp
+    void hold_fixed_tools(SessionLoop& loop);
     void round_tools(SessionLoop& loop) const;
+    bool waits_for_tool(SessionLoop& loop);
+    void recall_tools(SessionLoop& loop);
     bool tools_land(SessionLoop& loop);
     void feel_tools(SessionLoop& loop);
     Wrench modelled_wrench(const SessionLoop& loop, Tool& tool, ToolSlot& slot, bool changed);
@@ -224,8 +229,9 @@ private:
     std::vector<Vec3> hands_;  // that are there
     std::array<Pointer, max_proxies> pointers_;
     std::array<Tool, max_tools> tools_;
-    std::vector<Target> targets_;  // of this tick
-    bool corrected_ = false;       // in this tick
+    std::vector<Target> targets_;             // of this tick
+    std::uint32_t replays_without_tool_ = 0;  // one after the other
+    bool corrected_ = false;                  // in this tick
     bool changed_ = false;  // something else than a correction has changed what is touched in this tick
     TeleopStatistics statistics_;
     bool restart_waits_ = false;  // the owner has not been told yet

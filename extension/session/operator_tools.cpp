@@ -25,6 +25,33 @@ double apart(const Wrench& a, const Wrench& b, double length) {
 
 }  // namespace
 
+// What a robot that does not turn carries keeps its rotation, here as there: the hand leads its place alone.
+void OperatorSide::hold_fixed_tools(SessionLoop& loop) {
+    constexpr double same_turn = 1e-6;  // (unit: radians)
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        ToolSlot* const slot = loop.tool(i);
+        if (!slot || !slot->hand.holds) {
+            continue;
+        }
+        const TraditionalTouch::FarTool& far = traditional_.far_tool(i);
+        const bool fixed = settings().robot && far.sample != no_sample && far.fixed;
+        Tool& tool = tools_[i];
+        const bool was_fixed = std::exchange(tool.fixed, fixed);
+        changed_ = changed_ || fixed != was_fixed;
+        if (!fixed) {
+            continue;
+        }
+        const Quat turned = far.tool.rotation;
+        changed_ = changed_ || angle_between(std::exchange(tool.turned, turned), turned) > same_turn;
+        ToolHand& hand = slot->hand;
+        const Pose& grasp = slot->use.grasp;
+        hand.velocity = hand.velocity_at(hand.place);
+        hand.spin = Vec3(0.0);
+        hand.goal = compose(Pose{hand.place, turned * glm::conjugate(grasp.rotation)}, grasp);
+        hand.fixed = true;
+    }
+}
+
 void OperatorSide::round_tools(SessionLoop& loop) const {
     const Pose& frame = settings().frame;
     for (std::size_t i = 0; i < max_tools; ++i) {
@@ -74,6 +101,34 @@ bool OperatorSide::tools_land(SessionLoop& loop) {
     return any;
 }
 
+// Bodies that the replay would put right might leave a tool no room that it has lost: the next replay has it
+// again, where the far side has told it. Where none does for long, the bodies are put right nevertheless.
+bool OperatorSide::waits_for_tool(SessionLoop& loop) {
+    constexpr std::uint32_t max_replays = 8;
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        const ToolSlot* const slot = loop.tool(i);
+        const ToolSlot* const replayed = resimulator_.twin()->tool(i);
+        if (slot && slot->proxy.is_present() && replayed && !replayed->proxy.is_present()) {
+            return ++replays_without_tool_ < max_replays;
+        }
+    }
+    replays_without_tool_ = 0;
+    return false;
+}
+
+// To where the replay has led them. One that it has lost, squeezed by what was put in, stays where it is.
+void OperatorSide::recall_tools(SessionLoop& loop) {
+    std::array<ToolMemory, max_tools> replayed;
+    SessionLoop::ToolPlaces places{};
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (const ToolSlot* const slot = resimulator_.twin()->tool(i); slot && slot->proxy.is_present()) {
+            replayed[i] = slot->proxy.memory();
+            places[i] = &replayed[i];
+        }
+    }
+    loop.put_tools(places);
+}
+
 void OperatorSide::feel_tools(SessionLoop& loop) {
     for (std::size_t i = 0; i < max_tools; ++i) {
         ToolSlot* const slot = loop.tool(i);
@@ -109,7 +164,8 @@ Wrench OperatorSide::far_wrench(std::size_t index, ToolSlot& slot, bool& changed
     changed |= std::exchange(tool.answered, answers) != answers;
     Wrench wrench = answers ? traditional_.far_tool(index).wrench : Wrench{};
     const ToolHand& hand = slot.hand;
-    wrench.torque += glm::cross(hand.goal.position - hand.place, wrench.force);
+    wrench.torque =
+        hand.fixed ? Vec3(0.0) : wrench.torque + glm::cross(hand.goal.position - hand.place, wrench.force);
     if (tool.known) {
         tool.passivity.moved(tool.given, hand.place - tool.place,
                              turn_vector(hand.goal.rotation * glm::conjugate(tool.hand.rotation)));
@@ -120,7 +176,7 @@ Wrench OperatorSide::far_wrench(std::size_t index, ToolSlot& slot, bool& changed
         wrench = tool.passivity.pass(wrench, hand.velocity_at(hand.place), hand.spin, slot.coupling_length(),
                                      seconds_);
     }
-    traditional_.describe(index, slot, wrench);
+    traditional_.describe(index, slot, wrench, !settings().robot);
     return wrench;
 }
 

@@ -128,13 +128,8 @@ void OperatorSide::correct(SessionLoop& loop, Nanoseconds) {
     }
     // The pointers and tools that press go on from where the replay has led them.
     const bool replayed = std::ranges::any_of(targets_, &Target::previous_known);
-    for (std::size_t i = 0; i < max_tools && replayed; ++i) {
-        ToolSlot* const slot = loop.tool(i);
-        const ToolSlot* const replayed_slot = resimulator_.twin()->tool(i);
-        // One that the replay has lost, squeezed by what was put in, stays where it is.
-        if (slot && replayed_slot && replayed_slot->proxy.memory().present) {
-            slot->proxy.recall(replayed_slot->proxy.memory(), loop.scene());
-        }
+    if (replayed) {
+        recall_tools(loop);
     }
     for (std::size_t i = 0; i < max_proxies && replayed; ++i) {
         SessionLoop::ProxySlot& slot = loop.proxy(i);

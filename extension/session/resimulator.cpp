@@ -86,15 +86,20 @@ void Resimulator::put_in() {
         twin_->put_right(plan_[next_].body, plan_[next_].motion, true);
         put_in_[plan_[next_].body] = replayed_;
     }
+    put_in_tools();
+}
+
+void Resimulator::put_in_tools() {
+    std::array<ToolMemory, max_tools> known;
+    SessionLoop::ToolPlaces places{};
     for (std::size_t i = 0; i < max_tools; ++i) {
-        ToolSlot* const slot = twin_->tool(i);
-        if (slot && tools_[i].sample == replayed_) {
-            ToolMemory memory;
-            memory.pose = tools_[i].pose;
-            memory.present = true;
-            slot->proxy.recall(memory, twin_->scene());
+        if (tools_[i].sample == replayed_) {
+            known[i].pose = tools_[i].pose;
+            known[i].present = true;
+            places[i] = &known[i];
         }
     }
+    twin_->put_tools(places);
 }
 
 void Resimulator::tick(const TruthStore& truths, ModelPast& past) {

@@ -78,6 +78,7 @@ private:
 
     void plan(const TruthStore& truths);
     void put_in();
+    void put_in_tools();
     void tick(const TruthStore& truths, ModelPast& past);
 
     TripleBuffer<SessionSnapshot> nobody_looks_;  // the twin publishes nothing

@@ -19,12 +19,18 @@ constexpr double least_contact = 0.3;
 // Of a robot that does not say what it weighs (unit: kilograms).
 constexpr double usual_mass = 0.2;
 
-RobotBody body_of(const DeviceCapabilities& robot) {
+}  // namespace
+
+RobotBody RobotSide::body_of(const DeviceCapabilities& robot) {
     return {robot.mass > 0.0 ? robot.mass : usual_mass, robot.viscous, robot.coulomb,
             robot.velocity_smoothed};
 }
 
-}  // namespace
+Wall RobotSide::coupling_of(const RobotView& robot) const {
+    const double scale = robot.workspace.scale;
+    return safe_wall({seconds_, robot.capabilities.delay}, robot.capabilities.damping / scale,
+                     {wanted_coupling.stiffness / scale, wanted_coupling.damping / scale});
+}
 
 RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& settings, Link& link,
                      std::shared_ptr<TeleopPort> port, const EndpointSettings& endpoint)
@@ -36,27 +42,44 @@ RobotSide::RobotSide(const SessionSettings& session, const TeleopSettings& setti
 void RobotSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
     telling_.take_orders(channel_.port());
-    receive();
+    receive(loop);
     hands_.follow(channel_, changed);
     for (std::size_t i = 0; i < max_proxies; ++i) {
         if (const SessionLoop::ProxySlot& slot = loop.proxy(i); slot.proxy) {
             play(loop, i, slot);
         }
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = loop.tool(i)) {
+            play(loop, tools_[i], *slot);
+        }
+    }
 }
 
-void RobotSide::receive() {
+// Another start of the operator: nobody holds anything.
+void RobotSide::restart(SessionLoop& loop) {
+    statistics_.sample = no_sample;
+    hands_.restart();
+    telling_.restart();
+    for (Pointer& pointer : pointers_) {
+        pointer.holds = false;
+    }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        tools_[i].holds = false;
+        if (ToolSlot* const slot = loop.tool(i)) {
+            PlayedHands::restart(*slot);
+        }
+    }
+}
+
+void RobotSide::receive(SessionLoop& loop) {
     while (const Packet* const packet = channel_.receive()) {
         if (channel_.peer_has_started()) {
-            statistics_.sample = no_sample;
-            hands_.restart();
-            telling_.restart();
-            for (Pointer& pointer : pointers_) {
-                pointer.holds = false;
-            }
+            restart(loop);
         }
         if (const auto* const samples = std::get_if<OperatorSamples>(&packet->message)) {
-            hands_.take(*samples);
+            hands_.take(*samples,
+                        [&](std::size_t tool) { return tool < max_tools ? loop.tool(tool) : nullptr; });
         } else if (const auto* const known = std::get_if<DiscoveryAcknowledgement>(&packet->message)) {
             telling_.take(*known);
         }
@@ -85,8 +108,7 @@ void RobotSide::play(SessionLoop& loop, std::size_t index, const SessionLoop::Pr
         pointer.observer.observe(body, loop.given_force(slot), slot.hand_velocity / scale, seconds_);
     touch_.feel(loop, index, {slot.hand, pointer.contact, slot.description.settings.radius, seconds_});
     statistics_.sample = std::max(statistics_.sample, pointer.played.sequence);
-    const Wall coupling = safe_wall({seconds_, robot.capabilities.delay}, robot.capabilities.damping / scale,
-                                    {wanted_coupling.stiffness / scale, wanted_coupling.damping / scale});
+    const Wall coupling = coupling_of(robot);
     const Vec3 before = pointer.target;
     pointer.target = next_target(before, hand_of(pointer, slot, coupling), settings().stand_in.speed,
                                  robot.workspace.pose.position, robot.capabilities.radius * scale, seconds_);
@@ -130,6 +152,11 @@ void RobotSide::set_forces(SessionLoop& loop, Nanoseconds) {
             slot.state.hand = slot.state.position = slot.hand;
         }
     }
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = loop.tool(i)) {
+            drive(tools_[i], *slot);
+        }
+    }
 }
 
 void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
@@ -149,6 +176,7 @@ void RobotSide::report(SessionLoop& loop, Nanoseconds now) {
             pointer.had_hand = slot.hand;
         }
     }
+    tell_tools(loop, now);
     hands_.tell(statistics_);
     channel_.end_tick(statistics_);
 }

@@ -1,16 +1,19 @@
 // The far side of scenarios 3 and 5: the environment is a real one, and a robot goes there where the
-// operator's hand is. The devices of this side's session are the robots, one for each pointer. Bodies of the
-// session are what is known of the environment, by a camera: nothing touches them here. In scenario 5 they
-// are told to the operator, whose model they make, in place of forces; and what the robot feels of them, so
-// that they feel so there.
+// operator's hand is. The devices of this side's session are the robots, one for each pointer or tool. Bodies
+// of the session are what is known of the environment, by a camera: nothing touches them here. In scenario 5
+// they are told to the operator, whose model they make, in place of forces; and what the robot feels of them,
+// so that they feel so there.
 //
 //     operator's place -> stand-in (C') -> target within the workspace -> drive -> HandSafety -> robot
 //     robot's place, force of its motors -> momentum observer -> contact force -> operator
+//
+// robot_side.cpp leads what is held like a fingertip, robot_tools.cpp what carries a tool.
 #pragma once
 
 #include "core/teleop/robot_drive.hpp"
 #include "session/body_telling.hpp"
 #include "session/played_hands.hpp"
+#include "session/tool_telling.hpp"
 #include "session/touch_learner.hpp"
 
 namespace tactus {
@@ -25,6 +28,7 @@ public:
     void report(SessionLoop& loop, Nanoseconds now) override;
     bool simulates() const override { return false; }
     bool drives() const override { return true; }
+    bool hears_tools() const override { return true; }
     const ForceLimits& limits() const override { return channel_.settings().limits; }
 
 private:
@@ -42,11 +46,46 @@ private:
         Nanoseconds force_sent_at = 0;
     };
 
+    // What a robot can do with a tool.
+    enum class Wrist : std::uint8_t {
+        unknown,  // it is not there
+        stiff,    // it does not turn
+        driven,   // its motors turn it
+        loose,    // it turns, and nothing holds it
+    };
+
+    struct Tool {
+        OperatorSample played;
+        ContactObserver observer, twist_observer;
+        Wrist wrist = Wrist::unknown;
+        bool holds = false;   // an operator's hand is there and the robot answers
+        Pose wanted;          // where the hand would have the tool, in this side's scene
+        Pose target;          // of the handle, likewise
+        Vec3 velocity{0.0};   // of the target (unit: meters per second)
+        Vec3 spin{0.0};       // (unit: radians per second)
+        Wall coupling;        // of the handle to the target
+        Wall turning;         // likewise (units: newton meters, and their seconds, per radian)
+        Wrench contact;       // on the tool, about its origin, in this side's scene
+        Vec3 had_place{0.0};  // of the handle, one tick ago (unit: meters)
+        SaidWrench said;
+    };
+
     const TeleopSettings& settings() const { return channel_.settings(); }
-    void receive();
+    void receive(SessionLoop& loop);
+    void restart(SessionLoop& loop);
+    static RobotBody body_of(const DeviceCapabilities& robot);
+    Wall coupling_of(const RobotView& robot) const;
     void play(SessionLoop& loop, std::size_t index, const SessionLoop::ProxySlot& slot);
     Vec3 hand_of(Pointer& pointer, const SessionLoop::ProxySlot& slot, const Wall& coupling) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
+
+    // --- robot_tools.cpp
+    static Wrist wrist_of(const RobotView& robot);
+    void play(SessionLoop& loop, Tool& tool, ToolSlot& slot);
+    void feel(SessionLoop& loop, Tool& tool, const ToolSlot& slot, const RobotView& robot) const;
+    void lead(Tool& tool, const ToolSlot& slot, const RobotView& robot) const;
+    static void drive(const Tool& tool, ToolSlot& slot);
+    void tell_tools(SessionLoop& loop, Nanoseconds now);
 
     Channel channel_;
     BodyTelling telling_;
@@ -54,6 +93,8 @@ private:
     TouchLearner touch_;
     double seconds_;  // of a tick
     std::array<Pointer, max_proxies> pointers_;
+    std::array<Tool, max_tools> tools_;
+    std::uint64_t tool_tick_ = 0;
     TeleopStatistics statistics_;
 };
 

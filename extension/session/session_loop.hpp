@@ -126,6 +126,8 @@ public:
     // Of a pointer's force, what the last tick's limits have let through (unit: newtons).
     Vec3 given_force(const ProxySlot& slot) const;
     Vec3 given_force(const ToolSlot& slot) const;
+    // Of all torques on its device, likewise (unit: newton meters).
+    Vec3 given_torque(const ToolSlot& slot) const;
 
     // Where physics has the body after the last step.
     BodyMotion motion(SessionHandle handle);
@@ -157,6 +159,10 @@ public:
     // What the hand may be given of a pointer's or a tool's force (unit: newtons).
     double force_limit(const ProxySlot& slot) const { return force_limit(slot.description.device); }
     double force_limit(const ToolSlot& slot) const;
+    // Tools are put elsewhere, all at once; null: not this one. Those that would be in another one there
+    // stay.
+    using ToolPlaces = std::array<const ToolMemory*, max_tools>;
+    void put_tools(const ToolPlaces& places);
     // Work that tools have done in the last replays, as WorkBudget counts; begins anew when it is asked for.
     std::int64_t take_tool_work() { return std::exchange(tool_work_, 0); }
     // What touch leaps by is spread over many ticks.
@@ -250,6 +256,7 @@ private:
     void hold_tools();
     ToolHand hand_at(const DeviceSlot& device, const ToolUse& use) const;
     bool takes_hold(ToolSlot& slot) const;
+    static bool fits_beside_tools(ToolSlot& slot);
     ToolGroup* tool_group() const;
     SessionHandle handle_of(const ToolProxy& tool) const;
     void feel(ToolSlot& slot, const ToolTick& tick);

@@ -47,6 +47,12 @@ Vec3 SessionLoop::given_force(const ToolSlot& slot) const {
                                          : slot.state.force;
 }
 
+Vec3 SessionLoop::given_torque(const ToolSlot& slot) const {
+    return slot.use.device < max_devices
+               ? torque_in_scene(devices_[slot.use.device].workspace, devices_[slot.use.device].safe.torque)
+               : Vec3(0.0);
+}
+
 Vec3 SessionLoop::pushed(SessionHandle handle) const {
     Vec3 force(0.0);
     if (handle >= bodies_.size() || bodies_[handle].slot < 0 || bodies_[handle].motion != Motion::Dynamic) {

@@ -27,7 +27,7 @@ bool SessionLoop::carry_out(command::SetTool& c, Retired&) {
             changed->proxy.restart();
         }
         changed->use = c.use;
-        changed->proxy.set_settings(c.use.settings);
+        changed->settle_settings();
     }
     return false;
 }
@@ -109,6 +109,9 @@ bool SessionLoop::takes_hold(ToolSlot& slot) const {
         slot.let_go();
         return false;
     }
+    if (std::exchange(slot.is_fixed, slot.hand.fixed) != slot.hand.fixed) {
+        slot.settle_settings();
+    }
     if (std::exchange(slot.rested, false) &&
         glm::distance(slot.hand.goal.position, slot.state.hand.position) > slot.proxy.shape().reach) {
         slot.proxy.restart();  // the hand may be deep inside a body by now
@@ -151,12 +154,42 @@ void SessionLoop::touch_tools() {
     }
 }
 
+void SessionLoop::put_tools(const ToolPlaces& places) {
+    std::array<ToolMemory, max_tools> before;
+    std::array<bool, max_tools> is_put{};
+    for (std::size_t i = 0; i < max_tools; ++i) {
+        if (ToolSlot* const slot = tools_[i].get(); slot && places[i]) {
+            before[i] = slot->proxy.memory();
+            slot->proxy.recall(*places[i], scene_);
+            is_put[i] = true;
+        }
+    }
+    // One that stays may be in the way of another.
+    for (bool all_fit = false; !all_fit;) {
+        all_fit = true;
+        for (std::size_t i = 0; i < max_tools; ++i) {
+            if (!is_put[i] || fits_beside_tools(*tools_[i])) {
+                continue;
+            }
+            tools_[i]->proxy.recall(before[i], scene_);
+            is_put[i] = all_fit = false;
+        }
+    }
+}
+
+bool SessionLoop::fits_beside_tools(ToolSlot& slot) {
+    WorkBudget work(slot.use.settings.max_work);
+    return std::ranges::all_of(slot.proxy.pairs(), [&](ToolPair* pair) { return pair->fits_now(work); });
+}
+
 void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
     const Pose& goal = slot.hand.goal;
     tool_work_ += slot.proxy.work_spent();
     slot.wrench.force = tick.force * slot.hand.share;
-    slot.wrench.torque =
-        tick.torque * slot.hand.share + glm::cross(goal.position - slot.hand.place, slot.wrench.force);
+    // A hand whose turn means nothing is given no torque: it would only be turned by it.
+    slot.wrench.torque = slot.hand.fixed ? Vec3(0.0)
+                                         : tick.torque * slot.hand.share +
+                                               glm::cross(goal.position - slot.hand.place, slot.wrench.force);
     slot.jumped = (tick.status & (tool_absent | tool_squeezed)) != 0;
     double given = 0.0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
@@ -184,7 +217,7 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
     state.pose = tick.pose;
     state.hand = slot.hand.goal;
     state.residual = tick.residual;
-    state.status = tick.status;
+    state.status = tick.status | (slot.hand.fixed ? static_cast<std::uint32_t>(tool_turn_fixed) : 0u);
     state.contact_count = 0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const auto i = static_cast<std::size_t>(state.contact_count++);

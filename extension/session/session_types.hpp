@@ -112,6 +112,12 @@ enum FeltStatus : std::uint32_t {
     felt_limited = 1u << 19,  // the force was to change or to give more than is allowed
 };
 
+// Bits of ToolState::status besides ToolStatus, with a link to robots.
+enum FarTool : std::uint32_t {
+    tool_turn_fixed = 1u << 20,   // the robot that carries it cannot turn it
+    tool_wrist_loose = 1u << 21,  // its robot turns, and has nothing to hold the tool by: it does not move
+};
+
 struct ProxyState {
     SessionHandle handle = no_handle;
     Vec3 position{0.0};        // of the proxy, in the world (unit: meters)
@@ -135,7 +141,7 @@ struct ToolState {
     Vec3 force{0.0};           // on the hand, in the world (unit: newtons)
     Vec3 torque{0.0};          // likewise, about its place (unit: newton meters)
     double residual = 0.0;     // see ToolTick
-    std::uint32_t status = 0;  // ToolStatus
+    std::uint32_t status = 0;  // ToolStatus, FarTool
     int contact_count = 0;
     std::array<SessionHandle, max_contacts> bodies{no_handle, no_handle, no_handle,
                                                    no_handle, no_handle, no_handle};

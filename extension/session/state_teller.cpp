@@ -70,6 +70,7 @@ void StateTeller::begin_anew(Told& told) const {
 void StateTeller::tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now,
                        bool others_yield) {
     ++tick_;
+    has_said_ = false;
     seconds_ = loop.seconds();
     losing_ = loses(channel.link().statistics());
     if (!others_yield) {
@@ -217,6 +218,7 @@ void StateTeller::send(SessionLoop& loop, Channel& channel, SampleSequence newes
     for (const SessionHandle body : bodies) {
         if (loop.body(body) != nullptr) {
             note_told(loop, channel, body, now);
+            has_said_ = has_said_ || loop.body(body)->motion == Motion::Dynamic;
         }
     }
 }

@@ -35,6 +35,8 @@ public:
     // Once a tick. `newest`: the newest sample of the operator that has been applied; `others_yield`: what
     // queues on the way there is somebody else's, who sends less.
     void tell(SessionLoop& loop, Channel& channel, SampleSequence newest, Nanoseconds now, bool others_yield);
+    // Whether something was said in this tick of a body that moves by itself.
+    bool has_said() const { return has_said_; }
 
 private:
     enum class Known : std::uint8_t { unasked, awaited, built };
@@ -76,7 +78,8 @@ private:
     std::uint64_t next_turn_ = 0;  // the tick of the next slow turn
     std::size_t turn_at_ = 0;      // the body with which it begins
     double seconds_ = 0.001;       // of a tick
-    bool losing_ = false;          // some of what is said, as of this round
+    bool has_said_ = false;
+    bool losing_ = false;  // some of what is said, as of this round
     std::uint64_t tick_ = 0;
     std::uint64_t missing_ = 0;  // packets of the operator, so far
     std::uint64_t lost_at_ = 0;  // the tick in which one more was

@@ -5,6 +5,7 @@
 #include "session/body_telling.hpp"
 #include "session/ghosts.hpp"
 #include "session/played_hands.hpp"
+#include "session/tool_telling.hpp"
 
 namespace tactus {
 
@@ -56,8 +57,7 @@ private:
         SessionHandle kept_on = no_handle;  // a body that was pressed when the hand was lost
         Pose kept_tool;                     // in its frame
         Vec3 kept_hand{0.0};                // likewise (unit: meters)
-        Wrench sent;
-        Nanoseconds sent_at = 0;
+        SaidWrench said;
     };
 
     const TeleopSettings& settings() const { return channel_.settings(); }
@@ -82,7 +82,6 @@ private:
     void send_back(SessionLoop& loop, Nanoseconds now);
     void send_wrenches(SessionLoop& loop, Nanoseconds now);
     void tell_tools(SessionLoop& loop, Nanoseconds now);
-    bool wrench_is_due(const Tool& tool, const ToolSlot& slot, Nanoseconds now) const;
     WrenchSample wrench_of(std::size_t index, const ToolSlot& slot, Nanoseconds now) const;
     void send_forces(SessionLoop& loop, Nanoseconds now);
     bool force_is_due(SessionLoop& loop, std::size_t index, Nanoseconds now) const;

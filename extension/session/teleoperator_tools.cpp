@@ -1,10 +1,8 @@
 // The far side's tools: each follows the operator's hand within its own contacts.
 #include <algorithm>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "network/plausibility.hpp"
 #include "session/teleoperator_side.hpp"
 
 namespace tactus {
@@ -67,7 +65,9 @@ void TeleoperatorSide::send_wrenches(SessionLoop& loop, Nanoseconds now) {
     WrenchSamples message;
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
         const ToolSlot* const slot = tool_of(loop, i);
-        if (slot && tools_[i].holds && wrench_is_due(tools_[i], *slot, now)) {
+        if (slot && tools_[i].holds &&
+            wrench_is_due(settings().deadband, tools_[i].said, {slot->state.force, slot->state.torque},
+                          slot->coupling_length(), now)) {
             message.samples[message.count++] = wrench_of(i, *slot, now);
         }
     }
@@ -77,14 +77,17 @@ void TeleoperatorSide::send_wrenches(SessionLoop& loop, Nanoseconds now) {
     for (std::size_t i = 0; i < message.count; ++i) {
         const std::size_t index = message.samples[i].pointer - first_tool;
         const ToolState& state = tool_of(loop, index)->state;
-        tools_[index].sent = {state.force, state.torque};
-        tools_[index].sent_at = now;
+        tools_[index].said = {{state.force, state.torque}, now};
     }
 }
 
-// With a model: where a tool is that touches something, as often as what moves is told. What is done again of
-// the model's past needs to have it there: between bodies that are put right it might not fit where it was.
+// With a model: where a tool is that touches something, whenever states of what moves are told. What is done
+// again of the model's past needs to have it there, at the same sample: between bodies that are put right it
+// might not fit where it was, nor where it is between those that are not yet.
 void TeleoperatorSide::tell_tools(SessionLoop& loop, Nanoseconds now) {
+    if (!telling_.has_told_states()) {
+        return;
+    }
     WrenchSamples message;
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
         const ToolSlot* const slot = tool_of(loop, i);
@@ -92,34 +95,16 @@ void TeleoperatorSide::tell_tools(SessionLoop& loop, Nanoseconds now) {
             message.samples[message.count++] = wrench_of(i, *slot, now);
         }
     }
-    if (message.count == 0) {
-        return;
-    }
-    force_pace_.adapt(channel_.link(), now);
-    if (++force_tick_ % (settings().states_every * force_pace_.stride()) == 0) {
+    if (message.count > 0) {
         channel_.send(message);
     }
 }
 
-bool TeleoperatorSide::wrench_is_due(const Tool& tool, const ToolSlot& slot, Nanoseconds now) const {
-    const double length = slot.coupling_length();
-    return force_needs_sending(settings().deadband, tool.sent.force, slot.state.force) ||
-           force_needs_sending(settings().deadband, tool.sent.torque / length, slot.state.torque / length) ||
-           now - tool.sent_at >= settings().deadband.longest_silence;
-}
-
 WrenchSample TeleoperatorSide::wrench_of(std::size_t index, const ToolSlot& slot, Nanoseconds now) const {
-    const Pose& frame = settings().frame;
     const ToolState& state = slot.state;
-    WrenchSample sample;
-    sample.pointer = static_cast<std::uint16_t>(first_tool + index);
-    sample.true_at = channel_.link().local_time(now);
-    sample.newest_operator_sample = tools_[index].played.sequence;
-    sample.force =
-        glm::clamp(direction_to_local(frame, state.force), -plausible::max_force, plausible::max_force);
-    sample.torque =
-        glm::clamp(direction_to_local(frame, state.torque), -plausible::max_torque, plausible::max_torque);
-    sample.tool = compose(inverse(frame), state.pose);
+    WrenchSample sample =
+        wrench_sample(settings().frame, index, tools_[index].played.sequence, channel_.link().local_time(now),
+                      {state.force, state.torque}, state.pose);
     sample.object = state.contact_count > 0 ? static_cast<ObjectId>(state.bodies[0]) : no_object;
     return sample;
 }

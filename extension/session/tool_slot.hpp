@@ -30,6 +30,7 @@ struct ToolHand {
     Vec3 place{0.0};     // of the hand itself, which torques are about (unit: meters)
     double share = 1.0;  // of the coupling: what of it the device can render safely
     bool holds = false;  // else it touches nothing
+    bool fixed = false;  // what carries the tool at the far side cannot turn: the hand's turn means nothing
 
     Vec3 velocity_at(const Vec3& point) const { return velocity + glm::cross(spin, point - goal.position); }
 };
@@ -51,6 +52,7 @@ struct ToolSlot {
     FadingForce fading;       // from wrench.force to state.force
     bool jumped = false;      // see ProxyTick
     bool rested = false;      // since the last tick
+    bool is_fixed = false;    // hand.fixed, as the proxy's settings have it
     ToolState state;
     // Where an operator's hand holds it: what came of that. Null: no far side says so.
     std::unique_ptr<JitterBuffer<OperatorSample>> heard;
@@ -72,6 +74,17 @@ struct ToolSlot {
     // L of nearest_motion.hpp (unit: meters).
     double coupling_length() const {
         return std::sqrt(use.settings.turning_stiffness / use.settings.stiffness);
+    }
+    // Of a tool that cannot turn, the coupling holds its rotation so firmly that a force at its rim, which
+    // moves it there by some way, turns it there by a thousandth of that.
+    void settle_settings() {
+        constexpr double firmness = 30.0;
+        ToolSettings settings = use.settings;
+        if (is_fixed) {
+            const double length = firmness * proxy.shape().reach;
+            settings.turning_stiffness = settings.stiffness * length * length;
+        }
+        proxy.set_settings(settings);
     }
 };
 

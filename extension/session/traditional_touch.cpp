@@ -53,7 +53,12 @@ bool TraditionalTouch::take(const WrenchSample& wrench, SessionHandle touched, S
         return false;
     }
     const SampleSequence went_on = wrench.newest_operator_sample > far.sample ? now : far.went_on;
-    far = {wrench.newest_operator_sample, went_on, {wrench.force, wrench.torque}, wrench.tool, touched};
+    far = {wrench.newest_operator_sample,
+           went_on,
+           {wrench.force, wrench.torque},
+           wrench.tool,
+           touched,
+           wrench.fixed};
     return true;
 }
 
@@ -62,15 +67,20 @@ bool TraditionalTouch::tool_answers(std::size_t index, SampleSequence sample, bo
     return still_holds(far_tools_[index], sample, hears_peer, ticks);
 }
 
-void TraditionalTouch::describe(std::size_t index, ToolSlot& slot, const Wrench& wrench) const {
+void TraditionalTouch::describe(std::size_t index, ToolSlot& slot, const Wrench& wrench,
+                                bool by_force) const {
     const FarTool& far = far_tools_[index];
     ToolState& state = slot.state;
     state = {};
+    state.status = slot.hand.fixed ? static_cast<std::uint32_t>(tool_turn_fixed) : 0u;
     state.hand = slot.hand.goal;
     state.pose = far.sample != no_sample ? far.tool : state.hand;
     const double size = glm::length(wrench.force);
-    if (far.touched != no_handle && size > no_force) {
-        state.status = tool_touching;
+    const bool names_body = far.touched != no_handle;  // else it may be another tool
+    if (size > no_force && (by_force || names_body)) {
+        state.status |= tool_touching;
+    }
+    if (size > no_force && names_body) {
         state.contact_count = 1;
         state.bodies[0] = far.touched;
         state.normals[0] = wrench.force / size;

@@ -28,6 +28,7 @@ public:
         Wrench wrench;  // about where the hand would have it
         Pose tool;      // in the world
         SessionHandle touched = no_handle;
+        bool fixed = false;  // it cannot turn there
     };
 
     // False, and nothing has changed, where it is older than what is known.
@@ -46,7 +47,8 @@ public:
     // The same for tools. `index`: of the tool, whose number as a pointer is first_tool + index.
     bool take(const WrenchSample& wrench, SessionHandle touched, SampleSequence now);
     bool tool_answers(std::size_t index, SampleSequence sample, bool hears_peer, SampleSequence ticks) const;
-    void describe(std::size_t index, ToolSlot& slot, const Wrench& wrench) const;
+    // `by_force`: what presses tells that it touches; what a robot feels is never nothing.
+    void describe(std::size_t index, ToolSlot& slot, const Wrench& wrench, bool by_force) const;
     const FarTool& far_tool(std::size_t index) const { return far_tools_[index]; }
 
     void forget() {

@@ -129,7 +129,11 @@ std::string state_of_tool(const ToolState& state) {
     if ((state.status & tool_absent) != 0) {
         return "the tool does not fit in where the hand holds it: move it to where it touches nothing";
     }
-    return (state.status & tool_touching) != 0 ? "touching" : "free";
+    if ((state.status & tool_wrist_loose) != 0) {
+        return "its robot turns and has no motors that hold the tool: use one that gives a torque";
+    }
+    const std::string does = (state.status & tool_touching) != 0 ? "touching" : "free";
+    return (state.status & tool_turn_fixed) != 0 ? does + "; its robot cannot turn it" : does;
 }
 
 }  // namespace tactus

@@ -3,70 +3,14 @@
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
 
-#include "linked_places.hpp"
+#include "linked_tools.hpp"
 #include "recorded_inputs.hpp"
-#include "shared/meshes.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus {
 namespace {
 
 using namespace session_test;
-
-// A bar of 200 mm along x, 20 mm thick.
-std::shared_ptr<const ToolShape> bar() {
-    static const ToolShapeResult made = make_tool_shape(shared::box({0.1, 0.01, 0.01}), {1e-3, 200});
-    return made.shape;
-}
-
-ToolUse held_by(SessionHandle device) {
-    ToolUse use;
-    use.device = device;
-    return use;
-}
-
-const ToolState& tool_of(const Session& session) {
-    return session.snapshot().tools[0];
-}
-
-// As the far side is told of it: the same hand without a link is the same.
-void put(HeldDevice& device, const Vec3& position, const Quat& rotation, const Vec3& velocity = Vec3(0.0)) {
-    device.position = position_as_sent(position);
-    device.rotation = rotation_as_sent(rotation);
-    device.velocity = velocity_as_sent(velocity);
-}
-
-// Both sides with a tool in place of the fingertip.
-class LinkedTools : public LinkedPlaces {
-public:
-    explicit LinkedTools(double delay, double loss = 0.0, const TeleopSettings& here = {},
-                         const TeleopSettings& there = {}, InputRecorder* near_inputs = nullptr,
-                         InputRecorder* far_inputs = nullptr)
-        : LinkedPlaces(delay, loss, 1, here, there, 64, near_inputs, far_inputs) {
-        for (Place* const place : {&near, &far}) {
-            place->session.remove_proxy(0);
-            let_turn(place->devices[0]);
-            EXPECT_EQ(place->session.add_tool(bar(), held_by(0)).error, "");
-        }
-    }
-    HeldDevice& hand() { return near.devices[0]; }
-    const ToolState& ours() const { return tool_of(near.session); }
-    const ToolState& theirs() const { return tool_of(far.session); }
-};
-
-BodyAddition floor_of(double friction) {
-    BodyAddition made = ground();
-    made.description.material.friction = friction;
-    made.touch_material = {1000.0, 0.0, friction, friction};
-    return made;
-}
-
-BodyAddition block(double mass, double friction, double x = 0.2) {
-    BodyAddition made = body(BoxShape{Vec3(0.05)}, {x, 0.05, 0.0}, Motion::Dynamic, mass);
-    made.description.material.friction = friction;
-    made.touch_material = {1000.0, 0.0, friction, friction};
-    return made;
-}
 
 // The bar comes down beside the block, turns a little and pushes it along.
 void push(HeldDevice& device, int tick) {

@@ -160,7 +160,8 @@ struct Says {
                             dice.vector(plausible::max_force),
                             dice.vector(plausible::max_torque),
                             {dice.vector(plausible::max_position), dice.rotation()},
-                            object()};
+                            object(),
+                            dice.one_in(2)};
         }
     }
     std::uint64_t sample() {

@@ -89,9 +89,10 @@ EXPECTED = {
     ]}),
     "wrenches": ("wrenches", {"samples": [
         {"pointer": 17, "true_at": 5_000_000, "newest_operator_sample": 41, "force": (0.1, 0.2, -0.3),
-         "torque": (0.25, -0.5, 1e-6), "tool": {"position": (1.0, 2.0, 3.0), "rotation": (-0.4, 0.4, -0.2, 0.8)}, "object": 4},
+         "torque": (0.25, -0.5, 1e-6), "tool": {"position": (1.0, 2.0, 3.0), "rotation": (-0.4, 0.4, -0.2, 0.8)}, "object": 4,
+         "fixed": False},
         {"pointer": 16, "true_at": -123456789, "newest_operator_sample": 0, "force": (0.0, -5.25, 0.0), "torque": STILL,
-         "tool": {"position": (-1.0, 0.0, 0.25), "rotation": (0.6, 0.0, 0.8, 0.0)}, "object": wire.NOBODY},
+         "tool": {"position": (-1.0, 0.0, 0.25), "rotation": (0.6, 0.0, 0.8, 0.0)}, "object": wire.NOBODY, "fixed": True},
     ]}),
     "tool_samples": ("operator samples", {
         "period": 1_000_000, "samples": [

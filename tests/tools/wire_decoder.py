@@ -347,9 +347,9 @@ def _wrench(r: Reader, sent_at: int) -> Fields:
         "force": _scaled(r.whole_vec3(TENTH_MILLI, MOST_FORCE), TENTH_MILLI),
         "torque": _scaled(r.whole_vec3(MICRO, MOST_TORQUE), MICRO),
     }  # fmt: skip
-    largest = r.choice(3)
-    pose = {"position": _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO), "rotation": r.rotation(largest)}
-    return wrench | {"tool": pose, "object": (r.varint(NOBODY) - 1) % 2**32}
+    bits = r.choice(7)
+    pose = {"position": _scaled(r.whole_vec3(NANO, MOST_POSITION), NANO), "rotation": r.rotation(bits & 3)}
+    return wrench | {"tool": pose, "object": (r.varint(NOBODY) - 1) % 2**32, "fixed": bits > 3}
 
 
 def _ghosts(r: Reader) -> Fields:

@@ -145,6 +145,21 @@ TEST(StateOfFingertip, SaysWhatItDoesOrWhyItIsNotFelt) {
     EXPECT_NE(state_of_fingertip(state).find("began inside"), std::string::npos);
 }
 
+TEST(StateOfTool, SaysWhatItDoesOrWhyItIsNotFelt) {
+    ToolState state;
+    EXPECT_EQ(state_of_tool(state), "waiting for the first tick");
+    state.handle = 1;
+    EXPECT_EQ(state_of_tool(state), "free");
+    state.status = tool_touching;
+    EXPECT_EQ(state_of_tool(state), "touching");
+    state.status |= tool_turn_fixed;
+    EXPECT_EQ(state_of_tool(state), "touching; its robot cannot turn it");
+    state.status |= tool_wrist_loose;
+    EXPECT_NE(state_of_tool(state).find("use one that gives a torque"), std::string::npos);
+    state.status |= tool_absent;
+    EXPECT_NE(state_of_tool(state).find("does not fit"), std::string::npos);
+}
+
 TEST(UsualRadius, IsKnownBeforeTheDeviceIsThere) {
     SteeringSettings steering;
     steering.reach = 0.3;

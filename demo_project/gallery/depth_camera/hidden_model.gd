@@ -1,5 +1,5 @@
 extends Node
-## The operator's model stands where the camera shows what it has found: what is drawn of it goes where no
+## The operator's model stands where the real things are shown: what is drawn of it goes where no
 ## stage looks (its layer 2), as the real things do that the camera alone is to see.
 
 const LAYER := 2

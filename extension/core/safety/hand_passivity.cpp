@@ -8,7 +8,10 @@ namespace tactus {
 Vec3 HandPassivity::pass(const PassivitySample& now, const Vec3& wanted) {
     if (begun_) {
         const Vec3 way = now.position - position_;
-        energy_ += now.damping * glm::dot(way, way) / now.seconds - glm::dot(given_, way) + now.source;
+        const double squared = glm::dot(way, way);
+        // A device that takes anything takes nothing at rest: infinity times zero is no number.
+        const double taken = squared > 0.0 ? now.damping * squared / now.seconds : 0.0;
+        energy_ += taken - glm::dot(given_, way) + now.source;
     }
     position_ = now.position;
     begun_ = true;

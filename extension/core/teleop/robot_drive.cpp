@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/shortened.hpp"
+#include "core/teleop/body_motion.hpp"
 
 namespace tactus {
 
@@ -29,6 +30,17 @@ Vec3 next_target(const Vec3& before, const Vec3& hand, double speed, const Vec3&
                  double seconds) {
     const Vec3 reachable = radius > 0.0 ? middle + shortened(hand - middle, radius) : hand;
     return before + shortened(reachable - before, speed * seconds);
+}
+
+Vec3 drive_torque(const Wall& coupling, const Quat& wanted, const Vec3& wanted_spin, const Quat& rotation,
+                  const Vec3& spin) {
+    return coupling.stiffness * turn_vector(wanted * glm::conjugate(rotation)) +
+           coupling.damping * (wanted_spin - spin);
+}
+
+Quat next_turn(const Quat& before, const Quat& hand, double spin, double seconds) {
+    const Vec3 turn = turn_vector(hand * glm::conjugate(before));
+    return glm::normalize(turn_by(shortened(turn, spin * seconds), 1.0) * before);
 }
 
 Vec3 ContactObserver::observe(const RobotBody& body, const Vec3& drive, const Vec3& velocity,

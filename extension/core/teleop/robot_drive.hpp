@@ -35,6 +35,13 @@ Vec3 drive_force(const Wall& coupling, const Vec3& wanted, const Vec3& wanted_ve
 Vec3 next_target(const Vec3& before, const Vec3& hand, double speed, const Vec3& middle, double radius,
                  double seconds);
 
+// The same of its turn: a torque, and where it is turned in this tick, no faster than `spin` (units: newton
+// meters, radians per second).
+Vec3 drive_torque(const Wall& coupling, const Quat& wanted, const Vec3& wanted_spin, const Quat& rotation,
+                  const Vec3& spin);
+Quat next_turn(const Quat& before, const Quat& hand, double spin, double seconds);
+
+// Of a turn it is as good: with torques, spin and inertia in place of forces, velocity and mass.
 class ContactObserver {
 public:
     static constexpr double bandwidth = 200.0;  // L (unit: radians per second)

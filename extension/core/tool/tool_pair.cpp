@@ -95,12 +95,19 @@ void ToolPair::begin_tick(WorkBudget& work) {
     const bool was_displaced = std::exchange(displaced_, false);
     if (!may_touch()) {
         apart_ = false;
+    } else if (was_displaced) {
+        apart_ = fits_now(work);
     } else if (!apart_) {
         try_apart(work);
-    } else if (was_displaced && is_near(0.0)) {
-        follow();
-        apart_ = around_.is_free(seen_, work, shallow);
     }
+}
+
+bool ToolPair::fits_now(WorkBudget& work) {
+    if (!may_touch() || !is_near(0.0)) {
+        return true;
+    }
+    follow();
+    return around_.is_free(seen_, work, shallow);
 }
 
 bool ToolPair::try_apart(WorkBudget& work) {

@@ -49,6 +49,8 @@ public:
     bool try_apart(WorkBudget& work);
     // One of them was put elsewhere, and not swept there.
     void displaced() { displaced_ = true; }
+    // Whether they would go on holding each other back where they are now, if they did before.
+    bool fits_now(WorkBudget& work);
     // Whether they may meet while neither origin goes farther than this in all (unit: meters).
     bool is_near(double ways) const;
 

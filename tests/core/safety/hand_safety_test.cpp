@@ -177,6 +177,22 @@ TEST(HandSafety, AForceThatMakesEnergyIsTakenBack) {
     EXPECT_LE(given, 1e-12);
 }
 
+// A hand that is another world's, say, which takes any energy: at rest its touch goes on.
+TEST(HandSafety, AHandThatTakesAnythingFeelsItsForceAtRestAsWell) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.passive = true;
+    settings.damping = SafetySettings::none;
+    for (int tick = 0; tick < 20; ++tick) {
+        SafetySample sample = pushed(2.0);
+        sample.velocity.y = tick > 10 ? 0.001 : 0.0;
+        sample.position.y = tick > 10 ? 1e-6 * (tick - 10) : 0.0;
+        const SafeForce safe = safety.pass(settings, sample);
+        EXPECT_EQ(safe.force, Vec3(0.0, 2.0, 0.0)) << tick;
+        EXPECT_EQ(safe.limited, 0u) << tick;
+    }
+}
+
 TEST(SafeWall, IsWhatTheDampingBears) {
     const Wall stiff{3000.0, 0.0};
     EXPECT_NEAR(safe_wall({0.001, 0.0}, 1.5, stiff).stiffness, 3000.0, 1e-9);

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
+#include "core/teleop/body_motion.hpp"
 #include "shared/random_values.hpp"
 
 namespace tactus {
@@ -52,6 +54,37 @@ TEST(RobotDrive, GoesTowardsTheHandNoFasterThanAllowedAndNoFartherThanItReaches)
         EXPECT_LE(glm::distance(before, at), 0.5 * tick * (1.0 + 1e-12));
     }
     EXPECT_NEAR(at.x, 0.04, 1e-12);
+}
+
+TEST(RobotDrive, TurnsTowardsTheHandTheShortWayNoFasterThanAllowed) {
+    shared::RandomValues random(3);
+    for (int i = 0; i < 100; ++i) {
+        const Quat hand = glm::angleAxis(random.between(-3.0, 3.0), random.direction());
+        Quat at(1.0, 0.0, 0.0, 0.0);
+        const double whole = angle_between(at, hand);
+        const int ticks = static_cast<int>(std::ceil(whole / (2.0 * tick)));
+        for (int j = 0; j < ticks; ++j) {
+            const Quat before = at;
+            at = next_turn(at, j % 2 == 0 ? hand : -hand, 2.0, tick);
+            EXPECT_LE(angle_between(before, at), 2.0 * tick * (1.0 + 1e-6));
+        }
+        EXPECT_LT(angle_between(at, hand), 1e-9);
+    }
+}
+
+// An inertia with friction, turned by a quarter from any side: it ends where it is wanted.
+TEST(RobotDrive, ATorqueTurnsItWhereItIsWanted) {
+    shared::RandomValues random(4);
+    for (int i = 0; i < 20; ++i) {
+        const Quat wanted = glm::angleAxis(1.5, random.direction());
+        Quat rotation(1.0, 0.0, 0.0, 0.0);
+        Vec3 spin(0.0);
+        for (int j = 0; j < 2'000; ++j) {
+            spin += tick / 1e-4 * drive_torque({1.0, 0.01}, wanted, Vec3(0.0), rotation, spin);
+            rotation = glm::normalize(turn_by(spin, tick) * rotation);
+        }
+        EXPECT_LT(angle_between(rotation, wanted), 1e-6);
+    }
 }
 
 }  // namespace
