@@ -2,8 +2,8 @@
 // would have it. The grasp is how the tool is mounted on the robot.
 //
 // A robot that does not turn holds the tool as it is mounted. It says so, and the operator's tool is held
-// alike (OperatorSide::hold_fixed). One that turns but has nothing to hold its wrist by does not move: what
-// it carries would go wherever it is pushed.
+// alike (OperatorSide::hold_fixed_tools). One that turns but has nothing to hold its wrist by does not move:
+// what it carries would go wherever it is pushed.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <utility>

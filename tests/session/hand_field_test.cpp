@@ -105,10 +105,7 @@ TEST(SessionField, IsPlayedAgainToTheSameBitsAndAllocatesNothing) {
         ASSERT_EQ(audit.allocations() + audit.frees() + audit.waits(), 0u) << audit.describe();
     }
     inputs.end();
-    const InputReplay::Report report = inputs.play();
-    EXPECT_EQ(report.ticks, 1000u);
-    EXPECT_EQ(report.first_different, 0u);
-    EXPECT_EQ(report.problem, "");
+    expect_whole(inputs.play(), 1'000);
 }
 
 }  // namespace

@@ -48,12 +48,6 @@ void play_with_boxes(SessionRig& rig, RecordedInputs& inputs, int ticks) {
     inputs.end();
 }
 
-void expect_whole(const InputReplay::Report& report, std::uint64_t ticks) {
-    EXPECT_EQ(report.problem, "");
-    EXPECT_EQ(report.ticks, ticks);
-    EXPECT_EQ(report.first_different, 0u);
-}
-
 TEST(InputReplay, AHandAmongBodiesThatMoveGivesTheSameBitsAgain) {
     RecordedInputs inputs;
     SessionRig rig({}, &inputs.recorder);

@@ -9,8 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "network/link_emulator.hpp"
-#include "network/memory_link.hpp"
+#include "emulated_link.hpp"
 #include "session/side_plan.hpp"
 #include "session_rig.hpp"
 #include "shared/endpoints.hpp"
@@ -19,7 +18,7 @@ namespace tactus::session_test {
 
 using shared::endpoint;
 
-class LinkedPlaces {
+class LinkedPlaces : public EmulatedLink {
 public:
     struct Place {
         Place(const SessionSettings& settings, int hands, InputRecorder* recorder)
@@ -52,10 +51,8 @@ public:
     LinkedPlaces(double delay, double loss, int hands, const TeleopSettings& here = {},
                  const TeleopSettings& there = {}, std::size_t tracked = 64,
                  InputRecorder* near_inputs = nullptr, InputRecorder* far_inputs = nullptr)
-        : settings_(session_settings()),
-          conditions_(conditions(delay, loss)),
-          at_far_(wire_.second(), conditions_, 1),
-          at_near_(wire_.first(), conditions_, 2),
+        : EmulatedLink(delay, loss),
+          settings_(session_settings()),
           near(settings_, hands, near_inputs),
           far(settings_, hands, far_inputs) {
         OperatorRoom room;
@@ -109,16 +106,6 @@ public:
         }
     }
 
-    void change(const LinkConditions& other) {
-        at_far_.change(other);
-        at_near_.change(other);
-    }
-    void lose_everything(bool lost) {
-        LinkConditions other = conditions_;
-        other.loss = lost ? 1.0 : conditions_.loss;
-        change(other);
-    }
-
     // How far model and environment are apart after the newest sample that both know (unit: meters).
     double apart(std::size_t watched_index) const {
         const auto found = moments_.find(answered);
@@ -143,17 +130,8 @@ private:
     struct Moment {
         std::vector<Pose> near, far;
     };
-    static LinkConditions conditions(double delay, double loss) {
-        LinkConditions made;
-        made.delay = from_seconds(0.5 * delay);
-        made.loss = loss;
-        return made;
-    }
 
     SessionSettings settings_;
-    LinkConditions conditions_;
-    MemoryLinkPair wire_{4096};
-    LinkEmulator at_far_, at_near_;
 
 public:
     Place near, far;

@@ -97,4 +97,11 @@ private:
     std::FILE* file_;
 };
 
+// Every tick was played, to the same bits.
+inline void expect_whole(const InputReplay::Report& report, std::uint64_t ticks) {
+    EXPECT_EQ(report.problem, "");
+    EXPECT_EQ(report.ticks, ticks);
+    EXPECT_EQ(report.first_different, 0u);
+}
+
 }  // namespace tactus::session_test

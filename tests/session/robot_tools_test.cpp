@@ -36,7 +36,7 @@ Quat turned(double angle, const Vec3& axis) {
 }
 
 // An operator's world with a hand, and a far side whose device is a robot; both hold the bar, or fingertips.
-class RobotPlaces {
+class RobotPlaces : public EmulatedLink {
 public:
     struct Choice {
         int scenario = 5;
@@ -48,10 +48,8 @@ public:
     };
 
     explicit RobotPlaces(const Choice& choice)
-        : settings_(scenario(choice.scenario)),
-          conditions_(conditions(choice.delay)),
-          at_far_(wire_.second(), conditions_, 1),
-          at_near_(wire_.first(), conditions_, 2),
+        : EmulatedLink(choice.delay),
+          settings_(scenario(choice.scenario)),
           robot(choice.robot, choice.fingertip ? nullptr : bar(), choice.mount),
           near(LinkedPlaces::session_settings(), choice.near_inputs),
           far(LinkedPlaces::session_settings(), choice.far_inputs) {
@@ -102,24 +100,10 @@ public:
             tick();
         }
     }
-    void change(const LinkConditions& other) {
-        at_far_.change(other);
-        at_near_.change(other);
-    }
-    void lose_everything(bool lost) {
-        LinkConditions other = conditions_;
-        other.loss = lost ? 1.0 : 0.0;
-        change(other);
-    }
     const ToolState& ours() const { return near.snapshot().tools[0]; }
     const ToolState& theirs() const { return far.snapshot().tools[0]; }
 
 private:
-    static LinkConditions conditions(double delay) {
-        LinkConditions made;
-        made.delay = from_seconds(0.5 * delay);
-        return made;
-    }
     EndpointSettings end_of(Side side, std::uint64_t epoch) const {
         EndpointSettings end = endpoint(side, epoch);
         end.scenario = scenario_of(settings_);
@@ -127,9 +111,6 @@ private:
     }
 
     TeleopSettings settings_;
-    LinkConditions conditions_;
-    MemoryLinkPair wire_{4096};
-    LinkEmulator at_far_, at_near_;
 
 public:
     HeldDevice hand;
@@ -204,16 +185,20 @@ void press(HeldDevice& hand, int tick, double depth) {
         {0.0, tick < 1'000 ? -(0.02 + depth) : 0.0, 0.0});
 }
 
+void press_for(RobotPlaces& places, int ticks, double depth) {
+    for (int i = 0; i < ticks; ++i) {
+        press(places.hand, i, depth);
+        places.tick();
+    }
+}
+
 // Scenario 3: both force and torque are what the place gives the robot.
 TEST(RobotTools, WhatItRunsIntoIsFeltOneDelayLater) {
     RobotPlaces::Choice choice;
     choice.scenario = 3;
     RobotPlaces places(choice);
     add_floor(places.robot.place, -0.03);
-    for (int i = 0; i < 2'500; ++i) {
-        press(places.hand, i, 0.006);
-        places.tick();
-    }
+    press_for(places, 2'500, 0.006);
     EXPECT_GT(places.robot.pushed().y, 1.0);
     EXPECT_LT(glm::distance(places.ours().force, places.robot.pushed()), 0.2);
     EXPECT_LT(glm::distance(places.hand.force, places.robot.pushed()), 0.2);
@@ -233,10 +218,7 @@ TEST(RobotTools, AModelIsFeltAtOnceAndTheRobotPressesLikewise) {
     RobotPlaces places({});
     add_floor(places.near, -0.03);
     add_floor(places.robot.place, -0.03);
-    for (int i = 0; i < 1'500; ++i) {
-        press(places.hand, i, 0.006);
-        places.tick();
-    }
+    press_for(places, 1'500, 0.006);
     EXPECT_GT(places.ours().force.y, 4.0);
     EXPECT_LT(places.ours().pose.position.y, -0.01);
     EXPECT_GT(places.robot.pushed().y, 2.0);
@@ -428,10 +410,7 @@ TEST(RobotTools, ARobotWithoutPowerIsLetGoAndComesBackGently) {
     choice.scenario = 3;
     RobotPlaces places(choice);
     add_floor(places.robot.place, -0.03);
-    for (int i = 0; i < 1'500; ++i) {
-        press(places.hand, i, 0.006);
-        places.tick();
-    }
+    press_for(places, 1'500, 0.006);
     EXPECT_GT(places.hand.force.y, 1.0);
     places.robot.powered = false;
     double step = 0.0;
@@ -516,10 +495,7 @@ TEST(RobotTools, ASessionThatWasRecordedReplaysToTheSameBits) {
         near_inputs.end();
         far_inputs.end();
         for (const RecordedInputs* const inputs : {&near_inputs, &far_inputs}) {
-            const InputReplay::Report report = inputs->play();
-            EXPECT_EQ(report.problem, "");
-            EXPECT_EQ(report.ticks, 1'500u);
-            EXPECT_EQ(report.first_different, 0u);
+            expect_whole(inputs->play(), 1'500);
         }
     }
 }

@@ -2,8 +2,8 @@
 // as far as another one, and which is the farthest, is told without going through the list.
 #pragma once
 
+#include <array>
 #include <bit>
-#include <cmath>
 #include <limits>
 
 #include "core/haptics/contact.hpp"

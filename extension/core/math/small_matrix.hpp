@@ -36,10 +36,10 @@ bool cholesky_row(const SmallMatrix<n>& a, SmallMatrix<n>& l, std::size_t i, dou
 
 // The lower triangle L of A = L transposed(L); false where A is not positive definite. Only A's lower
 // triangle is read. `least`: share of a diagonal element that must be left when what the elements before it
-// explain is gone. `size`: of the leading part that is meant.
+// explain is gone.
 template <std::size_t n>
-bool cholesky(const SmallMatrix<n>& a, SmallMatrix<n>& l, double least = 1e-12, std::size_t size = n) {
-    for (std::size_t i = 0; i < size; ++i) {
+bool cholesky(const SmallMatrix<n>& a, SmallMatrix<n>& l, double least = 1e-12) {
+    for (std::size_t i = 0; i < n; ++i) {
         if (!cholesky_row(a, l, i, least)) {
             return false;
         }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/math/small_matrix.hpp"
 #include "core/math/types.hpp"
@@ -117,8 +118,8 @@ public:
         }
     }
 
-    // How many systems were solved so far.
-    int solves() const { return solves_; }
+    // How many systems were solved since it was asked last.
+    int take_solves() { return std::exchange(solves_, 0); }
 
 private:
     // Of a row's squared length: less of it beside those of the active ones is rounding.

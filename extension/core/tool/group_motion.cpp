@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <utility>
 
 #include "core/tool/tool_steps.hpp"
 
@@ -152,7 +151,6 @@ GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupB
         }
         active.begin_with(std::span(spaces).first(at(like->push_count)));
     }
-    int solved = 0;
     for (int round = 0; best.possible; ++round) {
         Violations violations(bounds, space, best.x);
         violations.most = tolerance;
@@ -171,8 +169,7 @@ GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupB
         }
         const std::int64_t terms = std::int64_t{best.push_count} * best.push_count;
         work.spend(static_cast<std::int64_t>(looked) / bounds_at_a_time + round_cost +
-                   (active.solves() - std::exchange(solved, active.solves())) *
-                       (solve_cost + terms / terms_at_a_time));
+                   active.take_solves() * (solve_cost + terms / terms_at_a_time));
         best.missing = violations.found() ? violations.most : 0.0;
         if (!violations.found() || round == max_rounds || work.is_gone()) {
             break;

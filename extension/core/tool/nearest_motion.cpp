@@ -1,7 +1,6 @@
 #include "core/tool/nearest_motion.hpp"
 
 #include <glm/geometric.hpp>
-#include <utility>
 
 namespace tactus {
 
@@ -62,12 +61,11 @@ NearestMotion nearest_motion(const Vector6& goal, std::span<const MotionBound> b
     NearestMotion best;
     best.x = goal;
     ActiveSet<6> active(best);
-    int solved = 0;
     for (int round = 0; best.possible; ++round) {
         double most = tolerance;
         const MotionHalfSpace<6> worst = worst_of(bounds, best.x, length, most);
         work.spend(static_cast<std::int64_t>(bounds.size()) / bounds_at_a_time + round_cost +
-                   (active.solves() - std::exchange(solved, active.solves())) * solve_cost);
+                   active.take_solves() * solve_cost);
         best.missing = worst.bound < 0 ? 0.0 : most;
         if (worst.bound < 0 || round == max_rounds || work.is_gone()) {
             break;
