@@ -15,8 +15,8 @@ constexpr double nothing_hidden = 1e-5;
 // The tank gives what it has within this time at the fastest (unit: seconds).
 constexpr double tank_reserve = 0.02;
 
-// What is let go towards more force rises no steeper than what leaps of touch does (fading_force.hpp; unit:
-// newtons per second).
+// What is let go towards more force rises no steeper than what leaps of touch does (fading_force.hpp), and
+// nothing fades faster, however wildly a model changes (unit: newtons per second).
 constexpr double steepest_rise = 250.0;
 
 // Fading never takes more of what is just noticed.
@@ -130,8 +130,8 @@ double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in)
     // What the hand's own way changes of the force hides some more, all in all still less than is noticed.
     const double masked = settings.masked * std::abs(modelled_before_ - modelled);
     const double most = nearly_noticed * just_noticeable(settings, felt) * in.seconds / settings.window;
-    return std::max(unnoticed, std::min(unnoticed + masked, most)) +
-           catching_up * drift_.rate(settings) * in.seconds;
+    const double drift = std::min(catching_up * drift_.rate(settings), steepest_rise) * in.seconds;
+    return std::max(unnoticed, std::min(unnoticed + masked, most)) + drift;
 }
 
 void FeltPointer::forget() {

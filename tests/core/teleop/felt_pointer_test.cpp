@@ -141,6 +141,32 @@ TEST(FeltPointer, WhatFallsAlreadyIsLetGoOfAtLeastAsFast) {
 
 // A model that is changed at random, every tick, under a hand that moves at random: what hiding gives never
 // exceeds what touch has taken before.
+// A body that is torn away, put back and torn away again, say, by a joint that no honest side would tell.
+TEST(FeltPointer, HoweverWildlyTheModelChangesAStillHandFeelsNoStep) {
+    const StealthSettings settings;
+    shared::RandomValues random(11);
+    for (int run = 0; run < 400; ++run) {
+        const double largest = random.magnitude(0.05, 5.0), rest = random.unit();
+        const int every = 1 + random.below(30), each = 1 + random.below(3);
+        const bool touches_nothing_between = random.flip();
+        FeltPointer pointer = rubbed(settings, {0.0, largest, 0.0});
+        Vec3 modelled(0.0, largest, 0.0), felt = modelled;
+        for (int i = 0; i < 1'000; ++i) {
+            if (i % every < each) {
+                const Vec3 before = modelled;
+                const bool nothing = touches_nothing_between && i % every == each - 1;
+                const Vec3 varied = Vec3(0.0, largest, 0.0) * rest + random.in_ball(largest) * (1.0 - rest);
+                modelled = nothing ? Vec3(0.0) : varied;
+                pointer.hide(before, modelled);
+            }
+            const double stiffness = modelled == Vec3(0.0) ? 0.0 : 500.0;
+            const Vec3 now = pointer.feel(settings, {modelled, Vec3(0.0), stiffness, tick});
+            ASSERT_LE(glm::distance(now, felt), 0.3) << run << ", tick " << i;
+            felt = now;
+        }
+    }
+}
+
 TEST(FeltPointer, WhatIsHiddenNeverAddsEnergyThatTouchHasNotTaken) {
     const StealthSettings settings;
     for (unsigned seed = 1; seed <= 20; ++seed) {
