@@ -15,9 +15,9 @@ constexpr double nothing_hidden = 1e-5;
 // The tank gives what it has within this time at the fastest (unit: seconds).
 constexpr double tank_reserve = 0.02;
 
-// What is let go towards more force rises no steeper than what leaps of touch does (fading_force.hpp), and
-// nothing fades faster, however wildly a model changes (unit: newtons per second).
-constexpr double steepest_rise = 250.0;
+// However wildly a model changes, nothing that is hidden comes faster; with a leap of touch that fades in the
+// model meanwhile (fading_force.hpp: 250) still less than half a newton a tick (unit: newtons per second).
+constexpr double steepest = 200.0;
 
 // Fading never takes more of what is just noticed.
 constexpr double nearly_noticed = 0.95;
@@ -45,6 +45,7 @@ void FeltPointer::hide_size(const Vec3& before, const Vec3& after) {
 Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
     faded_ = 0.0;
     const double modelled = glm::length(in.modelled);
+    const double own_change = glm::distance(in.modelled + hidden_, felt_);
     const double stored = in.stiffness > 0.0 ? 0.5 * modelled * modelled / in.stiffness : 0.0;
     tank_.fill(in.modelled, in.hand_velocity, stored, in.seconds, settings.tank);
     if (in.stiffness <= 0.0) {
@@ -59,8 +60,8 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
     begin_to_let_go(settings, in);
     const double before = glm::length(hidden_);
     if (state_ == FeltState::letting_go) {
-        hidden_ = left_of_felt(in);
-        state_ = left_ > 0.0 ? state_ : FeltState::bridged;
+        hidden_ = left_of_felt(in, own_change);
+        state_ = left_ > 0.0 || hidden_ != kept_ ? state_ : FeltState::bridged;
     } else if (hidden_ != Vec3(0.0)) {
         state_ = FeltState::bridged;
         hidden_ = tactus::faded(hidden_, fading(settings, in));
@@ -94,7 +95,7 @@ void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInp
     }
     state_ = FeltState::letting_go;
     const double rise = glm::length(in.modelled) - glm::length(felt_);
-    left_ = std::max(settings.let_go_seconds, rise / steepest_rise);
+    left_ = std::max(settings.let_go_seconds, rise / steepest);
     kept_ = Vec3(0.0);
     const Vec3 going = felt_ - in.modelled;
     const double size2 = glm::dot(going, going);
@@ -102,21 +103,26 @@ void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInp
     if (falling > 0.0) {
         left_ = std::clamp(size2 / falling * in.seconds, in.seconds, left_);
     }
+    pace_ = std::max(steepest, std::sqrt(size2) / left_);
 }
 
 // What was felt, as the hand's own way has changed it since, goes over into what is modelled now. What has
-// been changed since then is hidden as ever.
-Vec3 FeltPointer::left_of_felt(const FeltInput& in) {
+// been changed since then is hidden as ever. A model that goes away meanwhile by its own change is not caught
+// up with at any price.
+Vec3 FeltPointer::left_of_felt(const FeltInput& in, double own_change) {
     const double before = std::exchange(left_, std::max(0.0, left_ - in.seconds));
     const double share = before > 0.0 ? left_ / before : 0.0;
     const double size = glm::length(in.modelled);
-    if (!(size > 0.0)) {
-        return kept_ + (felt_ - kept_) * share;
+    Vec3 hidden = felt_;
+    if (size > 0.0) {
+        const double leaving = std::max(0.0, glm::dot(in.hand_velocity, in.modelled) / size) * in.seconds;
+        const double from = size + in.stiffness * leaving;
+        hidden = (felt_ - in.modelled * (from / size)) * (size / from);
     }
-    const double leaving = std::max(0.0, glm::dot(in.hand_velocity, in.modelled) / size) * in.seconds;
-    const double from = size + in.stiffness * leaving;
-    const Vec3 hidden = (felt_ - in.modelled * (from / size)) * (size / from);
-    return kept_ + (hidden - kept_) * share;
+    const Vec3 left = kept_ + (hidden - kept_) * share;
+    const Vec3 step = in.modelled + left - felt_;
+    const double length = glm::length(step), longest = own_change + pace_ * in.seconds;
+    return length > longest ? felt_ + step * (longest / length) - in.modelled : left;
 }
 
 // How much of what is hidden goes in this tick (unit: newtons).
@@ -130,7 +136,7 @@ double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in)
     // What the hand's own way changes of the force hides some more, all in all still less than is noticed.
     const double masked = settings.masked * std::abs(modelled_before_ - modelled);
     const double most = nearly_noticed * just_noticeable(settings, felt) * in.seconds / settings.window;
-    const double drift = std::min(catching_up * drift_.rate(settings), steepest_rise) * in.seconds;
+    const double drift = std::min(catching_up * drift_.rate(settings), steepest) * in.seconds;
     return std::max(unnoticed, std::min(unnoticed + masked, most)) + drift;
 }
 

@@ -13,9 +13,9 @@
 //     letting_go  -> bridged      but for what has changed meanwhile
 //     together    -> carried      a second pointer is carried along with the object
 //     (session/carried_pointer.hpp)
-// What is let go goes over into what is modelled within `let_go_seconds`, however much there is and whatever
-// the model does meanwhile, and later only where the force would rise too steeply; whoever feels it is told
-// so.
+// What is let go goes over into what is modelled within `let_go_seconds`, however much there is, and later
+// only where the force would rise too steeply or the model goes away from it meanwhile; whoever feels it is
+// told so.
 //
 // What is hidden lives on energy that touch has taken from the hand before (energy.hpp).
 #pragma once
@@ -60,7 +60,7 @@ public:
 
 private:
     void begin_to_let_go(const StealthSettings& settings, const FeltInput& input);
-    Vec3 left_of_felt(const FeltInput& input);
+    Vec3 left_of_felt(const FeltInput& input, double own_change);
     double fading(const StealthSettings& settings, const FeltInput& input) const;
 
     Vec3 hidden_{0.0};
@@ -71,6 +71,7 @@ private:
     double modelled_before_ = 0.0;  // size of the modelled force, one tick ago (unit: newtons)
     bool lets_go_ = false;          // is to
     double left_ = 0.0;             // of letting go (unit: seconds)
+    double pace_ = 0.0;             // at which it goes at the fastest (unit: newtons per second)
     Vec3 kept_{0.0};                // what changes have added meanwhile (unit: newtons)
     double faded_ = 0.0;
     bool begins_to_let_go_ = false;
