@@ -84,7 +84,7 @@ End run_apart(const AttackSettings& settings, AttackFigures& figures) {
 struct Totals {
     double packets = 1e300;  // of the kind that had fewest
     double hangs = 0.0, crashes = 0.0, moved_objects = 0.0, force_steps = 0.0, not_recovered = 0.0;
-    double memory_growth_mb = 0.0, largest_force_step = 0.0;
+    double memory_growth_mb = 0.0, largest_force_step = 0.0, largest_unmoved_step = 0.0;
 };
 
 void attack_with_kind(Report& report, Totals& totals, std::size_t kind, std::uint64_t packets,
@@ -104,11 +104,13 @@ void attack_with_kind(Report& report, Totals& totals, std::size_t kind, std::uin
         totals.not_recovered += static_cast<double>(figures.not_recovered);
         totals.memory_growth_mb = std::max(totals.memory_growth_mb, figures.memory_growth_mb);
         totals.largest_force_step = std::max(totals.largest_force_step, figures.largest_force_step);
+        totals.largest_unmoved_step = std::max(totals.largest_unmoved_step, figures.largest_unmoved_step);
         report.set(key + "ended_well", end == End::well ? 1.0 : 0.0);
         report.set(key + "packets", static_cast<double>(figures.packets));
         report.set(key + "moved_objects", static_cast<double>(figures.moved_objects));
         report.set(key + "force_steps", static_cast<double>(figures.force_steps));
         report.set(key + "largest_force_step_N", figures.largest_force_step);
+        report.set(key + "largest_unmoved_force_step_N", figures.largest_unmoved_step);
         report.set(key + "memory_growth_mb", figures.memory_growth_mb);
         report.set(key + "model_changes", static_cast<double>(figures.model_changes));
         report.set(key + "not_recovered", static_cast<double>(figures.not_recovered));
@@ -129,6 +131,7 @@ void attack(Report& report, std::uint64_t packets, const std::string& only_kind,
     report.set("moved_objects", totals.moved_objects);
     report.set("force_steps", totals.force_steps);
     report.set("largest_force_step_N", totals.largest_force_step);
+    report.set("largest_unmoved_force_step_N", totals.largest_unmoved_step);
     report.set("memory_growth_mb", totals.memory_growth_mb);
     report.set("not_recovered", totals.not_recovered);
 }

@@ -323,8 +323,30 @@ struct Watch {
     void look(AttackFigures& figures) {
         const Vec3 now = rig.near->device.force;
         const double step = glm::distance(now, std::exchange(force, now));
+        const double way = way_of_touched();
+        const double by_motion = AttackRig::stiffness * std::max(way, std::exchange(way_before, way));
         figures.largest_force_step = std::max(figures.largest_force_step, step);
-        figures.force_steps += step <= AttackFigures::max_force_step ? 0 : 1;  // counts what is no number
+        figures.largest_unmoved_step = std::max(figures.largest_unmoved_step, step - by_motion);
+        // Counts what is no number.
+        figures.force_steps += step - by_motion <= AttackFigures::max_force_step ? 0 : 1;
+    }
+    // By which what the hand touches moves on in a tick (unit: meters): what flies against a hand is felt.
+    double way_of_touched() const {
+        constexpr double fastest = 10.0;  // what comes faster fades in (docs/teleoperation.md)
+        const SessionSnapshot& seen = rig.near->session.snapshot();
+        const ProxyState& touch = seen.proxies[0];
+        double speed = 0.0;
+        for (int k = 0; k < touch.contact_count; ++k) {
+            const auto at = static_cast<std::size_t>(k);
+            for (const BodyState& body : std::span(seen.bodies).first(seen.body_count)) {
+                if (body.handle == touch.bodies[at]) {
+                    speed = std::max(speed, glm::length(body.linear_velocity) +
+                                                glm::length(body.angular_velocity) *
+                                                    glm::distance(touch.points[at], body.pose.position));
+                }
+            }
+        }
+        return std::min(speed, fastest) * to_seconds(AttackRig::period);
     }
     // The touched box belongs to who has the hand; to nobody else.
     std::uint64_t moved() const {
@@ -342,6 +364,7 @@ struct Watch {
     Attacker attacker;
     std::array<Vec3, 3> places;
     Vec3 force;
+    double way_before = 0.0;
 };
 
 }  // namespace

@@ -26,8 +26,11 @@ std::size_t kind_count();
 struct AttackFigures {
     std::uint64_t packets = 0;        // that were thrown in
     std::uint64_t moved_objects = 0;  // bodies that the attacker does not own and that moved
-    std::uint64_t force_steps = 0;    // ticks in which the felt force changed by more than `max_force_step`
-    double largest_force_step = 0.0;  // (unit: newtons)
+    // Ticks in which the felt force changed by more than `max_force_step` beyond what the motion of the
+    // touched body makes of it: who has the key may throw a body at the hand.
+    std::uint64_t force_steps = 0;
+    double largest_force_step = 0.0;    // of all (unit: newtons)
+    double largest_unmoved_step = 0.0;  // beyond that motion's part (unit: newtons)
     std::uint64_t model_changes = 0;  // times that something was built of what was thrown
     double memory_growth_mb = 0.0;    // of the process, from when both were at work
     std::uint64_t not_recovered = 0;  // 1: the two do not talk seven seconds after the attack

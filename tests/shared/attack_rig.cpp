@@ -18,7 +18,7 @@ BodyAddition body(const Shape& shape, const Vec3& position, Motion motion, doubl
     addition.description.pose.position = position;
     addition.description.motion = motion;
     addition.description.mass = mass;
-    addition.touch_material = {500.0, 0.0, 0.0, 0.0};
+    addition.touch_material = {AttackRig::stiffness, 0.0, 0.0, 0.0};
     return addition;
 }
 

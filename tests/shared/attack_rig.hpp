@@ -73,6 +73,7 @@ struct AttackPlace {
 class AttackRig {
 public:
     static constexpr Nanoseconds period = 1'000'000;
+    static constexpr double stiffness = 500.0;  // of what is touched (unit: newtons per meter)
     // Layers: what pointers touch, and what nothing that is described meets.
     static constexpr std::uint32_t touchable = 1, untouchable = 2;
 

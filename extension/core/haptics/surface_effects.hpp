@@ -44,8 +44,9 @@ double magnet_pull(const TouchMaterial& material, double gap);
 
 // A pull acts from a distance, so nothing that the hand does has to announce it: a magnet that spins, appears
 // or is passed by at its middle line would turn it within a tick. It changes no faster (unit: newtons per
-// second), which a hand that comes near as fast as hands do does not notice.
-constexpr double max_pull_rate = 400.0;
+// second), which a hand that comes near as fast as hands do does not notice, and together with a leap of
+// touch that fades meanwhile (fading_force.hpp) by less than half a newton in a tick.
+constexpr double max_pull_rate = 200.0;
 
 // What is left of `pull` in this tick, after what it was in the one before. `magnets` counts how often one
 // came, went or was described anew: where one has, all of the pull is left, since such a change is for others
