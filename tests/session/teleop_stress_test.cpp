@@ -22,13 +22,15 @@ TEST(TeleopStress, APeerThatSaysWhatNoHonestOneWouldDoesNoHarm) {
     }
 }
 
-// Bodies that vanish from under the hand, are torn away and put back, pull or are thrown: each seed is another.
+// Bodies that vanish from under the hand, are torn away and put back, pull or are thrown: each seed is
+// another.
 TEST(TeleopStress, APeerThatDescribesWhatNoHonestOneWouldDoesNoHarm) {
     for (const std::size_t kind : {kind_count() - 2, kind_count() - 1}) {
         std::uint64_t model_changes = 0;
         for (const std::uint64_t seed : {3, 9, 10, 13, 20, 22, 50, 56, 73, 86, 106}) {
             SCOPED_TRACE(seed);
-            model_changes += expect_nothing_has_happened({kind, Attacker::with_key, 20'000, seed}).model_changes;
+            model_changes +=
+                expect_nothing_has_happened({kind, Attacker::with_key, 20'000, seed}).model_changes;
         }
         EXPECT_GT(model_changes, 33u) << "or nothing of it was believed";
     }

@@ -31,9 +31,9 @@ struct AttackFigures {
     std::uint64_t force_steps = 0;
     double largest_force_step = 0.0;    // of all (unit: newtons)
     double largest_unmoved_step = 0.0;  // beyond that motion's part (unit: newtons)
-    std::uint64_t model_changes = 0;  // times that something was built of what was thrown
-    double memory_growth_mb = 0.0;    // of the process, from when both were at work
-    std::uint64_t not_recovered = 0;  // 1: the two do not talk seven seconds after the attack
+    std::uint64_t model_changes = 0;    // times that something was built of what was thrown
+    double memory_growth_mb = 0.0;      // of the process, from when both were at work
+    std::uint64_t not_recovered = 0;    // 1: the two do not talk seven seconds after the attack
 
     static constexpr double max_force_step = 0.5;  // (unit: newtons a tick)
 };

@@ -103,7 +103,7 @@ void FeltPointer::begin_to_let_go(const StealthSettings& settings, const FeltInp
     if (falling > 0.0) {
         left_ = std::clamp(size2 / falling * in.seconds, in.seconds, left_);
     }
-    pace_ = std::max(steepest, std::sqrt(size2) / left_);
+    pace_ = std::sqrt(size2) / left_;
 }
 
 // What was felt, as the hand's own way has changed it since, goes over into what is modelled now. What has
@@ -121,7 +121,8 @@ Vec3 FeltPointer::left_of_felt(const FeltInput& in, double own_change) {
     }
     const Vec3 left = kept_ + (hidden - kept_) * share;
     const Vec3 step = in.modelled + left - felt_;
-    const double length = glm::length(step), longest = own_change + pace_ * in.seconds;
+    const double length = glm::length(step),
+                 longest = std::max(own_change + steepest * in.seconds, pace_ * in.seconds);
     return length > longest ? felt_ + step * (longest / length) - in.modelled : left;
 }
 

@@ -71,7 +71,7 @@ private:
     double modelled_before_ = 0.0;  // size of the modelled force, one tick ago (unit: newtons)
     bool lets_go_ = false;          // is to
     double left_ = 0.0;             // of letting go (unit: seconds)
-    double pace_ = 0.0;             // at which it goes at the fastest (unit: newtons per second)
+    double pace_ = 0.0;             // at which it began to go (unit: newtons per second)
     Vec3 kept_{0.0};                // what changes have added meanwhile (unit: newtons)
     double faded_ = 0.0;
     bool begins_to_let_go_ = false;
