@@ -27,8 +27,9 @@ SurfaceSpring spring_under(const SessionLoop& loop, const ProxyState& state) {
     return spring.is_linear() ? SurfaceSpring{stiffer, stiffer} : spring;
 }
 
-// A body that has gone so much farther than its rates say has been put there (unit: meters).
-constexpr double leap = 2e-4;
+// A body that has gone so much farther than its rates say has been put there (unit: meters; a share of its
+// way, since rates change within a tick, too).
+constexpr double leap = 2e-4, leap_share = 0.5;
 
 // A far side that has heard nothing more of the hand for so long has lost it (unit: seconds).
 constexpr double usual_silence = 0.5;
@@ -253,7 +254,7 @@ bool OperatorSide::has_leapt(SessionLoop& loop, const State& touch) const {
         const double speed =
             glm::length(motion.linear_velocity) +
             glm::length(motion.angular_velocity) * glm::distance(point, touched.pose.position);
-        if (way > 2.0 * speed * seconds_ + leap) {
+        if (way > (1.0 + leap_share) * speed * seconds_ + leap) {
             return true;
         }
     }

@@ -52,19 +52,21 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         tank_.let_go();
     }
     drift_.pass(settings, in.seconds);
+    double before = glm::length(hidden_);
     if (modelled < modelled_before_) {
         // As the hand moves away and the model's force with it, so does what is hidden.
         hidden_ *= modelled / modelled_before_;
         kept_ *= modelled / modelled_before_;
     }
+    const double fallen = before - glm::length(hidden_);
+    before -= fallen;
     begin_to_let_go(settings, in);
-    const double before = glm::length(hidden_);
     if (state_ == FeltState::letting_go) {
         hidden_ = left_of_felt(in, own_change);
         state_ = left_ > 0.0 || hidden_ != kept_ ? state_ : FeltState::bridged;
     } else if (hidden_ != Vec3(0.0)) {
         state_ = FeltState::bridged;
-        hidden_ = tactus::faded(hidden_, fading(settings, in));
+        hidden_ = tactus::faded(hidden_, fading(settings, in, fallen));
     }
     if (hidden_ != Vec3(0.0)) {
         if (glm::length(hidden_) < nothing_hidden) {
@@ -126,8 +128,8 @@ Vec3 FeltPointer::left_of_felt(const FeltInput& in, double own_change) {
     return length > longest ? felt_ + step * (longest / length) - in.modelled : left;
 }
 
-// How much of what is hidden goes in this tick (unit: newtons).
-double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in) const {
+// How much of what is hidden goes in this tick, besides what has fallen with the model (unit: newtons).
+double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in, double fallen) const {
     const double modelled = glm::length(in.modelled);
     const double felt = glm::length(in.modelled + hidden_);
     const double unnoticed = unnoticed_change(settings, felt, in.seconds);
@@ -138,7 +140,7 @@ double FeltPointer::fading(const StealthSettings& settings, const FeltInput& in)
     const double masked = settings.masked * std::abs(modelled_before_ - modelled);
     const double most = nearly_noticed * just_noticeable(settings, felt) * in.seconds / settings.window;
     const double drift = std::min(catching_up * drift_.rate(settings), steepest) * in.seconds;
-    return std::max(unnoticed, std::min(unnoticed + masked, most)) + drift;
+    return std::max(unnoticed, std::min(unnoticed + masked, most)) + std::max(0.0, drift - fallen);
 }
 
 void FeltPointer::forget() {

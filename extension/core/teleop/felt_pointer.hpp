@@ -61,7 +61,7 @@ public:
 private:
     void begin_to_let_go(const StealthSettings& settings, const FeltInput& input);
     Vec3 left_of_felt(const FeltInput& input, double own_change);
-    double fading(const StealthSettings& settings, const FeltInput& input) const;
+    double fading(const StealthSettings& settings, const FeltInput& input, double fallen) const;
 
     Vec3 hidden_{0.0};
     Vec3 felt_{0.0};    // one tick ago (unit: newtons)
