@@ -46,7 +46,7 @@ private:
     DatagramBatch batch_{2048};
 };
 
-Bytes datagram(const char* front, std::size_t size) {
+Bytes datagram(const char (&front)[5], std::size_t size) {
     Bytes bytes(std::max<std::size_t>(size, 4), std::byte{0x33});
     std::memcpy(bytes.data(), front, 4);
     bytes.resize(size);
@@ -91,7 +91,7 @@ TEST(Admission, StrangersAreHeardWhereTheyMayBeTheFarSide) {
     EXPECT_TRUE(admission.admits(datagram("TS\3\0", 68))) << "another version: that is, too";
     EXPECT_FALSE(admission.admits(packet_of(1)));
     EXPECT_FALSE(admission.admits(datagram("GET ", 60)));
-    EXPECT_FALSE(admission.admits(datagram("TC", 2)));
+    EXPECT_FALSE(admission.admits(datagram("TC\2\1", 2)));
 }
 
 TEST(SocketFilter, TheSystemAdmitsTheSame) {
