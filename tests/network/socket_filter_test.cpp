@@ -109,7 +109,7 @@ TEST(SocketFilter, TheSystemAdmitsTheSame) {
         }
         ASSERT_TRUE(attach_filter(sockets.receiver(), admission));
         const auto size = static_cast<std::size_t>(1 + random.below(80));
-        constexpr const char* fronts[] = {"TS\2\0", "TS\2\1", "TC\2\1", "TS\1\0", "TS\2\2", "noise"};
+        constexpr char fronts[][5] = {"TS\2\0", "TS\2\1", "TC\2\1", "TS\1\0", "TS\2\2", "nois"};
         Bytes one = datagram(fronts[random.below(6)], random.below(2) == 0 ? 68 : size);
         if (one.size() >= 20) {
             const std::uint64_t names[] = {0, own_start, own_start ^ 1, own_start << 32};
