@@ -157,4 +157,15 @@ TriangleMesh soup(int count, double radius, unsigned seed) {
     return mesh;
 }
 
+// In a way that no compiler takes for nothing.
+TriangleMesh in_single_precision(TriangleMesh mesh) {
+    for (Vec3& vertex : mesh.vertices) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const volatile auto rounded = static_cast<float>(vertex[axis]);
+            vertex[axis] = rounded;
+        }
+    }
+    return mesh;
+}
+
 }  // namespace tactus::shared

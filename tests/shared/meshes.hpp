@@ -25,4 +25,7 @@ TriangleMesh groove(double angle, double length);
 // count triangles with corners in a ball of the given radius.
 TriangleMesh soup(int count, double radius, unsigned seed);
 
+// The same with every corner rounded to single precision, as meshes come from Godot.
+TriangleMesh in_single_precision(TriangleMesh mesh);
+
 }  // namespace tactus::shared

@@ -256,12 +256,16 @@ void measure_even(const SpanClock& clock, const EvenSettings& settings, Report& 
     measure_mesh(
         clock, settings, "box_12", shared::box(half),
         [&](double radius) { return shared::around_box(half, radius, settings.ticks); }, report);
-    for (int level = 2; level <= 8; ++level) {
-        const std::string name = "sphere_" + std::to_string(20 << (2 * level));
-        if (shared::is_chosen(name, settings.only, false)) {
-            measure_mesh(
-                clock, settings, name, shared::icosphere(level, 1.0),
-                [&](double radius) { return shared::around_sphere(radius, settings.ticks); }, report);
+    for (const bool is_single : {false, true}) {
+        for (int level = 2; level <= 8; ++level) {
+            const std::string name =
+                (is_single ? "single_sphere_" : "sphere_") + std::to_string(20 << (2 * level));
+            if (shared::is_chosen(name, settings.only, false)) {
+                const TriangleMesh sphere = shared::icosphere(level, 1.0);
+                measure_mesh(
+                    clock, settings, name, is_single ? shared::in_single_precision(sphere) : sphere,
+                    [&](double radius) { return shared::around_sphere(radius, settings.ticks); }, report);
+            }
         }
     }
     constexpr int cells = 512;
@@ -269,6 +273,10 @@ void measure_even(const SpanClock& clock, const EvenSettings& settings, Report& 
     const TriangleMesh hills = shared::terrain(cells, size, 0.2);
     measure_mesh(
         clock, settings, "terrain_524288", hills,
+        [&](double radius) { return shared::over_terrain(hills, cells, size, radius, settings.ticks); },
+        report);
+    measure_mesh(
+        clock, settings, "single_terrain_524288", shared::in_single_precision(hills),
         [&](double radius) { return shared::over_terrain(hills, cells, size, radius, settings.ticks); },
         report);
 }

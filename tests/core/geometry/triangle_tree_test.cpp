@@ -414,17 +414,6 @@ TEST(TriangleTree, BallHoldsEveryTriangleAlsoAfterRefit) {
     expect_held();
 }
 
-// To single precision, in a way that no compiler takes for nothing.
-TriangleMesh in_single_precision(TriangleMesh mesh) {
-    for (Vec3& v : mesh.vertices) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const volatile auto rounded = static_cast<float>(v[axis]);
-            v[axis] = rounded;
-        }
-    }
-    return mesh;
-}
-
 TEST(TriangleTree, TakesLittleMemoryMostOfAllForMeshesInSinglePrecision) {
     const TriangleMesh terrain = shared::terrain(128, 10.0, 1.0);
     const auto bytes_each = [](const TriangleMesh& mesh) {
@@ -433,14 +422,14 @@ TEST(TriangleTree, TakesLittleMemoryMostOfAllForMeshesInSinglePrecision) {
         return static_cast<double>(tree.bytes()) / static_cast<double>(mesh.triangles.size());
     };
     EXPECT_LE(bytes_each(terrain), 100.0);
-    EXPECT_LE(bytes_each(in_single_precision(terrain)), 64.0);
-    EXPECT_LE(bytes_each(in_single_precision(shared::icosphere(5, 1.0))), 64.0);
+    EXPECT_LE(bytes_each(shared::in_single_precision(terrain)), 64.0);
+    EXPECT_LE(bytes_each(shared::in_single_precision(shared::icosphere(5, 1.0))), 64.0);
 }
 
 // One corner far away that is not in single precision: the same triangles, kept in double.
 TEST(TriangleTree, SinglePrecisionKeepsEveryBit) {
     RandomValues random(50);
-    TriangleMesh mesh = in_single_precision(shared::terrain(40, 10.0, 1.0));
+    TriangleMesh mesh = shared::in_single_precision(shared::terrain(40, 10.0, 1.0));
     const TriangleTree single = TriangleTree::build(mesh);
     mesh.vertices.push_back(Vec3(0.1, 40.0, 0.3));
     mesh.triangles.push_back({0, 1, static_cast<std::uint32_t>(mesh.vertices.size() - 1)});
@@ -455,7 +444,7 @@ TEST(TriangleTree, SinglePrecisionKeepsEveryBit) {
     }
     TriangleMesh part = mesh;
     part.triangles.pop_back();
-    TriangleTree moved = TriangleTree::build(in_single_precision(part));
+    TriangleTree moved = TriangleTree::build(shared::in_single_precision(part));
     moved.refit(part);
     for (int i = 0; i < 100; ++i) {
         const Vec3 p(random.between(-4.0, 5.0), random.between(-1.0, 1.0), random.between(-4.0, 5.0));
