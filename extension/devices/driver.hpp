@@ -32,7 +32,8 @@ public:
     virtual Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) = 0;
 
     // From the watchdog's thread, between open() and close(), while exchange() is stuck: takes the device's
-    // force away. Nothing where the transport has no way past a call that hangs.
+    // force away, again and again as long as it is. Nothing where the transport has no way past a call that
+    // hangs.
     virtual void let_go() {}
 
     // Of the open device.

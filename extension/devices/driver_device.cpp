@@ -21,6 +21,9 @@ constexpr Nanoseconds exchange_time = 5'000'000;
 // What the I/O thread is given to renew a force or take it away by itself (unit: nanoseconds).
 constexpr Nanoseconds grace = 50'000;
 
+// Between two times that the watchdog takes the same force away (unit: nanoseconds).
+constexpr Nanoseconds taken_again = 1'000'000;
+
 RealtimeRequest realtime_request(int priority, int cpu) {
     RealtimeRequest request;
     request.fifo_priority = priority;
@@ -165,18 +168,21 @@ void DriverDevice::run_open() {
     readings_.publish(reading);
 }
 
-// Each round either sleeps or settles what was due: at its priority, a round that does neither would take the
-// loop's processor away for as long as nothing changes.
+// Each round sleeps, or takes away what was due: at its priority, a round that does neither would take the
+// loop's processor away for as long as nothing changes. As long as nobody has looked since, the force is
+// taken away again and again: an I/O thread that was late may have given it just after, and hang now.
 void DriverDevice::keep_watch() {
     SleepTimer timer;
+    Nanoseconds taken = 0, next = 0;  // what was due when a force was taken away, and when it is again
     while (!stop_.load(std::memory_order_acquire)) {
         forces_.wait_for_force();
         const Nanoseconds due = forces_.due();
         if (due <= 0) {
             continue;
         }
-        if (monotonic_now() <= due + grace) {
-            timer.sleep_until(due + grace + 1);
+        const Nanoseconds at = due == taken ? next : due + grace;
+        if (monotonic_now() <= at) {
+            timer.sleep_until(at + 1);
             continue;
         }
         const std::lock_guard lock(open_mutex_);
@@ -185,9 +191,10 @@ void DriverDevice::keep_watch() {
         }
         if (is_open_) {
             driver_->let_go();
-            let_go_.fetch_add(1, std::memory_order_relaxed);
+            let_go_.fetch_add(due == taken ? 0 : 1, std::memory_order_relaxed);
         }
-        forces_.rest(due);
+        taken = due;
+        next = monotonic_now() + taken_again;
     }
 }
 

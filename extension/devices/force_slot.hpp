@@ -36,8 +36,6 @@ public:
 
     // I/O thread: the device gives no force any more.
     void rest() { watch(0); }
-    // Watchdog: the same, unless somebody has looked since it was due then.
-    void rest(Nanoseconds due) { due_.compare_exchange_strong(due, 0, std::memory_order_acq_rel); }
 
     // Watchdog: when the force that the device gives must have been renewed or taken away; 0: it gives none.
     Nanoseconds due() const { return due_.load(std::memory_order_acquire); }

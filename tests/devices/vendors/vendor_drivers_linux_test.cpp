@@ -64,8 +64,8 @@ TEST(ForceDimension, AWristIsTurnedAndTwistedInOurAxes) {
     EXPECT_TRUE(device.capabilities().rotates);
     EXPECT_GT(device.capabilities().max_torque, 0.0);
     EXPECT_TRUE(wait_until([] { return values_of(dhd().torque) == Vec3(0.0); })) << "the loop has stopped";
-    dhd().has_wrist = false;
     EXPECT_EQ(dhd().wrong_calls, 0);
+    dhd().has_wrist = false;
 }
 
 // Where the whole process is frozen, nobody but the device can.
