@@ -191,7 +191,7 @@ void DriverDevice::keep_watch() {
         }
         if (is_open_) {
             driver_->let_go();
-            let_go_.fetch_add(due == taken ? 0 : 1, std::memory_order_relaxed);
+            let_go_.fetch_add(due != taken, std::memory_order_relaxed);
         }
         taken = due;
         next = monotonic_now() + taken_again;

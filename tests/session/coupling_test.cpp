@@ -70,13 +70,9 @@ struct Table {
 
     Pose pose(SessionHandle handle) const {
         const SessionSnapshot& snapshot = session->snapshot();
-        for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == handle) {
-                return snapshot.bodies[i].pose;
-            }
-        }
-        ADD_FAILURE() << "no such body";
-        return {};
+        const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, handle);
+        EXPECT_NE(state, nullptr) << "no such body";
+        return state ? state->pose : Pose{};
     }
 
     std::unique_ptr<Session> session;

@@ -55,12 +55,8 @@ struct Door : ModelRig {
     }
     Pose there() const {
         const SessionSnapshot& snapshot = far->session.snapshot();
-        for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == door) {
-                return snapshot.bodies[i].pose;
-            }
-        }
-        return {};
+        const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, door);
+        return state ? state->pose : Pose{};
     }
     // By a hand that goes through the leaf's middle towards -z.
     void push(double way) {

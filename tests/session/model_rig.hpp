@@ -104,12 +104,9 @@ struct Operator {
     Pose pose(const std::string& name) const {
         const ModelObject* const object = find(name);
         const SessionSnapshot& snapshot = session.snapshot();
-        for (std::size_t i = 0; object != nullptr && i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == object->body) {
-                return snapshot.bodies[i].pose;
-            }
-        }
-        return {Vec3(-99.0), {}};
+        const BodyState* const state =
+            object ? state_of(snapshot.bodies, snapshot.body_count, object->body) : nullptr;
+        return state ? state->pose : Pose{Vec3(-99.0), {}};
     }
 
     HeldDevice device;

@@ -92,12 +92,7 @@ public:
     const ProxyState& proxy_state() { return newest().proxies[0]; }
     const BodyState* state_of(SessionHandle handle) {
         const SessionSnapshot& snapshot = newest();
-        for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == handle) {
-                return &snapshot.bodies[i];
-            }
-        }
-        return nullptr;
+        return tactus::state_of(snapshot.bodies, snapshot.body_count, handle);
     }
 
     HeldDevice device;

@@ -82,12 +82,8 @@ struct SharedRig {
     double force(std::size_t which) const { return near[which]->device.force.y; }
     Vec3 place_of(SessionHandle body) const {
         const SessionSnapshot& snapshot = far.snapshot();
-        for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-            if (snapshot.bodies[i].handle == body) {
-                return snapshot.bodies[i].pose.position;
-            }
-        }
-        return Vec3(-99.0);
+        const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, body);
+        return state ? state->pose.position : Vec3(-99.0);
     }
     const LinkStatistics& link(std::size_t which) const { return ports[which]->statistics.front().link; }
 

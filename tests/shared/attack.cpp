@@ -333,17 +333,14 @@ struct Watch {
     // By which what the hand touches moves on in a tick (unit: meters): what flies against a hand is felt.
     double way_of_touched() const {
         constexpr double fastest = 10.0;  // what comes faster fades in (docs/teleoperation.md)
-        const SessionSnapshot& seen = rig.near->session.snapshot();
-        const ProxyState& touch = seen.proxies[0];
+        const ProxyState& touch = rig.near->session.snapshot().proxies[0];
         double speed = 0.0;
         for (int k = 0; k < touch.contact_count; ++k) {
             const auto at = static_cast<std::size_t>(k);
-            for (const BodyState& body : std::span(seen.bodies).first(seen.body_count)) {
-                if (body.handle == touch.bodies[at]) {
-                    speed = std::max(speed, glm::length(body.linear_velocity) +
-                                                glm::length(body.angular_velocity) *
-                                                    glm::distance(touch.points[at], body.pose.position));
-                }
+            if (const BodyState* const body = rig.near->body_state(touch.bodies[at])) {
+                speed = std::max(speed, glm::length(body->linear_velocity) +
+                                            glm::length(body->angular_velocity) *
+                                                glm::distance(touch.points[at], body->pose.position));
             }
         }
         return std::min(speed, fastest) * to_seconds(AttackRig::period);

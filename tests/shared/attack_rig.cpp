@@ -43,14 +43,14 @@ AttackPlace::AttackPlace(bool far) : session(small_session()) {
     session.settle();
 }
 
-Vec3 AttackPlace::place_of(SessionHandle handle) const {
+const BodyState* AttackPlace::body_state(SessionHandle body) const {
     const SessionSnapshot& snapshot = session.snapshot();
-    for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-        if (snapshot.bodies[i].handle == handle) {
-            return snapshot.bodies[i].pose.position;
-        }
-    }
-    return Vec3(0.0);
+    return state_of(snapshot.bodies, snapshot.body_count, body);
+}
+
+Vec3 AttackPlace::place_of(SessionHandle body) const {
+    const BodyState* const state = body_state(body);
+    return state ? state->pose.position : Vec3(0.0);
 }
 
 AttackRig::AttackRig(bool sealed, const LinkConditions& conditions)

@@ -61,6 +61,7 @@ struct AttackPlace {
         session.collect();
     }
     const TeleopStatistics& statistics() const { return port->statistics.front(); }
+    const BodyState* body_state(SessionHandle body) const;  // null: it cannot move, or there is none
     Vec3 place_of(SessionHandle body) const;
 
     AttackDevice device;

@@ -142,12 +142,8 @@ void TeleopPlace::tick(Nanoseconds now) {
 
 Pose TeleopPlace::pose_of(SessionHandle body) const {
     const SessionSnapshot& snapshot = session.snapshot();
-    for (std::size_t i = 0; i < snapshot.body_count; ++i) {
-        if (snapshot.bodies[i].handle == body) {
-            return snapshot.bodies[i].pose;
-        }
-    }
-    return {};
+    const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, body);
+    return state ? state->pose : Pose{};
 }
 
 double TeleopPlace::depth() const {

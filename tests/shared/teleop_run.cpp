@@ -239,12 +239,10 @@ void TeleopRun::tell_anew(const std::string& name) {
     BodyAddition addition = body.addition;
     if (addition.description.motion == Motion::Dynamic) {
         const SessionSnapshot& now = truth_.session.snapshot();
-        for (std::size_t i = 0; i < now.body_count; ++i) {
-            if (now.bodies[i].handle == object) {
-                addition.description.pose = now.bodies[i].pose;
-                addition.description.linear_velocity = now.bodies[i].linear_velocity;
-                addition.description.angular_velocity = now.bodies[i].angular_velocity;
-            }
+        if (const BodyState* const state = state_of(now.bodies, now.body_count, object)) {
+            addition.description.pose = state->pose;
+            addition.description.linear_velocity = state->linear_velocity;
+            addition.description.angular_velocity = state->angular_velocity;
         }
     }
     told_.push_back(name);

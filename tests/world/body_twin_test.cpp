@@ -69,12 +69,8 @@ struct Scene {
         session.refresh();
     }
     const BodyState* state_of(const BodyTwin& twin) {
-        for (std::size_t i = 0; i < session.snapshot().body_count; ++i) {
-            if (session.snapshot().bodies[i].handle == twin.handle()) {
-                return &session.snapshot().bodies[i];
-            }
-        }
-        return nullptr;
+        const SessionSnapshot& snapshot = session.snapshot();
+        return tactus::state_of(snapshot.bodies, snapshot.body_count, twin.handle());
     }
 
     Workers workers;

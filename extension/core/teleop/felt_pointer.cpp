@@ -52,14 +52,13 @@ Vec3 FeltPointer::feel(const StealthSettings& settings, const FeltInput& in) {
         tank_.let_go();
     }
     drift_.pass(settings, in.seconds);
-    double before = glm::length(hidden_);
+    const double whole = glm::length(hidden_);
     if (modelled < modelled_before_) {
         // As the hand moves away and the model's force with it, so does what is hidden.
         hidden_ *= modelled / modelled_before_;
         kept_ *= modelled / modelled_before_;
     }
-    const double fallen = before - glm::length(hidden_);
-    before -= fallen;
+    const double before = glm::length(hidden_), fallen = whole - before;
     begin_to_let_go(settings, in);
     if (state_ == FeltState::letting_go) {
         hidden_ = left_of_felt(in, own_change);
@@ -123,8 +122,8 @@ Vec3 FeltPointer::left_of_felt(const FeltInput& in, double own_change) {
     }
     const Vec3 left = kept_ + (hidden - kept_) * share;
     const Vec3 step = in.modelled + left - felt_;
-    const double length = glm::length(step),
-                 longest = std::max(own_change + steepest * in.seconds, pace_ * in.seconds);
+    const double length = glm::length(step);
+    const double longest = std::max(own_change + steepest * in.seconds, pace_ * in.seconds);
     return length > longest ? felt_ + step * (longest / length) - in.modelled : left;
 }
 

@@ -104,10 +104,8 @@ public:
 
     Pose pose(SessionHandle handle) {
         const SessionSnapshot& snapshot = look();
-        for (std::size_t i = 0; i < snapshot.body_count; ++i)
-            if (snapshot.bodies[i].handle == handle)
-                return snapshot.bodies[i].pose;
-        return {};
+        const BodyState* const state = state_of(snapshot.bodies, snapshot.body_count, handle);
+        return state ? state->pose : Pose{};
     }
 
     static constexpr double radius = 0.005;

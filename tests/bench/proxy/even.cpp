@@ -256,29 +256,29 @@ void measure_even(const SpanClock& clock, const EvenSettings& settings, Report& 
     measure_mesh(
         clock, settings, "box_12", shared::box(half),
         [&](double radius) { return shared::around_box(half, radius, settings.ticks); }, report);
-    for (const bool is_single : {false, true}) {
-        for (int level = 2; level <= 8; ++level) {
-            const std::string name =
-                (is_single ? "single_sphere_" : "sphere_") + std::to_string(20 << (2 * level));
-            if (shared::is_chosen(name, settings.only, false)) {
-                const TriangleMesh sphere = shared::icosphere(level, 1.0);
-                measure_mesh(
-                    clock, settings, name, is_single ? shared::in_single_precision(sphere) : sphere,
-                    [&](double radius) { return shared::around_sphere(radius, settings.ticks); }, report);
-            }
-        }
-    }
     constexpr int cells = 512;
     constexpr double size = 5.12;
-    const TriangleMesh hills = shared::terrain(cells, size, 0.2);
-    measure_mesh(
-        clock, settings, "terrain_524288", hills,
-        [&](double radius) { return shared::over_terrain(hills, cells, size, radius, settings.ticks); },
-        report);
-    measure_mesh(
-        clock, settings, "single_terrain_524288", shared::in_single_precision(hills),
-        [&](double radius) { return shared::over_terrain(hills, cells, size, radius, settings.ticks); },
-        report);
+    for (const bool is_single : {false, true}) {
+        const std::string prefix = is_single ? "single_" : "";
+        const auto measure_as = [&](const std::string& name, const TriangleMesh& mesh, auto&& way) {
+            measure_mesh(clock, settings, name, is_single ? shared::in_single_precision(mesh) : mesh, way,
+                         report);
+        };
+        for (int level = 2; level <= 8; ++level) {
+            const std::string name = prefix + "sphere_" + std::to_string(20 << (2 * level));
+            if (shared::is_chosen(name, settings.only, false)) {
+                measure_as(name, shared::icosphere(level, 1.0),
+                           [&](double radius) { return shared::around_sphere(radius, settings.ticks); });
+            }
+        }
+        if (const std::string name = prefix + "terrain_524288";
+            shared::is_chosen(name, settings.only, false)) {
+            const TriangleMesh hills = shared::terrain(cells, size, 0.2);
+            measure_as(name, hills, [&](double radius) {
+                return shared::over_terrain(hills, cells, size, radius, settings.ticks);
+            });
+        }
+    }
 }
 
 }  // namespace tactus::bench
