@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/smooth_normals.hpp"
 #include "physics/solid_properties.hpp"
 #include "world/same_shapes.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/convex_hull.hpp"
 #include "core/geometry/iso_surface.hpp"
 #include "core/geometry/mesh_check.hpp"

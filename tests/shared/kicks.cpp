@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/convex_hull.hpp"
 #include "session/session.hpp"
 #include "shared/deforms.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/mesh_check.hpp"
 
 namespace tactus {

@@ -14,12 +14,12 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/inside_test.hpp"
 #include "core/geometry/pack_store.hpp"
 #include "core/geometry/parallel.hpp"
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
 #include "core/geometry/turned_node.hpp"
+#include "core/geometry/winding.hpp"
 #include "core/geometry/work.hpp"
 
 namespace tactus {

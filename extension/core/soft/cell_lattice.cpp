@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "core/geometry/inside_test.hpp"
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/mesh_check.hpp"
 #include "core/geometry/triangle_tree.hpp"
 #include "core/soft/soft_draft.hpp"

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/closest_point_on_triangle.hpp"
-#include "core/geometry/inside_test.hpp"
 #include "core/geometry/triangle_tree.hpp"
 
 namespace tactus {

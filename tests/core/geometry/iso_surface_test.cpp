@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/geometry/inside_test.hpp"
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/mesh_check.hpp"
 #include "shared/fields.hpp"
 #include "shared/judge_tree.hpp"

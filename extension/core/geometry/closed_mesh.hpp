@@ -1,4 +1,4 @@
-// Whether a point lies inside a closed mesh. See also TriangleTree::winding.
+// Which meshes bound a solid: only they have an inside (see winding.hpp).
 #pragma once
 
 #include "core/geometry/triangle_mesh.hpp"
@@ -13,16 +13,5 @@ namespace tactus {
 // Edges are summed as signed random numbers of 128 bits: a closed mesh always sums to zero, another one does
 // with a chance of 2^-128 (not one that somebody forged on purpose: then insides are wrong, nothing else).
 bool is_closed(const TriangleMesh& mesh);
-
-// How often the surface winds around a point: 0 outside, 1 inside a solid whose triangles run
-// counter-clockwise seen from outside, -1 where they run clockwise; another number where shells overlap.
-struct Winding {
-    int number = 0;
-    // False where the work ran out, and where rounding leaves it open from every side: `number` is then a
-    // guess. On the surface itself it is any of those around.
-    bool known = false;
-
-    bool inside() const { return number != 0; }
-};
 
 }  // namespace tactus

@@ -1,5 +1,3 @@
-#include "core/geometry/inside_test.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
@@ -115,7 +114,7 @@ TEST(IsClosed, CornersAtOnePlaceAreOneCorner) {
     EXPECT_FALSE(is_closed(split));
 }
 
-TEST(InsideTest, EveryPlaceOfAGridThatRunsThroughFacesEdgesAndCorners) {
+TEST(Winding, EveryPlaceOfAGridThatRunsThroughFacesEdgesAndCorners) {
     const TriangleMesh mesh = l_prism();
     const TriangleTree tree = TriangleTree::build(mesh);
     for (int x = -2; x <= 10; ++x) {
@@ -136,7 +135,7 @@ TEST(InsideTest, EveryPlaceOfAGridThatRunsThroughFacesEdgesAndCorners) {
 }
 
 // Lines that run within the last bits of edges and faces, far from the origin.
-TEST(InsideTest, ALastBitBesideAnEdgeCountsOnce) {
+TEST(Winding, ALastBitBesideAnEdgeCountsOnce) {
     RandomValues random(5);
     for (const double offset : {0.0, 1.0 / 3.0, 1e3, 1e6}) {
         TriangleMesh mesh = l_prism();
@@ -165,7 +164,7 @@ TEST(InsideTest, ALastBitBesideAnEdgeCountsOnce) {
     }
 }
 
-TEST(InsideTest, ShellsInShellsAndShellsThatCross) {
+TEST(Winding, ShellsInShellsAndShellsThatCross) {
     TriangleMesh moved = shared::icosphere(2, 0.8);
     for (Vec3& v : moved.vertices) {
         v.x += 0.9;
@@ -181,7 +180,7 @@ TEST(InsideTest, ShellsInShellsAndShellsThatCross) {
     }
 }
 
-TEST(InsideTest, CrumpledBallsTurnedAnyWay) {
+TEST(Winding, CrumpledBallsTurnedAnyWay) {
     RandomValues random(11);
     for (int run = 0; run < 60; ++run) {
         TriangleMesh mesh = shared::icosphere(2, 1.0);
@@ -201,13 +200,13 @@ TEST(InsideTest, CrumpledBallsTurnedAnyWay) {
     }
 }
 
-TEST(InsideTest, WithoutWorkNothingIsKnown) {
+TEST(Winding, WithoutWorkNothingIsKnown) {
     const TriangleTree tree = TriangleTree::build(shared::icosphere(4, 1.0));
     WorkBudget work(10);
     EXPECT_FALSE(tree.winding(Vec3(0.01), work).known);
 }
 
-TEST(InsideTest, LooksAtFewOfManyTriangles) {
+TEST(Winding, LooksAtFewOfManyTriangles) {
     const TriangleTree tree = TriangleTree::build(shared::icosphere(6, 1.0));
     RandomValues random(3);
     for (int run = 0; run < 1'000; ++run) {
