@@ -3,30 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
+#include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
-#include "shared/slow_distance.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus::shared {
 
 namespace {
-
-// The solid angle of every triangle, over the whole sphere: how often the surface winds around the point. It
-// changes only where the surface passes the point.
-double winding_around(const TriangleMesh& mesh, const Vec3& p) {
-    double angle = 0.0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto [ca, cb, cc] = corners_of(mesh, i);
-        const Vec3 a = ca - p, b = cb - p, c = cc - p;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double volume = glm::dot(a, glm::cross(b, c));
-        angle += 2.0 * std::atan2(volume, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
-                                              glm::dot(c, a) * lb);
-    }
-    return angle / (4.0 * std::numbers::pi);
-}
 
 // cells x cells squares in x-z; with a thickness, two of them and a rim.
 TriangleMesh sheet(int cells, double size, double thickness) {
@@ -161,8 +145,7 @@ DeformFigures play_deforms(std::uint64_t seed) {
             const double is = next.origin_of(tick.position).y;
             passed = (was > -0.15 * radius) != (is > -0.15 * radius);
         } else {
-            passed = std::lround(winding_around(mesh, before)) !=
-                     std::lround(winding_around(deformed, tick.position));
+            passed = winding(mesh, before) != winding(deformed, tick.position);
         }
         ++figures.deformations;
         figures.let_out += let_out;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
@@ -17,20 +17,6 @@ namespace {
 using shared::RandomValues;
 
 constexpr std::int64_t plenty = 1'000'000;
-
-// The solid angle of every triangle, over the whole sphere.
-double slow_winding(const TriangleMesh& mesh, const Vec3& p) {
-    double angle = 0.0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const auto [ca, cb, cc] = shared::corners_of(mesh, i);
-        const Vec3 a = ca - p, b = cb - p, c = cc - p;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double volume = glm::dot(a, glm::cross(b, c));
-        angle += 2.0 * std::atan2(volume, la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
-                                              glm::dot(c, a) * lb);
-    }
-    return angle / (4.0 * std::numbers::pi);
-}
 
 TriangleMesh joined(const TriangleMesh& first, const TriangleMesh& second) {
     TriangleMesh both = first;
@@ -77,7 +63,7 @@ void expect_same_as_slow(const TriangleMesh& mesh, const Vec3& p) {
     const Winding winding = tree.winding(p, work);
     if (shared::slow_distance(p, mesh) > 1e-12L) {
         ASSERT_TRUE(winding.known) << p.x << ' ' << p.y << ' ' << p.z;
-        ASSERT_EQ(winding.number, std::lround(slow_winding(mesh, p))) << p.x << ' ' << p.y << ' ' << p.z;
+        ASSERT_EQ(winding.number, shared::winding(mesh, p)) << p.x << ' ' << p.y << ' ' << p.z;
     }
 }
 
@@ -158,7 +144,7 @@ TEST(Winding, ALastBitBesideAnEdgeCountsOnce) {
             const double ulp = 1e-15 * (1.0 + offset);
             if (shared::slow_distance(p, mesh) > 8.0L * ulp) {
                 ASSERT_TRUE(winding.known);
-                ASSERT_EQ(winding.number, std::lround(slow_winding(mesh, p))) << run << ' ' << offset;
+                ASSERT_EQ(winding.number, shared::winding(mesh, p)) << run << ' ' << offset;
             }
         }
     }
@@ -195,7 +181,7 @@ TEST(Winding, CrumpledBallsTurnedAnyWay) {
             WorkBudget work(plenty);
             const Winding winding = tree.winding(p, work);
             ASSERT_TRUE(winding.known);
-            ASSERT_EQ(winding.number, std::lround(slow_winding(mesh, p))) << run;
+            ASSERT_EQ(winding.number, shared::winding(mesh, p)) << run;
         }
     }
 }
