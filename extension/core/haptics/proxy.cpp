@@ -156,7 +156,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         }
         if (!contacts_hold_) {
             surroundings_.find_contacts(position_, contacts_, descent.beyond);
-            contacts_hold_ = true;
+            contacts_hold_ = descent.is_last || !work.is_gone();
         }
         if (lift(descent.strays)) {
             contacts_hold_ = false;
@@ -164,12 +164,18 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         }
         const Vec3 pull = hand - position_;
         step = plan(pull, descent);
+        // Planned from less than there is, it says nothing: not that the end is reached either.
+        const bool is_known = !work.is_gone();
+        if (!is_known && !descent.is_last) {
+            tick.residual = glm::length(pull);
+            continue;
+        }
         if (step.pressing_count > 0) {
             keep_touching(step);
             descent.touched = true;
         }
         brake(step, descent.dropped);
-        tick.residual = glm::length(step.motion);
+        tick.residual = glm::length(is_known ? step.motion : pull);
         if (tick.residual <= tolerances().step || descent.is_last) {
             break;
         }

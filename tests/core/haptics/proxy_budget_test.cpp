@@ -10,6 +10,7 @@
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
+#include "shared/reference_descent.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus {
@@ -125,6 +126,36 @@ TEST(ProxyBudget, WithLittleWorkTheForceDoesNotFlicker) {
         EXPECT_EQ(lost, 0) << work;
     }
     EXPECT_GT(unfinished, 100);
+}
+
+// Wherever the work ends, a tick that calls itself finished is where exact descent ends.
+TEST(ProxyBudget, WithLittleWorkNoTickIsCalledFinishedThatIsNot) {
+    constexpr double radius = 0.05;
+    const TriangleMesh mesh = rough_sphere(6, 0.5, 0.3);
+    shared::ReferenceDescent reference(mesh, radius);
+    int finished = 0, unfinished = 0;
+    for (int work = 500; work < 4'000; work += 50) {
+        TouchRig rig(radius);
+        rig.add(mesh);
+        ASSERT_TRUE(rig.draw({0.6, 0.0, 0.0}, {0.5, 0.0, 0.0}, 400).status & proxy_touching);
+        ProxySettings settings = rig.proxy.settings();
+        settings.max_work = work;
+        rig.proxy.set_settings(settings);
+        for (int i = 1; i <= 100; ++i) {
+            const Vec3 hand = 0.45 * Vec3(std::cos(0.02 * i), std::sin(0.02 * i), 0.0);
+            const ProxyTick tick = rig.tick(hand);
+            if (tick.status & proxy_unfinished) {
+                ++unfinished;
+                continue;
+            }
+            ++finished;
+            const Vec3 settled(reference.settle(tick.position, hand).position);
+            EXPECT_LE(glm::distance(settled, tick.position), 1e-6 * radius)
+                << "work " << work << ", tick " << i;
+        }
+    }
+    EXPECT_GT(finished, 500);
+    EXPECT_GT(unfinished, 500);
 }
 
 // More triangles touch the proxy than any list of contacts holds.
