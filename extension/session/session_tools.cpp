@@ -178,7 +178,7 @@ void SessionLoop::put_tools(const ToolPlaces& places) {
 }
 
 bool SessionLoop::fits_beside_tools(ToolSlot& slot) {
-    WorkBudget work(slot.use.settings.max_work);
+    WorkBudget work(slot.use.settings.max_work, 0, cost::pack_look);
     return std::ranges::all_of(slot.proxy.pairs(), [&](ToolPair* pair) { return pair->fits_now(work); });
 }
 

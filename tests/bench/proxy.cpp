@@ -1,7 +1,7 @@
 // The proxy, timed tick by tick and held against exact descent, beside one sphere cast of Jolt and one convex
 // sweep of Bullet over the same segments; its kernels, each alone; and what it does on rough meshes.
 //
-//     proxy [--only=PATTERN] [--most=1310720] [--ticks=N] [--rounds=5] [--checks=N] [--replays=3]
+//     proxy [--only=PATTERN] [--most=1310720] [--ticks=N] [--rounds=5] [--checks=N] [--replays=3] [--work=N]
 //     proxy --mesh=FILE.obj --hip=FILE.csv --radius=R [--static-friction=F --dynamic-friction=F]
 //     [--two-sided]
 //           --trace=OUT.csv
@@ -38,6 +38,7 @@ int measure_all(shared::Options& options) {
     rough.ticks = static_cast<int>(options.number("ticks", rough.ticks));
     rough.checks = static_cast<int>(options.number("checks", rough.checks));
     rough.replays = static_cast<int>(options.number("replays", rough.replays));
+    rough.max_work = static_cast<std::int64_t>(options.number("work", static_cast<double>(rough.max_work)));
     rough.max_triangles = static_cast<int>(options.number("most", rough.max_triangles));
     if (!options.understood() || even.ticks < 1 || rough.ticks < 1 || even.rounds < 1 || rough.replays < 1) {
         return 2;

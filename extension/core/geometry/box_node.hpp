@@ -127,6 +127,7 @@ struct FloatWay {
     float blur;
     float limit;
     float rounding;
+    float per_length;  // 1 over the length of `motion` (unit: 1/meter)
 };
 
 namespace box_detail {

@@ -115,7 +115,7 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
             continue;
         }
         const PackHit met = sweep_to_triangles(tree.pack(pack(i)), way, hit.t, &last);
-        work.spend(met.looks * cost::pack_look);
+        work.spend(met.looks * work.sweep_look());
         if (met.found()) {
             hit.t = met.t;
             hit.found = true;

@@ -53,6 +53,12 @@ NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
     return nearest(point, far, unlimited);
 }
 
+NearestTriangle TriangleTree::nearly_nearest(const Vec3& point, double far, double share,
+                                             WorkBudget& work) const {
+    double least;
+    return search(point, far, share, 0.0, least, work);
+}
+
 double TriangleTree::least_distance(const Vec3& point, WorkBudget& work) const {
     double least;
     search(point, 1e30, 0.5, 0.0, least, work);
@@ -93,7 +99,8 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
                          static_cast<float>(reach * (1.0 + 1e-6)),
                          static_cast<float>(blur),
                          static_cast<float>(limit),
-                         static_cast<float>(std::max(point_rounding(start), point_rounding(end)))};
+                         static_cast<float>(std::max(point_rounding(start), point_rounding(end))),
+                         static_cast<float>(1.0 / std::max(glm::length(way.motion), 1e-30))};
     Hit hit;
     hit.t = limit;
     const auto a_little_more = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
@@ -102,7 +109,7 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
         bound, work, [&](std::uint32_t node) { return earliest_meeting(nodes_[node], turned_[node], boxes); },
         [&](std::uint32_t pack, float) {
             const PackHit met = sweep_to_triangles(packs_[pack], way, hit.t);
-            work.spend(met.looks * cost::pack_look);
+            work.spend(met.looks * work.sweep_look());
             if (met.found()) {
                 hit.t = met.t;
                 hit.found = true;

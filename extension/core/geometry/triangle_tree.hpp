@@ -88,6 +88,10 @@ public:
     NearestTriangle nearest(const Vec3& point, double far, WorkBudget& work, double enough = 0.0) const;
     NearestTriangle nearest(const Vec3& point, double far) const;
 
+    // A triangle that is farther than the nearest by a factor of 1 / share at most, where one is nearer than
+    // share * far and the answer is complete. Of thousands that are about as near it looks at few.
+    NearestTriangle nearly_nearest(const Vec3& point, double far, double share, WorkBudget& work) const;
+
     // A lower bound of the distance to the nearest triangle, at least half of it. Cheap from anywhere, where
     // `nearest` must look at every triangle from the centre of a ball; lower still where the budget is gone.
     double least_distance(const Vec3& point, WorkBudget& work) const;

@@ -22,6 +22,14 @@ constexpr double max_sensitivity = 4.0;
 // feel it come: its force fades in (unit: meters).
 constexpr double max_ride = 0.01;
 
+// No question of the surroundings takes more than a quarter of a tick's work, or than three usual ones; one
+// that would is asked in another way (see step_over_crowd). Lengths of the radius.
+constexpr std::int64_t least_question_share = 1'000;
+constexpr double least_progress = 1e-3;
+constexpr double crowd_reach = 1e-2;
+constexpr double least_slope = 0.2;
+constexpr double max_slope = 5.0;
+
 }  // namespace
 
 Proxy::Proxy(std::size_t max_parts, const ProxySettings& settings)
@@ -125,9 +133,9 @@ bool Proxy::strays(double length) const {
 }
 
 // How far a step of that length along a surface may end above it: no surface bends more than the sphere
-// itself does.
-double Proxy::drop_after(double length) const {
-    return std::min(length * length / settings_.radius, 0.1 * settings_.radius);
+// itself does, and it rose by no more than `slope`.
+double Proxy::drop_after(double length, double slope) const {
+    return std::min(length * length / settings_.radius + slope * length, 0.1 * settings_.radius);
 }
 
 // Where nothing can be in the way, there is nothing to do.
@@ -144,9 +152,42 @@ bool Proxy::fly(const Vec3& hand) {
     return true;
 }
 
+std::int64_t Proxy::question_share() const {
+    return std::max(settings_.max_work / 4, least_question_share);
+}
+
+// False where the work has ended before all was seen.
+bool Proxy::look_around(Descent& descent) {
+    WorkBudget& work = surroundings_.work();
+    if (descent.slope == 0.0) {
+        const WorkShare share(work, question_share());
+        surroundings_.find_contacts(position_, contacts_, descent.beyond);
+        descent.slope = share.is_too_small() ? least_slope : 0.0;
+    }
+    if (descent.slope > 0.0) {
+        surroundings_.find_nearest_contacts(
+            position_, std::max(descent.beyond, crowd_reach * settings_.radius), contacts_);
+    }
+    return descent.is_last || !work.is_gone();
+}
+
+// As far as that, by no more than a question's share of the work. Where that leads nowhere it is a crowd that
+// stands in the way: the next step rises, and more steeply each time.
+Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
+    const Vec3 before = position_;
+    const WorkShare share(surroundings_.work(), question_share());
+    const Hit hit = advance(step.motion, stopped_by);
+    if (share.is_too_small() && !hit.complete &&
+        glm::distance(before, position_) < least_progress * settings_.radius) {
+        descent.slope = std::clamp(5.0 * descent.slope, least_slope, max_slope);
+    }
+    return hit;
+}
+
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Vec3 start = position_;
     Descent descent;
+    descent.slope = crowd_slope_;
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
     for (tick.steps = 0; tick.steps < settings_.max_steps; ++tick.steps) {
@@ -155,8 +196,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             work.open_reserve();
         }
         if (!contacts_hold_) {
-            surroundings_.find_contacts(position_, contacts_, descent.beyond);
-            contacts_hold_ = descent.is_last || !work.is_gone();
+            contacts_hold_ = look_around(descent);
         }
         if (lift(descent.strays)) {
             contacts_hold_ = false;
@@ -180,11 +220,13 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             break;
         }
         descent.slid = descent.slid || (step.pressing_count > 0 && step.motion != step.drop);
+        step_over_crowd(step, pull, descent.slope);
         const Vec3 before = position_;
+        const double slope = descent.slope;
         FeatureId stopped_by;
-        const Hit hit = advance(step.motion, stopped_by);
+        const Hit hit = advance(step, descent, stopped_by);
         // Where the work has ended before it moved, they are still those at its place.
-        contacts_hold_ = position_ == before && !hit.found;
+        contacts_hold_ = position_ == before && !hit.found && slope == descent.slope;
         const bool stopped_at_once = hit.found && position_ == before;
         descent.strays = stopped_at_once && strays(tick.residual);
         if (hit.found) {
@@ -193,7 +235,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         } else {
             surroundings_.clear_mind();
         }
-        descent.beyond = drop_after(glm::distance(before, position_));
+        descent.beyond = drop_after(glm::distance(before, position_), slope);
         descent.dropped = step.pressing_count > 0 ? descent.beyond : 0.0;
         descent.last_bent = step.bent ? glm::distance(before, position_) : 0.0;
         if (hit.is_free() && step.pressing_count == 0) {
@@ -207,14 +249,17 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             break;
         }
     }
+    const bool is_held = tick.residual > tolerances().step &&
+                         glm::distance(position_, start) < least_progress * settings_.radius;
+    crowd_slope_ = is_held ? descent.slope : 0.0;
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
     // Where the work has ended before what holds it was seen again, that still does; also what held it a tick
-    // ago, where it is not far from there.
+    // ago, where it is not far from there or steps over a crowd.
     const bool unseen = descent.is_last && tick.residual > tolerances().step;
     const bool is_near = glm::distance(position_, start) <= 0.01 * settings_.radius;
-    if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near))) {
+    if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near || descent.slope > 0.0))) {
         touching_.clear();
     }
     tick.slide = step.pressing_count > 0 ? step.slide : Vec3(0.0);

@@ -34,6 +34,10 @@ public:
     // `beyond` above rest.
     void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0);
 
+    // One contact for each part up to that gap: as near as any to 1e-4 of the radius. Where thousands of
+    // triangles are about as near, to find them all takes longer than a tick, to find such a one does not.
+    void find_nearest_contacts(const Vec3& center, double max_gap, ContactList& out);
+
     // False where the work did not suffice for everything that the sphere overlaps, when they were found
     // last.
     bool saw_all() const { return saw_all_; }

@@ -1,5 +1,6 @@
 // The contacts of Surroundings: which are found, which are kept in mind.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -40,6 +41,37 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
         [&](const Contact& contact) { return contact.gap > limit - rest() + tolerances().same; });
     out.count = static_cast<int>(kept - out.items.begin());
     add_in_mind(center, tolerances().reach + beyond, out);
+    add_insisted(center, out);
+}
+
+void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, ContactList& out) {
+    constexpr double share = 1.0 - 1e-4;
+    out.clear();
+    saw_all_ = false;
+    broad_phase_.bring_near(max_gap, center, work_);
+    const ContactLook look = look_from(center);
+    for (const std::uint32_t part : broad_phase_.near()) {
+        if (!counts(part, max_gap, -1)) {
+            continue;
+        }
+        FeatureId feature{part};
+        if (const TriangleTree* const tree = scene_->parts()[part].part->tree()) {
+            const Vec3 local = to_local(scene_->parts()[part].pose, center);
+            const double far = rest() + max_gap;
+            const NearestTriangle nearest = tree->nearly_nearest(local, far, share, work_);
+            if (nearest.distance >= far) {
+                continue;
+            }
+            const Lanes squared = offset_from_triangles(tree->pack(nearest.pack), splat(local)).squared;
+            const unsigned lanes = lane_bits(squared <= splat(smallest(squared)));
+            feature.triangle =
+                nearest.pack * lane_count + static_cast<std::uint32_t>(std::countr_zero(lanes));
+        }
+        if (const Contact contact = look.exact_contact(feature); contact.gap <= max_gap) {
+            out.add(contact);
+        }
+    }
+    add_in_mind(center, max_gap, out);
     add_insisted(center, out);
 }
 
@@ -95,7 +127,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         out.shorten(first_count);
         const LanesVec3 center = splat(local);
         others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
-            work_.spend(cost::pack_look);
+            work_.spend(cost::contact_look);
             const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
             take(pack, tangents, least_distances(tangents, center));
         });

@@ -55,7 +55,7 @@ void ToolGroup::find_meetings() {
 
 // Up to where bodies have taken them, and which of them may touch another one from there.
 void ToolGroup::begin(const TouchScene& scene) {
-    WorkBudget looks(count_ > 0 ? members_[0].tool->settings().max_work : 0);
+    WorkBudget looks(count_ > 0 ? members_[0].tool->settings().max_work : 0, 0, cost::pack_look);
     const std::int64_t given = looks.left();
     for (const Meeting& meeting : meetings()) {
         meeting.pair->begin_tick(looks);
@@ -100,7 +100,7 @@ void ToolGroup::descend_together() {
     for (const Member& member : members()) {
         given += member.moves() ? std::max<std::int64_t>(0, member.tool->work_.left()) : 0;
     }
-    work_ = WorkBudget(given);
+    work_ = WorkBudget(given, 0, cost::pack_look);
     const auto goes = [](const Member& member) { return member.state == State::goes; };
     while (std::ranges::any_of(members(), goes) && !work_.is_gone()) {
         collect_meetings();

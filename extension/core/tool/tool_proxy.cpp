@@ -29,7 +29,7 @@ void ToolProxy::set_settings(const ToolSettings& settings) {
 }
 
 void ToolProxy::give_work(std::int64_t units) {
-    work_ = WorkBudget(units);
+    work_ = WorkBudget(units, 0, cost::pack_look);
     work_given_ = units;
 }
 

@@ -28,6 +28,7 @@ struct ToolSettings {
     double stiffness = 1000.0;       // (unit: newtons per meter), > 0
     double turning_stiffness = 1.0;  // (unit: newton meters per radian), > 0
     int max_steps = 32;              // a tick; what is missing then is made up in the next
+    // A look within a sweep counts as any look here: the figures of docs/tool.md are by that.
     std::int64_t max_work = 12'000;  // a tick (see WorkBudget): below 0.25 ms
 };
 

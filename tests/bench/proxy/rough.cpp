@@ -53,10 +53,14 @@ bool is_in_contact(const Played& tick) {
 
 // The same ticks over and over; a tick's time is the least of them.
 std::vector<Played> play(const shared::SpanClock& clock, const std::shared_ptr<const TouchShape>& shape,
-                         double radius, const std::vector<Vec3>& way, int replays, Verdict& verdict) {
+                         double radius, const std::vector<Vec3>& way, const RoughSettings& settings,
+                         Verdict& verdict) {
     std::vector<Played> ticks(way.size());
-    for (int replay = 0; replay < replays; ++replay) {
+    for (int replay = 0; replay < settings.replays; ++replay) {
         TouchRig rig(radius);
+        ProxySettings proxy = rig.proxy.settings();
+        proxy.max_work = settings.max_work;
+        rig.proxy.set_settings(proxy);
         rig.add(shape);
         for (std::size_t i = 0; i < way.size(); ++i) {
             const std::uint64_t start = clock.now();
@@ -298,7 +302,7 @@ void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings
         for (const auto& [radius, path] : chosen) {
             Verdict verdict;
             const std::vector<Vec3> way = path->make(tree, radius, settings.ticks);
-            const std::vector<Played> ticks = play(clock, shape, radius, way, settings.replays, verdict);
+            const std::vector<Played> ticks = play(clock, shape, radius, way, settings, verdict);
             judge_times(ticks, verdict);
             judge_places(ticks, tree, radius, verdict);
             judge_ends(ticks, tree, radius, settings.checks, verdict);

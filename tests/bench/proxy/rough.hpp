@@ -1,8 +1,10 @@
 // Rough meshes: what the proxy costs and does where nothing is even. See tests/shared/rough_meshes.hpp.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
+#include "core/haptics/proxy.hpp"
 #include "shared/bench_kit.hpp"
 
 namespace tactus::bench {
@@ -11,6 +13,7 @@ struct RoughSettings {
     std::string only;  // see is_chosen()
     int ticks = 4'000;
     int replays = 3;
+    std::int64_t max_work = ProxySettings{}.max_work;  // of a tick, see WorkBudget
     int checks = 48;  // finished ticks in contact held against exact descent, a case; unfinished ones besides
     int max_triangles = 3'000'000;
 };

@@ -247,6 +247,23 @@ TEST(TriangleTree, OneThatIsNearEnoughEndsTheSearch) {
     EXPECT_TRUE(ask(0.9).distance > 0.9 && !ask(0.9).complete);  // none is that near, and it is not known
 }
 
+// Nor is one that is nearly the nearest; the nearest itself takes over 100,000 units.
+TEST(TriangleTree, OneThatIsNearlyTheNearestEndsTheSearch) {
+    const TriangleTree tree = TriangleTree::build(shared::icosphere(6, 1.0));
+    RandomValues random(51);
+    for (int i = 0; i < 50; ++i) {
+        const Vec3 point = random.in_ball(1e-4);
+        const double nearest = tree.nearest(point, 1.1).distance;
+        WorkBudget work(5'000);
+        const NearestTriangle found = tree.nearly_nearest(point, 1.1, 0.99, work);
+        ASSERT_TRUE(found.complete);
+        ASSERT_GE(found.distance, nearest);
+        ASSERT_LE(found.distance, nearest / 0.99);
+        ASSERT_EQ(found.distance,
+                  std::sqrt(smallest(offset_from_triangles(tree.pack(found.pack), splat(point)).squared)));
+    }
+}
+
 Hit sweep(const TriangleTree& tree, const Vec3& start, const Vec3& motion, double radius, double slack,
           std::int64_t units = 1'000'000) {
     WorkBudget work(units);
@@ -308,6 +325,56 @@ TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
             ASSERT_LE(gap, 4.0 * slack) << sample.name << " " << i;
         }
     }
+}
+
+// A sphere that is larger by a hair than the least distance on its way is stopped, however it passes.
+TEST(TriangleTree, ASweepMissesNoGraze) {
+    RandomValues random(49);
+    int grazes = 0;
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        for (int i = 0; i < 400; ++i) {
+            const Vec3 start = extent.center + random.in_ball(2.0 * extent.radius);
+            const Vec3 motion = random.in_ball(extent.radius * random.magnitude(1e-2, 1.0));
+            const auto distance = [&](double t) {
+                return tree.nearest(start + motion * t, 10.0 * extent.radius).distance;
+            };
+            double at = 0.0;
+            for (double step = 0.5; step > 1e-9; step *= 0.5) {
+                for (const double t : {std::max(0.0, at - step), std::min(1.0, at + step)}) {
+                    at = distance(t) < distance(at) ? t : at;
+                }
+            }
+            const double radius = distance(at) * (1.0 + random.magnitude(1e-9, 1e-2));
+            if (distance(0.0) <= radius || distance(1.0) <= radius || radius < 1e-3 * extent.radius) {
+                continue;
+            }
+            ++grazes;
+            const Hit hit = sweep(tree, start, motion, radius, 1e-12 * std::max(1.0, tree.magnitude()));
+            ASSERT_TRUE(hit.found) << sample.name << " " << i;
+            ASSERT_LE(hit.t, at) << sample.name << " " << i;
+        }
+    }
+    EXPECT_GT(grazes, 100);
+}
+
+// Tangents at both ends would let it come as near as the radius in between.
+TEST(TriangleTree, ASweepThatPassesACrowdByLooksAtItOnce) {
+    RandomValues random(50);
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < 5'000; ++i) {
+        const Vec3 at = 1e-3 * Vec3(random.between(-1.0, 1.0), 0.0, random.between(-1.0, 1.0));
+        for (int k = 0; k < 3; ++k) {
+            mesh.vertices.push_back(at + random.in_ball(1e-5));
+        }
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const TriangleTree tree = TriangleTree::build(mesh);
+    WorkBudget work(1'000'000);
+    const Hit hit = tree.sweep({{-0.02, 0.2004, 0.003}, {0.04, 0.0, 0.0}, 0.2, 1e-9}, 1.0, work);
+    EXPECT_TRUE(hit.is_free());
+    EXPECT_LE(1'000'000 - work.left(), 100);
 }
 
 TEST(TriangleTree, SweepAlongAnAxisMissesNothing) {

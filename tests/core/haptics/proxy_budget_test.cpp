@@ -1,9 +1,11 @@
 // Where more triangles are near than a tick can look at, the proxy still goes where it may.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 #include "core/haptics/contact_look.hpp"
 #include "core/haptics/proxy.hpp"
@@ -11,6 +13,8 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/reference_descent.hpp"
+#include "shared/rough_meshes.hpp"
+#include "shared/rough_paths.hpp"
 #include "shared/touch_rig.hpp"
 
 namespace tactus {
@@ -156,6 +160,36 @@ TEST(ProxyBudget, WithLittleWorkNoTickIsCalledFinishedThatIsNot) {
     }
     EXPECT_GT(finished, 500);
     EXPECT_GT(unfinished, 500);
+}
+
+// One question among 256,000 triangles that grow from 1e-5 to 1 takes more than a tick here: to find what is
+// touched, or how far the way is free. It never stands still for more than a tick or two.
+TEST(ProxyBudget, InACrowdThatTakesMoreThanATickItGoesOn) {
+    constexpr double radius = 0.2;
+    const TriangleMesh mesh = shared::graded(256, 500);
+    const shared::JudgeTree judge(mesh);
+    const std::vector<Vec3> way = shared::slow_scan(judge, radius, 450);
+    for (const int work : {4'000, 8'000, 16'000}) {
+        TouchRig rig(radius);
+        rig.add(mesh);
+        ProxySettings settings = rig.proxy.settings();
+        settings.max_work = work;
+        rig.proxy.set_settings(settings);
+        int held = 0, longest = 0, unfinished = 0;
+        for (std::size_t i = 0; i < way.size(); ++i) {
+            const Vec3 before = rig.proxy.position();
+            const ProxyTick tick = rig.tick(way[i]);
+            const bool is_unfinished = (tick.status & proxy_unfinished) != 0;
+            unfinished += is_unfinished;
+            held = is_unfinished && glm::distance(before, tick.position) < 1e-4 * radius ? held + 1 : 0;
+            longest = std::max(longest, held);
+            if (i % 10 == 0) {
+                ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
+            }
+        }
+        EXPECT_LE(longest, 2) << "work " << work;
+        EXPECT_GT(unfinished, 20) << "work " << work;
+    }
 }
 
 // More triangles touch the proxy than any list of contacts holds.
