@@ -1,0 +1,173 @@
+// The steps of one tick: look around, plan, go, until nothing is left to go or to spend.
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "core/haptics/proxy.hpp"
+
+namespace tactus {
+
+namespace {
+
+// No question of the surroundings takes more than a quarter of a tick's work, or than three usual ones take:
+// one that would is asked in another way (see step_over_crowd).
+constexpr std::int64_t least_question_share = 1'000;
+// A sweep that takes its whole share and leads less far than that is held by a crowd (of the radius).
+constexpr double least_progress = 1e-3;
+// What stands for a crowd is looked for up to here above rest (of the radius).
+constexpr double crowd_reach = 1e-2;
+// A crowd whose boxes are thinner than t is behind a step of slope s from the angle s off the touching place
+// on, where the sphere is s^2 r / 2 above it: 0.2 leaves out what is rough up to 2 % of the radius. The third
+// step over one that is rougher, or all around, goes nearly straight up.
+constexpr double least_slope = 0.2;
+constexpr double max_slope = 5.0;
+constexpr double steeper = 5.0;
+
+}  // namespace
+
+// Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
+// Friction has no say in that. False where there is nothing to lift: what a sweep has stopped at is half a
+// skin below rest, and the next step rises by that much on its way. A step that strays needs all of the skin.
+bool Proxy::lift(bool strays) {
+    if (contacts_.min_gap() >= (strays ? -0.125 : -0.625) * tolerances().skin) {
+        return false;
+    }
+    const Vec3 motion = lift_to_rest(contacts_, tolerances().same, surroundings_.work());
+    if (glm::length(motion) <= tolerances().step) {
+        return false;
+    }
+    const Vec3 before = position_;
+    FeatureId stopped_by;
+    advance(motion, stopped_by);
+    return position_ != before;
+}
+
+// The direction of a step along a surface is off by the rounding of the surface's place over the radius:
+// 2^-53 of the largest coordinate, which is a 512th of the skin at most. Over more than 64 radii that makes
+// an eighth of the skin or more, and what stops such a step at once would do so for ever.
+bool Proxy::strays(double length) const {
+    return length > 64.0 * settings_.radius;
+}
+
+// How far a step of that length along a surface may end above it: no surface bends more than the sphere
+// itself does, and it rose by no more than `slope`.
+double Proxy::drop_after(double length, double slope) const {
+    return std::min(length * length / settings_.radius + slope * length, 0.1 * settings_.radius);
+}
+
+std::int64_t Proxy::question_share() const {
+    return std::max(settings_.max_work / 4, least_question_share);
+}
+
+// False where the work has ended before all was seen.
+bool Proxy::look_around(Descent& descent) {
+    WorkBudget& work = surroundings_.work();
+    if (descent.slope == 0.0) {
+        const WorkShare share(work, question_share());
+        surroundings_.find_contacts(position_, contacts_, descent.beyond);
+        descent.slope = share.is_too_small() ? least_slope : 0.0;
+    }
+    if (descent.slope > 0.0) {
+        surroundings_.find_nearest_contacts(
+            position_, std::max(descent.beyond, crowd_reach * settings_.radius), contacts_);
+    }
+    return descent.is_last || !work.is_gone();
+}
+
+// As far as that, by no more than a question's share of the work. Where that leads nowhere it is a crowd that
+// stands in the way: the next step rises, and more steeply each time.
+Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
+    const Vec3 before = position_;
+    const WorkShare share(surroundings_.work(), question_share());
+    const Hit hit = advance(step.motion, stopped_by);
+    if (share.is_too_small() && !hit.complete &&
+        glm::distance(before, position_) < least_progress * settings_.radius) {
+        descent.slope = std::clamp(steeper * descent.slope, least_slope, max_slope);
+    }
+    return hit;
+}
+
+void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
+    const Vec3 start = position_;
+    Descent descent;
+    descent.slope = crowd_slope_;
+    ConstrainedStep step;
+    WorkBudget& work = surroundings_.work();
+    for (tick.steps = 0; tick.steps < settings_.max_steps; ++tick.steps) {
+        descent.is_last = work.is_gone();
+        if (descent.is_last) {
+            work.open_reserve();
+        }
+        if (!contacts_hold_) {
+            contacts_hold_ = look_around(descent);
+        }
+        if (lift(descent.strays)) {
+            contacts_hold_ = false;
+            continue;
+        }
+        const Vec3 pull = hand - position_;
+        step = plan(pull, descent);
+        // Planned from less than there is, it says nothing: not that the end is reached either.
+        const bool is_known = !work.is_gone();
+        if (!is_known && !descent.is_last) {
+            tick.residual = glm::length(pull);
+            continue;
+        }
+        if (step.pressing_count > 0) {
+            keep_touching(step);
+            descent.touched = true;
+        }
+        brake(step, descent.dropped);
+        tick.residual = glm::length(is_known ? step.motion : pull);
+        if (tick.residual <= tolerances().step || descent.is_last) {
+            break;
+        }
+        descent.slid = descent.slid || (step.pressing_count > 0 && step.motion != step.drop);
+        step_over_crowd(step, pull, descent.slope);
+        const Vec3 before = position_;
+        const double slope = descent.slope;
+        FeatureId stopped_by;
+        const Hit hit = advance(step, descent, stopped_by);
+        // Where the work has ended before it moved, they are still those at its place.
+        contacts_hold_ = position_ == before && !hit.found && slope == descent.slope;
+        const bool stopped_at_once = hit.found && position_ == before;
+        descent.strays = stopped_at_once && strays(tick.residual);
+        if (hit.found) {
+            ++descent.stops;
+            surroundings_.keep_in_mind(stopped_by);
+        } else {
+            surroundings_.clear_mind();
+        }
+        descent.beyond = drop_after(glm::distance(before, position_), slope);
+        descent.dropped = step.pressing_count > 0 ? descent.beyond : 0.0;
+        descent.last_bent = step.bent ? glm::distance(before, position_) : 0.0;
+        if (hit.is_free() && step.pressing_count == 0) {
+            position_ = hand;
+            ++tick.steps;
+            tick.residual = 0.0;
+            break;
+        }
+        // Stopped at once by something that is no contact: it is one now.
+        if (stopped_at_once && !surroundings_.insist_on(stopped_by, position_)) {
+            break;
+        }
+    }
+    const bool is_held = tick.residual > tolerances().step &&
+                         glm::distance(position_, start) < least_progress * settings_.radius;
+    crowd_slope_ = is_held ? descent.slope : 0.0;
+    sliding_ = sliding_ && descent.slid;
+    heed_speed(step, position_ - start);
+    overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
+    // Where the work has ended before what holds it was seen again, that still does; also what held it a tick
+    // ago, where it is not far from there or steps over a crowd.
+    const bool unseen = descent.is_last && tick.residual > tolerances().step;
+    const bool is_near = glm::distance(position_, start) <= 0.01 * settings_.radius;
+    if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near || descent.slope > 0.0))) {
+        touching_.clear();
+    }
+    tick.slide = step.pressing_count > 0 ? step.slide : Vec3(0.0);
+    if (tick.residual > tolerances().step) {
+        tick.status |= proxy_unfinished;
+    }
+}
+
+}  // namespace tactus
