@@ -247,7 +247,7 @@ TEST(TriangleTree, OneThatIsNearEnoughEndsTheSearch) {
     EXPECT_TRUE(ask(0.9).distance > 0.9 && !ask(0.9).complete);  // none is that near, and it is not known
 }
 
-// Nor is one that is nearly the nearest; the nearest itself takes over 100,000 units.
+// Nor is one that is nearly the nearest.
 TEST(TriangleTree, OneThatIsNearlyTheNearestEndsTheSearch) {
     const TriangleTree tree = TriangleTree::build(shared::icosphere(6, 1.0));
     RandomValues random(51);

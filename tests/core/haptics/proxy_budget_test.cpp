@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <vector>
@@ -36,6 +37,12 @@ struct Watch {
         before = tick.position;
     }
 };
+
+void limit_work(TouchRig& rig, std::int64_t units) {
+    ProxySettings settings = rig.proxy.settings();
+    settings.max_work = units;
+    rig.proxy.set_settings(settings);
+}
 
 // A scan's noise: every vertex a share of an edge up or down.
 TriangleMesh rough_sphere(int level, double radius, double share) {
@@ -117,9 +124,7 @@ TEST(ProxyBudget, WithLittleWorkTheForceDoesNotFlicker) {
         TouchRig rig(radius);
         rig.add(mesh);
         ASSERT_TRUE(rig.draw({0.6, 0.0, 0.0}, {0.5, 0.0, 0.0}, 400).status & proxy_touching);
-        ProxySettings settings = rig.proxy.settings();
-        settings.max_work = work;
-        rig.proxy.set_settings(settings);
+        limit_work(rig, work);
         int lost = 0;
         for (int i = 1; i <= 1'000; ++i) {
             const Vec3 hand = 0.5 * Vec3(std::cos(0.004 * i), std::sin(0.004 * i), 0.0);
@@ -142,9 +147,7 @@ TEST(ProxyBudget, WithLittleWorkNoTickIsCalledFinishedThatIsNot) {
         TouchRig rig(radius);
         rig.add(mesh);
         ASSERT_TRUE(rig.draw({0.6, 0.0, 0.0}, {0.5, 0.0, 0.0}, 400).status & proxy_touching);
-        ProxySettings settings = rig.proxy.settings();
-        settings.max_work = work;
-        rig.proxy.set_settings(settings);
+        limit_work(rig, work);
         for (int i = 1; i <= 100; ++i) {
             const Vec3 hand = 0.45 * Vec3(std::cos(0.02 * i), std::sin(0.02 * i), 0.0);
             const ProxyTick tick = rig.tick(hand);
@@ -172,9 +175,7 @@ TEST(ProxyBudget, InACrowdThatTakesMoreThanATickItGoesOn) {
     for (const int work : {4'000, 8'000, 16'000}) {
         TouchRig rig(radius);
         rig.add(mesh);
-        ProxySettings settings = rig.proxy.settings();
-        settings.max_work = work;
-        rig.proxy.set_settings(settings);
+        limit_work(rig, work);
         int held = 0, longest = 0, unfinished = 0;
         for (std::size_t i = 0; i < way.size(); ++i) {
             const Vec3 before = rig.proxy.position();
@@ -284,9 +285,7 @@ TEST(ProxyBudget, OverAFlatFaceOfSliversItGlides) {
     TouchRig rig(radius);
     rig.add(strip(10'000, 4e-6, 0.2));
     rig.draw({-0.01, 0.06, 0.0}, {-0.01, 0.03, 0.0}, 20);
-    ProxySettings settings = rig.proxy.settings();
-    settings.max_work = 10'000;
-    rig.proxy.set_settings(settings);
+    limit_work(rig, 10'000);
     for (int i = 1; i <= 20; ++i) {
         const Vec3 hand(-0.01 + 1e-3 * i, 0.03, 0.0);
         const ProxyTick tick = rig.tick(hand);
@@ -336,9 +335,7 @@ TEST(ProxyBudget, ItAppearsOnlyWhereItIsNotTooDeep) {
     for (std::int64_t work = 20; work < 2'000; work += 20) {
         TouchRig rig(radius);
         rig.add(mesh);
-        ProxySettings settings = rig.proxy.settings();
-        settings.max_work = work;
-        rig.proxy.set_settings(settings);
+        limit_work(rig, work);
         for (int i = 0; i < 8; ++i) {
             const ProxyTick tick = rig.tick({0.01, radius * (0.9993 + 1e-4 * i), 0.01});
             if (tick.status & proxy_absent) {
