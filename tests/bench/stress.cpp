@@ -49,11 +49,13 @@ constexpr Figure figures[] = {
     {"passes", &StressCounts::passes, true},
     {"nans", &StressCounts::nans, true},
     {"stuck_ticks", &StressCounts::stuck_ticks, true},
+    {"false_ends", &StressCounts::false_ends, true},
     {"false_excuses", &StressCounts::false_excuses, true},
     {"judge_faults", &StressCounts::judge_faults, true},
     {"unfinished_ticks", &StressCounts::unfinished_ticks},
     {"excused_ticks", &StressCounts::excused_ticks},
     {"checked_ticks", &StressCounts::checked_ticks},
+    {"balanced_ticks", &StressCounts::balanced_ticks},
 };
 
 Report report_of(const StressCounts& counts) {

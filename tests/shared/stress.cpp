@@ -21,6 +21,7 @@ namespace tactus::shared {
 namespace {
 
 constexpr std::size_t max_failures = 40;
+constexpr double short_of_end = 1e-3;  // so far from where descent ends it has not arrived (in radii)
 
 // Of this thread (unit: microseconds).
 double processor_time() {
@@ -165,6 +166,7 @@ private:
     void judge_side(int tick, const Vec3& local, const Vec3& hand, const ProxyTick& at, StressCounts& counts);
     void judge_end(int tick, const Vec3& hand, const Vec3& before, const Vec3& local, const ProxyTick& at,
                    StressCounts& counts);
+    bool balances(const Vec3& local, const Vec3& hand, const SlowVec3& end);
     void fail(const char* what, int tick, const Vec3& hand, const ProxyTick& at, double number,
               StressCounts& counts);
 
@@ -241,6 +243,15 @@ void StressCase::judge_side(int tick, const Vec3& local, const Vec3& hand, const
     }
 }
 
+// With the hand a hair to the other side, descent from a crest ends on the other side of it. `hand` and `end`
+// in the body's frame, like `local`.
+bool StressCase::balances(const Vec3& local, const Vec3& hand, const SlowVec3& end) {
+    constexpr double hair = 1e-9;  // in radii
+    const Vec3 away = glm::normalize(local - Vec3(end));
+    const ReferencePlace other = reference_->settle(local, hand + hair * radius() * away);
+    return glm::distance(other.position, end) > short_of_end * radius();
+}
+
 void StressCase::judge_end(int tick, const Vec3& hand, const Vec3& before, const Vec3& local,
                            const ProxyTick& at, StressCounts& counts) {
     const bool unfinished = (at.status & proxy_unfinished) != 0;
@@ -250,15 +261,26 @@ void StressCase::judge_end(int tick, const Vec3& hand, const Vec3& before, const
         rig_.proxy.touching().empty() || !(unfinished ? tick % 7 == 0 : tick % every == 0)) {
         return;
     }
-    const ReferencePlace place = reference_->settle(local, to_local(pose_, hand));
-    const auto error = static_cast<double>(glm::distance(place.position, SlowVec3(local)));
+    const Vec3 local_hand = to_local(pose_, hand);
+    const ReferencePlace place = reference_->settle(local, local_hand);
+    const double error = static_cast<double>(glm::distance(place.position, SlowVec3(local))) / radius();
     ++counts.checked_ticks;
-    if (error > 1e-3 * radius() && glm::distance(before, at.position) < 1e-3 * radius()) {
-        ++counts.stuck_ticks;
-        fail("stuck", tick, hand, at, error / radius(), counts);
+    const bool is_short = error > short_of_end;
+    if (is_short && balances(local, local_hand, place.position)) {
+        ++counts.balanced_ticks;
+        return;
     }
-    if (!unfinished) {
-        counts.error_max = std::max(counts.error_max, error / radius());
+    if (is_short && glm::distance(before, at.position) < short_of_end * radius()) {
+        ++counts.stuck_ticks;
+        fail("stuck", tick, hand, at, error, counts);
+    }
+    if (unfinished) {
+        return;
+    }
+    counts.error_max = std::max(counts.error_max, error);
+    if (is_short) {
+        ++counts.false_ends;
+        fail("false end", tick, hand, at, error, counts);
     }
 }
 
@@ -389,12 +411,13 @@ std::vector<double> StressCase::play(StressCounts* counts) {
 
 void StressCounts::add(const StressCounts& other) {
     for (std::uint64_t StressCounts::* const figure :
-         {&StressCounts::cases, &StressCounts::ticks, &StressCounts::contact_ticks,
-          &StressCounts::penetrations, &StressCounts::passes, &StressCounts::nans, &StressCounts::stuck_ticks,
-          &StressCounts::false_excuses, &StressCounts::judge_faults, &StressCounts::unfinished_ticks,
+         {&StressCounts::cases,         &StressCounts::ticks,         &StressCounts::contact_ticks,
+          &StressCounts::penetrations,  &StressCounts::passes,        &StressCounts::nans,
+          &StressCounts::stuck_ticks,   &StressCounts::false_ends,    &StressCounts::balanced_ticks,
+          &StressCounts::false_excuses, &StressCounts::judge_faults,  &StressCounts::unfinished_ticks,
           &StressCounts::excused_ticks, &StressCounts::checked_ticks, &StressCounts::friction_ticks,
-          &StressCounts::moving_ticks, &StressCounts::dense_ticks, &StressCounts::deformations,
-          &StressCounts::appearances, &StressCounts::squeezes}) {
+          &StressCounts::moving_ticks,  &StressCounts::dense_ticks,   &StressCounts::deformations,
+          &StressCounts::appearances,   &StressCounts::squeezes}) {
         this->*figure += other.*figure;
     }
     error_max = std::max(error_max, other.error_max);

@@ -23,6 +23,10 @@ struct StressCounts {
     // without having moved by as much in the tick. Checked now and then and whenever the proxy reports to be
     // unfinished.
     std::uint64_t stuck_ticks = 0;
+    // Said to be finished, and as far from that place.
+    std::uint64_t false_ends = 0;
+    // On a crest, where a hair decides which way descent leads: no place is right, none is held against it.
+    std::uint64_t balanced_ticks = 0;
     // Said to be squeezed or let out where nothing moves and nothing has come.
     std::uint64_t false_excuses = 0;
     std::uint64_t judge_faults = 0;      // a bound by which the judge spared itself a look did not hold
@@ -31,7 +35,8 @@ struct StressCounts {
     std::uint64_t checked_ticks = 0;     // held against exact descent
     std::uint64_t friction_ticks = 0, moving_ticks = 0, dense_ticks = 0;
     std::uint64_t deformations = 0, appearances = 0, squeezes = 0;
-    double error_max = 0.0;        // over the checked and finished ticks, over the radius (dimensionless)
+    double error_max =
+        0.0;  // over the checked and finished ticks that do not balance, over the radius (dimensionless)
     double longest_tick_us = 0.0;  // of processor time, 0 where not timed (unit: microseconds)
     std::uint64_t longest_tick_seed = 0;
     std::vector<std::string> failures;  // the first few, each with its seed, tick and numbers

@@ -51,5 +51,18 @@ TEST(ProxyStress, NoTickIsStuck) {
     EXPECT_EQ(counts().stuck_ticks, 0u);
 }
 
+TEST(ProxyStress, WhatIsFinishedIsThere) {
+    EXPECT_EQ(counts().false_ends, 0u) << failures();
+    EXPECT_LT(counts().error_max, 1e-3);
+}
+
+// The hand is in the plane of a row of vertices, to the last bit: the sphere balances on one of them.
+TEST(ProxyStress, OnACrestAHairDecides) {
+    shared::StressCounts crest;
+    shared::run_stress_case(45'083, {.ticks = 410}, crest);
+    EXPECT_EQ(crest.balanced_ticks, 1u);
+    EXPECT_EQ(crest.false_ends, 0u);
+}
+
 }  // namespace
 }  // namespace tactus
