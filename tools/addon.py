@@ -43,9 +43,6 @@ def archive() -> Path:
 def pack(others: list[Platform] | None = None) -> Path:
     """`others`: platforms besides this machine's own, whose libraries are built already."""
     content = contents(others or [])
-    missing = [name for name in _libraries(content["tactus.gdextension"].decode()) if name not in content]
-    if missing:
-        raise RuntimeError(f"not built yet: {', '.join(missing)}. ./run setup builds this machine's, ./run addon --platform=NAME others")
     cache.emptied(STAGE)
     partial = archive().with_suffix(".partial")
     with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as file:
@@ -70,7 +67,10 @@ def contents(others: list[Platform]) -> dict[str, bytes]:
             if complaint := shipped_library.read(library, platform).complaint(platform.system):
                 raise RuntimeError(f"{library.name} {complaint}")
             found[f"bin/{library.name}"] = library.read_bytes()
-    found["tactus.gdextension"] = _description(others).encode()
+    description = _description(others)
+    found["tactus.gdextension"] = description.encode()
+    if missing := [name for name in _libraries(description) if name not in found]:
+        raise RuntimeError(f"not built yet: {', '.join(missing)}. ./run setup builds this machine's, ./run addon --platform=NAME others")
     found["README.md"] = (clone / "docs/addon.md").read_bytes()
     for name in ("LICENSE", "CHANGELOG.md"):
         found[name] = (clone / name).read_bytes()
