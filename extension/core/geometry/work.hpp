@@ -13,7 +13,7 @@ namespace tactus {
 namespace cost {
 constexpr std::int64_t box_node = 6;       // eight boxes, with their place in the queue
 constexpr std::int64_t pack_look = 3;      // distances of four triangles
-constexpr std::int64_t contact_look = 5;   // the same, with their tangents
+constexpr std::int64_t contact_look = 7;   // the same, with their tangents
 constexpr std::int64_t sweep_look = 8;     // the same, and whether they can be met from there on
 constexpr std::int64_t part_look = 1;      // whether a part is in reach at all
 constexpr std::int64_t solid_look = 6;     // distance of a solid

@@ -121,10 +121,13 @@ private:
         Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there
         Vec3 pushed{0.0};
         bool slid = false;
-        bool is_last = false;  // the work is gone: this step is planned, not taken
-        bool touched = false;  // something has held it in this tick
-        bool strays = false;   // the last step was stopped at once, and would be so again: see lift
-        double slope = 0.0;    // by which steps rise from what is touched: see step_over_crowd
+        bool is_last = false;   // the work is gone: this step is planned, not taken
+        bool touched = false;   // something has held it in this tick
+        bool strays = false;    // the last step was stopped at once, and would be so again: see lift
+        bool recalls = false;   // the next step goes by what is in mind: see look_around
+        bool grips = false;     // friction has a say in the last step
+        bool is_stuck = false;  // what stops it at once is a contact already
+        double slope = 0.0;     // by which steps rise from what is touched: see step_over_crowd
     };
 
     void put(const Vec3& place);
@@ -141,6 +144,9 @@ private:
     int carrier() const;
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, ProxyTick& tick);
+    Hit take(ConstrainedStep& step, const Vec3& pull, Descent& descent);
+    void conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
+    bool is_end(const ConstrainedStep& step) const;
     ConstrainedStep plan(const Vec3& pull, Descent& descent);
     void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     void follow_hollow(ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
@@ -149,7 +155,7 @@ private:
     void step_over_crowd(ConstrainedStep& step, const Vec3& pull, double slope) const;
     bool lift(bool strays);
     bool strays(double length) const;
-    void brake(ConstrainedStep& step, double dropped);
+    bool brake(ConstrainedStep& step, double dropped);
     double drop_after(double length, double slope) const;
     double friction_limit(const ConstrainedStep& step, double dropped) const;
     void heed_speed(const ConstrainedStep& step, const Vec3& way);

@@ -48,6 +48,11 @@ bool Proxy::strays(double length) const {
     return length > 64.0 * settings_.radius;
 }
 
+// Nothing holds it back, or nothing is left to go.
+bool Proxy::is_end(const ConstrainedStep& step) const {
+    return step.pressing_count == 0 || glm::length(step.motion) <= tolerances().step;
+}
+
 // How far a step of that length along a surface may end above it: no surface bends more than the sphere
 // itself does, and it rose by no more than `slope`.
 double Proxy::drop_after(double length, double slope) const {
@@ -58,9 +63,16 @@ std::int64_t Proxy::question_share() const {
     return std::max(settings_.max_work / 4, least_question_share);
 }
 
-// False where the work has ended before all was seen.
+// What a step is planned over. False where that is not all there is: the work has ended before, or it is only
+// what is in mind. That does for most steps over fine facets, which the next one stops: the contacts that
+// pressed and the one that stopped it. Where nothing is left to go over them, nothing is over all of them; so
+// the end of the way is asked of all, and what a step over some does not know of stops its sweep.
 bool Proxy::look_around(Descent& descent) {
     WorkBudget& work = surroundings_.work();
+    if (descent.recalls) {
+        surroundings_.recall_contacts(position_, contacts_, descent.beyond);
+        return false;
+    }
     if (descent.slope == 0.0) {
         const WorkShare share(work, question_share());
         surroundings_.find_contacts(position_, contacts_, descent.beyond);
@@ -86,15 +98,47 @@ Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& sto
     return hit;
 }
 
+// Goes where the step leads, and keeps what that shows for the next one.
+Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
+    const bool holds = step.pressing_count > 0;
+    descent.slid = descent.slid || (holds && step.motion != step.drop);
+    const double wanted = glm::length(step.motion);
+    step_over_crowd(step, pull, descent.slope);
+    const Vec3 before = position_;
+    const double slope = descent.slope;
+    FeatureId stopped_by;
+    const Hit hit = advance(step, descent, stopped_by);
+    const double length = glm::distance(before, position_);
+    // Where the work has ended before it moved, they are still those at its place.
+    contacts_hold_ = length == 0.0 && !hit.found && slope == descent.slope && !descent.recalls;
+    const bool stopped_at_once = hit.found && length == 0.0;
+    // How hard each contact presses, which friction goes by, only all of them tell.
+    descent.recalls = hit.found && length > 0.0 && holds && !descent.grips && descent.slope == 0.0;
+    descent.strays = stopped_at_once && strays(wanted);
+    if (hit.found) {
+        ++descent.stops;
+        surroundings_.keep_in_mind(stopped_by);
+    } else {
+        surroundings_.clear_mind();
+    }
+    descent.beyond = drop_after(length, slope);
+    descent.dropped = holds ? descent.beyond : 0.0;
+    descent.last_bent = step.bent ? length : 0.0;
+    // Stopped at once by something that is no contact: it is one now.
+    descent.is_stuck = stopped_at_once && !surroundings_.insist_on(stopped_by, position_);
+    return hit;
+}
+
 void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
     const Vec3 start = position_;
     Descent descent;
     descent.slope = crowd_slope_;
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
-    for (tick.steps = 0; tick.steps < settings_.max_steps; ++tick.steps) {
+    for (tick.steps = 0; tick.steps < settings_.max_steps && !descent.is_stuck; ++tick.steps) {
         descent.is_last = work.is_gone();
         if (descent.is_last) {
+            descent.recalls = false;
             work.open_reserve();
         }
         if (!contacts_hold_) {
@@ -112,60 +156,48 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
             tick.residual = glm::length(pull);
             continue;
         }
+        if (descent.recalls && is_end(step)) {
+            descent.recalls = false;
+            continue;
+        }
         if (step.pressing_count > 0) {
             keep_touching(step);
             descent.touched = true;
         }
-        brake(step, descent.dropped);
+        descent.grips = brake(step, descent.dropped);
         tick.residual = glm::length(is_known ? step.motion : pull);
         if (tick.residual <= tolerances().step || descent.is_last) {
             break;
         }
-        descent.slid = descent.slid || (step.pressing_count > 0 && step.motion != step.drop);
-        step_over_crowd(step, pull, descent.slope);
-        const Vec3 before = position_;
-        const double slope = descent.slope;
-        FeatureId stopped_by;
-        const Hit hit = advance(step, descent, stopped_by);
-        // Where the work has ended before it moved, they are still those at its place.
-        contacts_hold_ = position_ == before && !hit.found && slope == descent.slope;
-        const bool stopped_at_once = hit.found && position_ == before;
-        descent.strays = stopped_at_once && strays(tick.residual);
-        if (hit.found) {
-            ++descent.stops;
-            surroundings_.keep_in_mind(stopped_by);
-        } else {
-            surroundings_.clear_mind();
-        }
-        descent.beyond = drop_after(glm::distance(before, position_), slope);
-        descent.dropped = step.pressing_count > 0 ? descent.beyond : 0.0;
-        descent.last_bent = step.bent ? glm::distance(before, position_) : 0.0;
+        const Hit hit = take(step, pull, descent);
         if (hit.is_free() && step.pressing_count == 0) {
             position_ = hand;
             ++tick.steps;
             tick.residual = 0.0;
             break;
         }
-        // Stopped at once by something that is no contact: it is one now.
-        if (stopped_at_once && !surroundings_.insist_on(stopped_by, position_)) {
-            break;
-        }
     }
-    const bool is_held = tick.residual > tolerances().step &&
-                         glm::distance(position_, start) < least_progress * settings_.radius;
-    crowd_slope_ = is_held ? descent.slope : 0.0;
+    conclude(start, step, descent, tick);
+}
+
+// What the tick leaves to the next one, and says.
+void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent,
+                     ProxyTick& tick) {
+    const bool is_unfinished = tick.residual > tolerances().step;
+    const double way = glm::distance(position_, start);
+    crowd_slope_ = is_unfinished && way < least_progress * settings_.radius ? descent.slope : 0.0;
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
     // Where the work has ended before what holds it was seen again, that still does; also what held it a tick
     // ago, where it is not far from there or steps over a crowd.
-    const bool unseen = descent.is_last && tick.residual > tolerances().step;
-    const bool is_near = glm::distance(position_, start) <= 0.01 * settings_.radius;
+    const bool unseen = descent.is_last && is_unfinished;
+    const bool is_near = way <= 0.01 * settings_.radius;
     if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near || descent.slope > 0.0))) {
         touching_.clear();
     }
     tick.slide = step.pressing_count > 0 ? step.slide : Vec3(0.0);
-    if (tick.residual > tolerances().step) {
+    if (is_unfinished) {
         tick.status |= proxy_unfinished;
     }
 }

@@ -153,12 +153,12 @@ void Proxy::heed_speed(const ConstrainedStep& step, const Vec3& way) {
     slide_speed_ += (speed - slide_speed_) * (0.5 * seconds_ / std::max(fall, seconds_));
 }
 
-// What friction leaves of a step. It has no say in how far down the surface is.
-void Proxy::brake(ConstrainedStep& step, double dropped) {
+// What friction leaves of a step. It has no say in how far down the surface is. False where there is none.
+bool Proxy::brake(ConstrainedStep& step, double dropped) {
     const double limit = friction_limit(step, dropped);
     const double slide = glm::length(step.slide);
     if (limit <= 0.0 || slide <= 0.0) {
-        return;
+        return limit > 0.0;
     }
     double left = std::max(0.0, slide - limit);
     if (left > tolerances().step && !sliding_) {
@@ -166,6 +166,7 @@ void Proxy::brake(ConstrainedStep& step, double dropped) {
         left = std::max(0.0, slide - friction_limit(step, dropped));
     }
     step.motion = step.drop + (step.motion - step.drop) * (left / slide);
+    return true;
 }
 
 }  // namespace tactus

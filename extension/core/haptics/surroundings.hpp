@@ -33,6 +33,8 @@ public:
     // Contacts around the centre: those within reach of rest, or of the nearest surface where that is up to
     // `beyond` above rest.
     void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0);
+    // The same of what is in mind alone.
+    void recall_contacts(const Vec3& center, ContactList& out, double beyond);
 
     // One contact for each part up to that gap: as near as any to 1e-4 of the radius. Where thousands of
     // triangles are about as near, to find them all takes longer than a tick, to find such a one does not.

@@ -44,6 +44,19 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
     add_insisted(center, out);
 }
 
+void Surroundings::recall_contacts(const Vec3& center, ContactList& out, double beyond) {
+    out.clear();
+    saw_all_ = false;
+    const ContactLook look = look_from(center);
+    for (std::size_t i = 0; i < in_mind_count_; ++i) {
+        const Contact contact = look.exact_contact(in_mind_[i]);
+        if (contact.gap <= tolerances().reach + beyond) {
+            out.add(contact);
+        }
+    }
+    add_insisted(center, out);
+}
+
 void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, ContactList& out) {
     constexpr double share = 1.0 - 1e-4;
     out.clear();

@@ -137,6 +137,22 @@ TEST(ProxyBudget, WithLittleWorkTheForceDoesNotFlicker) {
     EXPECT_GT(unfinished, 100);
 }
 
+// A step that the next facet stops goes on from what is known: the work does for more of them.
+TEST(ProxyBudget, FacetAfterFacetContactsAreNotSoughtAnew) {
+    constexpr double radius = 0.05;
+    TouchRig rig(radius);
+    rig.add(rough_sphere(7, 0.5, 0.3));
+    rig.draw({0.6, 0.0, 0.0}, {0.5, 0.0, 0.0}, 400);
+    limit_work(rig, 6'000);
+    int unfinished = 0;
+    for (int i = 1; i <= 1'000; ++i) {
+        const double angle = 0.01 * i;
+        const ProxyTick tick = rig.tick(0.5 * Vec3(std::cos(angle), std::sin(angle), 0.0));
+        unfinished += (tick.status & proxy_unfinished) != 0;
+    }
+    EXPECT_LT(unfinished, 100);
+}
+
 // Wherever the work ends, a tick that calls itself finished is where exact descent ends.
 TEST(ProxyBudget, WithLittleWorkNoTickIsCalledFinishedThatIsNot) {
     constexpr double radius = 0.05;
