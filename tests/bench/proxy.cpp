@@ -2,6 +2,7 @@
 // sweep of Bullet over the same segments; its kernels, each alone; and what it does on rough meshes.
 //
 //     proxy [--only=PATTERN] [--most=1310720] [--ticks=N] [--rounds=5] [--checks=N] [--replays=3] [--work=N]
+//           [--whole]
 //     proxy --mesh=FILE.obj --hip=FILE.csv --radius=R [--static-friction=F --dynamic-friction=F]
 //     [--two-sided]
 //           --trace=OUT.csv
@@ -10,6 +11,9 @@
 // 'rough_*_r0.2_walk'. The second form replays a hand path (x,y,z a line, one line a tick) over any mesh,
 // with stiffness 1. Meshes are touched from both sides with and without --two-sided, which is there so that
 // the same command line may serve engines that tell the difference.
+//
+// Rough meshes are touched as in a world: through what the sphere can touch of them; with --whole through all
+// of their triangles, as in the first seconds of a large one and while it deforms.
 //
 // Times are those of one whole tick (motion and force) on one processor. Even meshes: of several rounds, of
 // the proxy and of the others' queries in turn, the median counts. Rough meshes: each tick the least of three
@@ -39,6 +43,7 @@ int measure_all(shared::Options& options) {
     rough.checks = static_cast<int>(options.number("checks", rough.checks));
     rough.replays = static_cast<int>(options.number("replays", rough.replays));
     rough.max_work = static_cast<std::int64_t>(options.number("work", static_cast<double>(rough.max_work)));
+    rough.narrowed = !options.has("whole");
     rough.max_triangles = static_cast<int>(options.number("most", rough.max_triangles));
     if (!options.understood() || even.ticks < 1 || rough.ticks < 1 || even.rounds < 1 || rough.replays < 1) {
         return 2;

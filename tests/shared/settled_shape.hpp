@@ -13,6 +13,9 @@ inline void settle(const TouchShape& shape) {
         if (const TriangleTree* const tree = part.tree()) {
             std::ranges::for_each(tree->memory(), move_to_large_pages);
         }
+        if (part.touchable) {
+            std::ranges::for_each(part.touchable->tree.memory(), move_to_large_pages);
+        }
     }
 }
 

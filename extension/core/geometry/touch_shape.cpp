@@ -139,6 +139,19 @@ bool is_deformation(const TouchShape& from, const TouchShape& to) {
     });
 }
 
+std::shared_ptr<const TouchShape> narrowed(const TouchShape& shape, double radius,
+                                           const ParallelRunner& run) {
+    auto result = std::make_shared<TouchShape>(shape);
+    bool is_narrower = false;
+    for (TouchPart& part : result->parts) {
+        if (part.tree()) {
+            part.touchable = touchable_triangles(*part.tree(), touchable_share * radius, run);
+            is_narrower = is_narrower || part.touchable != nullptr;
+        }
+    }
+    return is_narrower ? result : nullptr;
+}
+
 TriangleMesh height_field_mesh(const HeightFieldShape& field) {
     TriangleMesh mesh;
     mesh.vertices.reserve(std::size_t{field.columns} * field.rows);

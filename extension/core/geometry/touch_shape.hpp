@@ -11,6 +11,7 @@
 #include "core/geometry/shape.hpp"
 #include "core/geometry/smooth_normals.hpp"
 #include "core/geometry/solid.hpp"
+#include "core/geometry/touchable.hpp"
 #include "core/geometry/triangle_tree.hpp"
 
 namespace tactus {
@@ -26,10 +27,15 @@ struct TouchPart {
     bool one_sided = false;  // of closed meshes: touched from outside only; what is inside is let out
     std::shared_ptr<const SurfaceMap> surfaces =
         nullptr;  // null: the body's material is that of every triangle
+    std::shared_ptr<const TouchableTriangles> touchable = nullptr;  // null: all triangles may be touched
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);
         return shared ? shared->get() : nullptr;
+    }
+    // What such a sphere has to be kept clear of, wherever it fits (see touchable.hpp).
+    const TriangleTree* tree_for(double sphere_radius) const {
+        return touchable && sphere_radius >= touchable->radius ? &touchable->tree : tree();
     }
     const Solid& solid() const { return *std::get_if<Solid>(&surface); }
 };
@@ -56,6 +62,11 @@ struct TouchShapeResult {
 // Refuses an empty list, sizes that are not positive finite numbers and meshes that check_mesh refuses.
 TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes,
                                   const ParallelRunner& run = run_serially);
+
+// The same for spheres of that radius (unit: meters), and larger ones: what they can touch of each mesh stands
+// in a tree of its own. To touch it is the same, sooner. Null where that is of no use.
+std::shared_ptr<const TouchShape> narrowed(const TouchShape& shape, double radius,
+                                           const ParallelRunner& run = run_serially);
 
 // The surface of a height field as triangles, counter-clockwise from above; each cell is cut from its corner
 // (column + 1, row) to (column, row + 1), as Godot's is.

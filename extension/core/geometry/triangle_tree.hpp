@@ -119,6 +119,13 @@ public:
     // Which triangles of the mesh stand in the lanes of a pack.
     const PackIds& triangle_ids(std::uint32_t pack) const { return ids_[pack]; }
 
+    // triangle_at() gives `names` by the triangles of the mesh from now on.
+    void name_triangles(std::span<const std::uint32_t> names) {
+        for (PackIds& ids : ids_) {
+            std::ranges::transform(ids, ids.begin(), [&](std::uint32_t id) { return names[id]; });
+        }
+    }
+
     std::size_t pack_count() const { return ids_.size(); }
     std::size_t triangle_count() const { return triangle_count_; }
     std::size_t bytes() const;

@@ -37,7 +37,7 @@ BroadPhase::BroadPhase(std::size_t max_parts) : records_(max_parts) {
 }
 
 bool BroadPhase::begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask) {
-    const bool changed = take_in_changes(scene, center, radius, mask);
+    has_forgotten_ = take_in_changes(scene, center, radius, mask);
     pace_ = std::max(odometer_ - odometer_at_tick_, 0.8 * pace_);
     odometer_at_tick_ = odometer_;
     last_way_ = center - center_at_tick_;
@@ -45,7 +45,7 @@ bool BroadPhase::begin_tick(const TouchScene& scene, const Vec3& center, double 
     follow_moved_bodies();
     retire_distant_parts();
     check_theorem(center);
-    return changed || !scene.moved_bodies().empty();
+    return has_forgotten_ || !scene.moved_bodies().empty();
 }
 
 bool BroadPhase::take_in_changes(const TouchScene& scene, const Vec3& center, double radius,

@@ -26,6 +26,9 @@ public:
     // nothing that it remembers has become void.
     bool begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask);
 
+    // Whether something that it remembers has become void in this tick: bodies have come, gone or changed.
+    bool has_forgotten() const { return has_forgotten_; }
+
     // The sphere has moved by `length`.
     void travelled(double length) { odometer_ += length; }
     // The sphere has been put elsewhere, `length` away.
@@ -97,6 +100,7 @@ private:
     void check_theorem(const Vec3& center) const;
 
     const TouchScene* scene_ = nullptr;
+    bool has_forgotten_ = false;
     std::uint64_t revision_ = 0;
     std::uint64_t ticks_ = 0;
     std::uint32_t mask_ = 0;

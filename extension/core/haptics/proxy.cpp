@@ -156,6 +156,7 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand, double se
     const Vec3 before = position_;
     tick.jumped = take_in_jumps();
     if (present_) {
+        surroundings_.make_sure(position_);
         ride_along(tick);
     }
     const double ridden = glm::distance(position_, before);
@@ -167,6 +168,7 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand, double se
     }
     const bool appears = !present_ && appear();
     if (present_) {
+        surroundings_.make_sure(position_);
         follow(hand_, given_way, changed, tick);
     }
     // The work may have ended before it was lifted out of what it begins too deep in: it begins later, then.

@@ -200,6 +200,7 @@ void Proxy::ride_along(ProxyTick& tick) {
         squeezed = squeezed || !free;
     }
     if (squeezed) {
+        surroundings_.doubt();
         tick.status |= proxy_squeezed;
         const std::size_t before = surroundings_.passed().count();
         let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work()));

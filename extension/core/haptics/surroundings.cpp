@@ -30,6 +30,7 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     in_mind_count_ = 0;
     ++ticks_;
     const bool changed = broad_phase_.begin_tick(scene, center, radius, mask);
+    is_sure_ = is_sure_ && !broad_phase_.has_forgotten();
     const bool passes = !passed_.empty();
     if (changed || passes) {
         insisted_count_ = 0;
@@ -45,6 +46,36 @@ bool Surroundings::counts(std::uint32_t part, double length, int except) const {
            !passed_.contains(static_cast<int>(body));
 }
 
+// The one that questions go to: of all triangles, or of those that the sphere can touch.
+const TriangleTree& Surroundings::tree_of(std::uint32_t index) const {
+    const TouchPart& part = *scene_->parts()[index].part;
+    return is_sure_ ? *part.tree_for(radius_) : *part.tree();
+}
+
+std::uint32_t Surroundings::slot_in_whole(std::uint32_t part, std::uint32_t slot) const {
+    const TriangleTree& tree = tree_of(part);
+    return &tree == scene_->parts()[part].part->tree() ? slot : tree.triangle_at(slot);
+}
+
+bool Surroundings::fits(std::uint32_t index, const Vec3& center) {
+    const ScenePart& placed = scene_->parts()[index];
+    const TriangleTree* const whole = placed.part->tree();
+    if (whole == placed.part->tree_for(radius_) || !counts(index, 0.0, -1)) {
+        return true;
+    }
+    const double room = touchable_share * radius_;
+    const NearestTriangle nearest = whole->nearest(to_local(placed.pose, center), room, work_, room);
+    return nearest.complete && nearest.distance >= room;
+}
+
+void Surroundings::make_sure(const Vec3& center) {
+    if (!is_sure_) {
+        broad_phase_.bring_near(0.0, center, work_);
+        is_sure_ = std::ranges::all_of(broad_phase_.near(),
+                                       [&](std::uint32_t part) { return fits(part, center); });
+    }
+}
+
 // Who has a part's memory: its own, or the one that was least recently used.
 Surroundings::Owner& Surroundings::owner_of(std::uint32_t part) {
     const std::uint32_t stamp = broad_phase_.stamp(part);
@@ -53,9 +84,12 @@ Surroundings::Owner& Surroundings::owner_of(std::uint32_t part) {
     if (owner == owners_.end()) {
         owner = std::ranges::min_element(owners_, {}, &Owner::used_at);
         *owner = {part, stamp};
-        memories_[static_cast<std::size_t>(owner - owners_.begin())].clear();
     }
     owner->used_at = ticks_;
+    if (const TriangleTree* const tree = &tree_of(part); owner->tree != tree) {
+        owner->tree = tree;
+        memories_[static_cast<std::size_t>(owner - owners_.begin())].clear();
+    }
     return *owner;
 }
 
@@ -78,7 +112,7 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, 
         const double margin = wanted_margin();
         const double ahead = length > tolerances().reach ? ahead_share * margin : 0.0;
         const Vec3 heading = direction_to_local(placed.pose, last_way / std::max(length, 1e-300));
-        memory.gather(*placed.part->tree(), local + heading * ahead, needed + 2.0 * margin, ahead,
+        memory.gather(tree_of(index), local + heading * ahead, needed + 2.0 * margin, ahead,
                       broad_phase_.reading(index), work_);
     }
     if (memory.covered_around(local) < needed) {
@@ -96,7 +130,7 @@ bool Surroundings::is_clear(double length) const {
 
 // What is remembered answers for a way as far as it covers it, the tree itself for a long one.
 Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double limit) {
-    const TriangleTree& tree = *scene_->parts()[index].part->tree();
+    const TriangleTree& tree = tree_of(index);
     const double length = glm::length(way.motion) * limit;
     if (PackMemory* const memory = memory_around(index, way.start, std::min(length, wanted_margin()))) {
         const double known = memory->covered_share(way.start, way.motion, way.distance + way.slack);
@@ -123,7 +157,8 @@ Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopp
                                             : sweep_surface(*placed.part, way, first.t, work_);
         if (!hit.is_free()) {
             first = hit;
-            stopped_by = {part, hit.triangle};
+            const bool is_triangle = placed.part->tree() && hit.triangle != Hit::no_triangle;
+            stopped_by = {part, is_triangle ? slot_in_whole(part, hit.triangle) : hit.triangle};
         }
     }
     return first;
@@ -141,7 +176,8 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
         const Vec3 before = to_local(placed.previous, center);
         const SphereWay way{before, to_local(placed.pose, center) - before, radius_ + tolerances().stop,
                             tolerances().arrival};
-        const Hit hit = sweep_surface(*placed.part, way, 1.0, work_);
+        const Hit hit = placed.part->tree() ? tree_of(part).sweep(way, 1.0, work_)
+                                            : sweep_surface(*placed.part, way, 1.0, work_);
         if (!hit.is_free()) {
             push = {static_cast<int>(placed.body),
                     to_parent(placed.pose, before + way.motion * hit.t) - center};

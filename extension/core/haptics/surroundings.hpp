@@ -25,7 +25,17 @@ public:
                     const WorkBudget& work);
 
     void travelled(double length) { broad_phase_.travelled(length); }
-    void jumped(double length) { broad_phase_.jumped(length); }
+    void jumped(double length) {
+        broad_phase_.jumped(length);
+        doubt();
+    }
+
+    // Where the sphere fits, what it can touch of a mesh answers for all of it (touchable.hpp). Sweeps and
+    // moving bodies that push it ahead never bring it nearer to a surface than it rests; whatever else may
+    // have is said here. Then it is asked once, of the whole mesh; as long as it does not fit, all questions
+    // are.
+    void doubt() { is_sure_ = false; }
+    void make_sure(const Vec3& center);
 
     // True where nothing can be met within `length` of the centre, as far as is already known.
     bool is_clear(double length) const;
@@ -97,10 +107,14 @@ private:
         std::uint32_t stamp = 0;       // of the part, when it was asked; another: the memory is void
         std::uint64_t used_at = 0;     // tick
         std::uint64_t crowded_at = 0;  // tick in which more were near than it holds
+        const TriangleTree* tree = nullptr;
     };
 
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
+    const TriangleTree& tree_of(std::uint32_t part) const;
+    std::uint32_t slot_in_whole(std::uint32_t part, std::uint32_t slot) const;
+    bool fits(std::uint32_t part, const Vec3& center);
     Owner& owner_of(std::uint32_t part);
     double wanted_margin() const;
     PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way);
@@ -117,6 +131,7 @@ private:
     BroadPhase broad_phase_;
     WorkBudget work_{0};
     bool saw_all_ = true;
+    bool is_sure_ = false;  // no triangle is nearer than touchable_share of the radius
     std::uint64_t ticks_ = 0;
     PassedBodies passed_;
     std::array<FeatureId, max_in_mind> in_mind_{};

@@ -68,17 +68,18 @@ void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, Con
             continue;
         }
         FeatureId feature{part};
-        if (const TriangleTree* const tree = scene_->parts()[part].part->tree()) {
+        if (scene_->parts()[part].part->tree()) {
+            const TriangleTree& tree = tree_of(part);
             const Vec3 local = to_local(scene_->parts()[part].pose, center);
             const double far = rest() + max_gap;
-            const NearestTriangle nearest = tree->nearly_nearest(local, far, share, work_);
+            const NearestTriangle nearest = tree.nearly_nearest(local, far, share, work_);
             if (nearest.distance >= far) {
                 continue;
             }
-            const Lanes squared = offset_from_triangles(tree->pack(nearest.pack), splat(local)).squared;
+            const Lanes squared = offset_from_triangles(tree.pack(nearest.pack), splat(local)).squared;
             const unsigned lanes = lane_bits(squared <= splat(smallest(squared)));
-            feature.triangle =
-                nearest.pack * lane_count + static_cast<std::uint32_t>(std::countr_zero(lanes));
+            feature.triangle = slot_in_whole(
+                part, nearest.pack * lane_count + static_cast<std::uint32_t>(std::countr_zero(lanes)));
         }
         if (const Contact contact = look.exact_contact(feature); contact.gap <= max_gap) {
             out.add(contact);
@@ -106,7 +107,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, do
 void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double& limit,
                                       ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
-    const TriangleTree& tree = *placed.part->tree();
+    const TriangleTree& tree = tree_of(index);
     const int first_count = out.list().count;
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t last_id = Hit::no_triangle;
@@ -120,7 +121,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
                 last_id = id;
                 const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
-                add_seen({normal, distances[k] - rest(), {index, slot}, ContactState::seen}, limit, out);
+                const FeatureId feature{index, slot_in_whole(index, slot)};
+                add_seen({normal, distances[k] - rest(), feature, ContactState::seen}, limit, out);
             }
         }
     };

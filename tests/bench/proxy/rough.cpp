@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <memory>
 #include <numeric>
 
@@ -260,6 +261,44 @@ void tell_total(const Total& total, shared::Report& report) {
         v.p95, v.p99, v.max, v.other_replays);
 }
 
+// A mesh as spheres of each radius touch it in a world.
+class NarrowedShapes {
+public:
+    NarrowedShapes(const shared::SpanClock& clock, std::shared_ptr<const TouchShape> whole, std::string name,
+                   bool is_asked_for)
+        : clock_(clock), whole_(std::move(whole)), name_(std::move(name)), is_asked_for_(is_asked_for) {}
+
+    const std::shared_ptr<const TouchShape>& get(double radius, shared::Report& report) {
+        if (!is_asked_for_) {
+            return whole_;
+        }
+        const auto [at, is_new] = by_radius_.try_emplace(radius, whole_);
+        if (is_new) {
+            const std::uint64_t start = clock_.now();
+            if (auto shape = narrowed(*whole_, radius, shared::run_on_two_threads)) {
+                at->second = std::move(shape);
+            }
+            const double milliseconds = 1e-6 * clock_.nanoseconds(start, clock_.now());
+            shared::settle(*at->second);
+            const TouchPart& part = at->second->parts.front();
+            const double all = static_cast<double>(part.tree()->triangle_count());
+            char key[16];
+            std::snprintf(key, sizeof key, "_r%g", radius);
+            report.set(name_ + key + ".touchable_share",
+                       part.touchable ? static_cast<double>(part.touchable->tree.triangle_count()) / all : 1.0);
+            report.set(name_ + key + ".narrowing_ms", milliseconds);
+        }
+        return at->second;
+    }
+
+private:
+    const shared::SpanClock& clock_;
+    std::shared_ptr<const TouchShape> whole_;
+    std::string name_;
+    bool is_asked_for_;
+    std::map<double, std::shared_ptr<const TouchShape>> by_radius_;
+};
+
 std::string case_name(const std::string& mesh, double radius, const char* path) {
     char text[64];
     std::snprintf(text, sizeof text, "_r%g_", radius);
@@ -299,10 +338,12 @@ void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings
         const std::shared_ptr<const TouchShape> shape =
             make_touch_shape({&placed, 1}, shared::run_on_two_threads).shape;
         shared::settle(*shape);
+        NarrowedShapes shapes(clock, shape, mesh_name, settings.narrowed);
         for (const auto& [radius, path] : chosen) {
             Verdict verdict;
             const std::vector<Vec3> way = path->make(tree, radius, settings.ticks);
-            const std::vector<Played> ticks = play(clock, shape, radius, way, settings, verdict);
+            const std::vector<Played> ticks =
+                play(clock, shapes.get(radius, report), radius, way, settings, verdict);
             judge_times(ticks, verdict);
             judge_places(ticks, tree, radius, verdict);
             judge_ends(ticks, tree, radius, settings.checks, verdict);

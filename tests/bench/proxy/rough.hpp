@@ -16,9 +16,11 @@ struct RoughSettings {
     std::int64_t max_work = ProxySettings{}.max_work;  // of a tick, see WorkBudget
     int checks = 48;  // finished ticks in contact held against exact descent, a case; unfinished ones besides
     int max_triangles = 3'000'000;
+    // As worlds touch large meshes: through what a sphere of that radius can touch of them (narrowed()).
+    bool narrowed = true;
 };
 
-// Sets rough_NAME_TRIANGLES_rR_PATH.* and, over all of them, rough.*.
+// Sets rough_NAME_TRIANGLES_rR_PATH.*, rough_NAME_TRIANGLES_rR.* and, over all of them, rough.*.
 void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings, shared::Report& report);
 
 }  // namespace tactus::bench

@@ -1,0 +1,28 @@
+// The triangles of a tree as a mesh whose corners are shared wherever they are at the same place.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/geometry/triangle_mesh.hpp"
+#include "core/geometry/triangle_tree.hpp"
+
+namespace tactus {
+
+// In the tree's order, so that neighbours mostly follow each other.
+struct SharedMesh {
+    TriangleMesh mesh;                  // an index is that of the first vertex at its place
+    std::vector<std::uint32_t> slots;   // of the tree, by triangle
+    std::vector<std::uint32_t> around;  // triangles at each place, one place after the other
+    std::vector<std::uint32_t> begin;   // where those of a place begin, by vertex; and the end
+    double rounding = 0.0;              // of a difference of two corners (unit: meters)
+
+    explicit SharedMesh(const TriangleTree& tree);
+
+    const Vec3& place(std::uint32_t vertex) const { return mesh.vertices[vertex]; }
+    std::span<const std::uint32_t> triangles_at(std::uint32_t vertex) const {
+        return std::span(around).subspan(begin[vertex], begin[vertex + 1] - begin[vertex]);
+    }
+};
+
+}  // namespace tactus
