@@ -56,7 +56,8 @@ bool EmptyBall::is_in_all(const Vec3& point, const TouchPatch& patch) const {
     for (std::size_t i = 0; i < static_cast<std::size_t>(patch.place_count); ++i) {
         const Vec3 way = point - patch.places[i];
         const double squared = glm::dot(way, way);
-        const double least = squared * (1.0 + margin) / (2.0 * radius_) + patch.doubt * std::sqrt(squared);
+        const double least =
+            squared * (1.0 + margin) / (2.0 * radius_) + patch.doubt * std::sqrt(squared) + rounding_;
         for (std::size_t k = 0; k < static_cast<std::size_t>(patch.direction_count); ++k) {
             if (!(glm::dot(patch.directions[k], way) > least)) {
                 return false;
@@ -67,7 +68,7 @@ bool EmptyBall::is_in_all(const Vec3& point, const TouchPatch& patch) const {
 }
 
 // The deepest in the ball, or one that is nearly so.
-bool EmptyBall::find_inside(const Vec3& center, Vec3& point) {
+bool EmptyBall::find_inside(const Vec3& center, Vec3& point) const {
     const double far = radius_ * (1.0 - margin);
     WorkBudget work(work_a_look);
     const NearestTriangle nearest = tree_.nearest(center, far, work);
@@ -77,10 +78,18 @@ bool EmptyBall::find_inside(const Vec3& center, Vec3& point) {
     const PackOffset offset = offset_from_triangles(tree_.pack(nearest.pack), splat(center));
     const unsigned least = lane_bits(offset.squared <= splat(smallest(offset.squared)));
     point = center - lane(offset.offset, std::countr_zero(least));
+    return true;
+}
+
+void EmptyBall::remember(const Vec3& point) {
+    const auto known = found_.begin() + static_cast<std::ptrdiff_t>(found_count_);
+    if (std::any_of(found_.begin(), known,
+                    [&](const Vec3& other) { return glm::distance(other, point) <= rounding_; })) {
+        return;
+    }
     found_[next_] = point;
     next_ = (next_ + 1) % found_.size();
     found_count_ = std::max(found_count_, next_ == 0 ? found_.size() : next_);
-    return true;
 }
 
 bool EmptyBall::holds_some(const TouchPatch& patch, int& looks) {
@@ -98,6 +107,7 @@ bool EmptyBall::holds_some(const TouchPatch& patch, int& looks) {
     if (!find_inside(middle + direction * (radius_ / length), inside)) {
         return false;
     }
+    remember(inside);
     TouchPatch first = patch;
     TouchPatch second = patch;
     return is_in_all(inside, patch) ||

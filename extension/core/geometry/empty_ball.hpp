@@ -31,7 +31,8 @@ struct TouchPatch {
 // it. Where one does not do, the patch is cut in two.
 class EmptyBall {
 public:
-    EmptyBall(const TriangleTree& tree, double radius) : tree_(tree), radius_(radius) {}
+    EmptyBall(const TriangleTree& tree, double radius)
+        : tree_(tree), radius_(radius), rounding_(0x1p-49 * tree.magnitude()) {}
 
     // False where every ball of the patch holds some of the mesh. True where one may not.
     bool may_touch(const TouchPatch& patch);
@@ -39,11 +40,13 @@ public:
 private:
     bool holds_some(const TouchPatch& patch, int& looks);
     bool is_in_all(const Vec3& point, const TouchPatch& patch) const;
-    bool find_inside(const Vec3& center, Vec3& point);
+    bool find_inside(const Vec3& center, Vec3& point) const;
+    void remember(const Vec3& point);
     bool cut(const TouchPatch& patch, TouchPatch& first, TouchPatch& second) const;
 
     const TriangleTree& tree_;
     double radius_;
+    double rounding_;            // of a point of the mesh: one within it is p itself (unit: meters)
     std::array<Vec3, 8> found_;  // points that lay in balls before: mostly in those beside them, too
     std::size_t found_count_ = 0, next_ = 0;
 };

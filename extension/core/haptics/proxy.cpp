@@ -13,11 +13,6 @@ namespace tactus {
 
 namespace {
 
-// A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
-// of it, where the hand is as deep as that below the bend's axis. What goes farther has slipped: off an edge
-// that does not hold it, out of static friction, or on from where the work of the last tick had ended.
-constexpr double max_sensitivity = 4.0;
-
 // What throws the proxy farther than its radius, and than this, within a tick goes by faster than a hand can
 // feel it come: its force fades in (unit: meters).
 constexpr double max_ride = 0.01;
@@ -125,8 +120,9 @@ void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& 
     }
     if (fly(hand)) {
         touching_.clear();
+        residual_ = 0.0;
     } else {
-        descend(hand, tick);
+        descend(hand, given_way, tick);
     }
     const bool touches = touching_.count > 0;
     const bool slipped = (touched || touches) &&

@@ -57,7 +57,13 @@ struct ProxyMemory {
     TouchList touching;
     double slide_speed = 0.0;  // (unit: meters per second)
     double crowd_slope = 0.0;
+    double residual = 0.0;  // (unit: meters)
 };
+
+// A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
+// of it, where the hand is as deep as that below the bend's axis. What goes farther has slipped: off an edge
+// that does not hold it, out of static friction, or on from where the work of the last tick had ended.
+constexpr double max_sensitivity = 4.0;
 
 class Proxy {
 public:
@@ -80,7 +86,8 @@ public:
     void go_along(const Vec3& offset, int body);
     // The proxy as it was, to move it again from there.
     ProxyMemory memory() const {
-        return {position_, present_, sliding_, overlaps_, hand_, touching_, slide_speed_, crowd_slope_};
+        return {position_, present_,     sliding_,     overlaps_, hand_,
+                touching_, slide_speed_, crowd_slope_, residual_};
     }
     void recall(const ProxyMemory& memory) {
         put(memory.position);
@@ -91,6 +98,7 @@ public:
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
         crowd_slope_ = memory.crowd_slope;
+        residual_ = memory.residual;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -114,6 +122,7 @@ private:
         double beyond = 0.0;   // how far above a surface the last step may have ended (unit: meters)
         double dropped = 0.0;  // the same, where it led along one
         double trust = std::numeric_limits<double>::infinity();  // see bend_step (unit: meters)
+        double foreseen = std::numeric_limits<double>::infinity();  // see follow_hill (unit: meters)
         double last_bent = 0.0;  // length of the last bent step (unit: meters)
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
@@ -143,13 +152,16 @@ private:
     Hit advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by);
     int carrier() const;
     bool fly(const Vec3& hand);
-    void descend(const Vec3& hand, ProxyTick& tick);
+    void descend(const Vec3& hand, double given_way, ProxyTick& tick);
     Hit take(ConstrainedStep& step, const Vec3& pull, Descent& descent);
     void conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
     bool is_end(const ConstrainedStep& step) const;
     ConstrainedStep plan(const Vec3& pull, Descent& descent);
     void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
-    void follow_hollow(ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
+    void follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
+    void follow_hollow(ConstrainedStep& step, double newton, double bend, const Vec3& normal, double way,
+                       double trust) const;
+    void follow_hill(ConstrainedStep& step, double newton, double way, Descent& descent) const;
     std::int64_t question_share() const;
     bool look_around(Descent& descent);
     void step_over_crowd(ConstrainedStep& step, const Vec3& pull, double slope) const;
@@ -171,6 +183,7 @@ private:
     double seconds_ = 0.001;    // of this tick
     double slide_speed_ = 0.0;  // that friction goes by, see friction.hpp (unit: meters per second)
     double crowd_slope_ = 0.0;  // the next tick's first, where a crowd has held it in the last: see Descent
+    double residual_ = 0.0;     // of the last tick (unit: meters)
     Vec3 hand_{0.0};            // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_

@@ -8,6 +8,8 @@ namespace tactus {
 
 namespace {
 
+// Of the radius. Where the hand rests, bent steps are still of use.
+constexpr double least_trust = 1e-6;
 // No question of the surroundings takes more than a quarter of a tick's work, or than three usual ones take:
 // one that would is asked in another way (see step_over_crowd).
 constexpr std::int64_t least_question_share = 1'000;
@@ -129,10 +131,12 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     return hit;
 }
 
-void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
+// A bent step is believed in at first as far as a proxy follows its hand, and what the last tick has left.
+void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
     const Vec3 start = position_;
     Descent descent;
     descent.slope = crowd_slope_;
+    descent.trust = std::max(max_sensitivity * (given_way + residual_), least_trust * settings_.radius);
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
     for (tick.steps = 0; tick.steps < settings_.max_steps && !descent.is_stuck; ++tick.steps) {
@@ -178,6 +182,7 @@ void Proxy::descend(const Vec3& hand, ProxyTick& tick) {
         }
     }
     conclude(start, step, descent, tick);
+    residual_ = tick.residual;
 }
 
 // What the tick leaves to the next one, and says.

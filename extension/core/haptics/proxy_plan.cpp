@@ -45,7 +45,7 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
         return step;
     }
     doubt(step, pull, descent);
-    follow_hollow(step, pull, descent);
+    follow_whole(step, pull, descent);
     if (step.bent || is_flat || step.pressing_count == TouchList::capacity) {
         return step;
     }
@@ -54,7 +54,7 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     };
     const Curvature curvatures[] = {curvature(0), curvature(1)};
     bend_step(step, pull, contacts_, {curvatures, static_cast<std::size_t>(step.pressing_count)},
-              tolerances().same, descent.trust);
+              tolerances().same, std::min(descent.trust, descent.foreseen));
     return step;
 }
 
@@ -71,32 +71,54 @@ void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descen
     }
 }
 
-// A hollow of many small facets would stop the sphere at each of them. What pushes it out turns against its
-// way there: where that has turned by an angle on the last way, it is the curvature of the hollow, and a
-// Newton step on the Lagrangian is the slide over 1 + pressure * curvature. It ends as far above the facets
-// as the hollow rises on the way; they are found below it then. Of use where it goes farther than a few
-// facets.
-void Proxy::follow_hollow(ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
+// A surface of many small facets bends as a whole otherwise than any of them. What pushes the sphere out turns
+// on its way there: by how much on the last way is the bend of the whole along the slide (unit: 1/meters,
+// above 0 on a hill), and a Newton step on the Lagrangian is the slide over 1 - pressure * bend.
+void Proxy::follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     const Vec3 push = step.drop + step.slide - pull;
     const double pressure = glm::length(push);
     const Vec3 normal = push / std::max(pressure, 1e-300);
     const Vec3 turned = normal - std::exchange(descent.pushed, normal);
-    const double way = glm::distance(position_, std::exchange(descent.began, position_));
+    const Vec3 moved = position_ - std::exchange(descent.began, position_);
+    const double way = glm::length(moved);
     const double slide = glm::length(step.slide);
-    if (descent.stops < 2 || way <= 0.0 || slide <= 0.0) {
+    descent.foreseen = std::numeric_limits<double>::infinity();
+    if (way <= 0.0 || slide <= 0.0) {
         return;
     }
     const Vec3 along = step.slide / slide;
-    const double curvature = -glm::dot(turned, along) / way;
-    if (curvature <= 0.0) {
-        return;
+    const double bend = glm::dot(turned, along) / way;
+    const double curvature = 1.0 - pressure * bend;
+    if (bend < 0.0 && descent.stops >= 2) {
+        follow_hollow(step, slide / curvature, bend, normal, way, descent.trust);
+    } else if (bend > 0.0 && glm::dot(moved, along) > 0.7 * way) {
+        follow_hill(step, curvature > 0.0 ? slide / curvature : 0.5 / bend, way, descent);
     }
-    const double length = std::min(slide / (1.0 + pressure * curvature), descent.trust);
-    if (length <= 2.0 * way) {
-        return;
+}
+
+// Each facet would stop the sphere. It ends as far above them as the hollow rises on the way; they are found
+// below it then. Of use where it goes farther than a few facets.
+void Proxy::follow_hollow(ConstrainedStep& step, double newton, double bend, const Vec3& normal, double way,
+                          double trust) const {
+    const double length = std::min(newton, trust);
+    if (length > 2.0 * way) {
+        const Vec3 along = glm::normalize(step.slide);
+        step.motion = step.drop + along * length - normal * (0.5 * bend * length * length);
+        step.bent = true;
     }
-    step.motion = step.drop + along * length + normal * (0.5 * curvature * length * length);
-    step.bent = true;
+}
+
+// With the hand at depth d below a hill of radius R a flat step leaves d / R of the way. What the hill was
+// seen to do on the last way it is believed to do on twice as much, and no edge or corner of it bends a step
+// farther than the whole does.
+void Proxy::follow_hill(ConstrainedStep& step, double newton, double way, Descent& descent) const {
+    const double slide = glm::length(step.slide);
+    descent.foreseen = std::max(1.2 * slide, newton);
+    const double length = std::min({newton, 2.0 * way, descent.trust});
+    if (length > 1.5 * slide) {
+        step.motion = step.drop + step.slide * (length / slide);
+        step.bent = true;
+    }
 }
 
 // Where a question takes more than its share of a tick, thousands of triangles are about as near as the one
