@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "shared/meshes.hpp"
@@ -269,6 +270,19 @@ StressSetting make_dense_setting(RandomValues& random) {
         large.mesh
             ->vertices[static_cast<std::size_t>(random.below(static_cast<int>(large.mesh->vertices.size())))];
     return s;
+}
+
+std::shared_ptr<const TouchShape> narrowed_dense(const StressSetting& setting) {
+    static std::map<std::pair<const TouchShape*, int>, std::shared_ptr<const TouchShape>> made;
+    const int octave = static_cast<int>(std::floor(std::log2(setting.radius)));
+    const auto [at, is_new] = made.try_emplace({setting.shape.get(), octave}, setting.shape);
+    if (is_new) {
+        if (auto shape = narrowed(*setting.shape, std::exp2(octave))) {
+            settle(*shape);
+            at->second = std::move(shape);
+        }
+    }
+    return at->second;
 }
 
 void deform(StressSetting& setting, RandomValues& random, double farthest) {

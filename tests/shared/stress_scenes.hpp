@@ -44,6 +44,9 @@ StressSetting make_small_setting(RandomValues& random);
 // Up to a million triangles within reach of the sphere.
 StressSetting make_dense_setting(RandomValues& random);
 
+// Of a large mesh: the same narrowed for spheres of half its radius to its whole; made once.
+std::shared_ptr<const TouchShape> narrowed_dense(const StressSetting& setting);
+
 // The corners somewhere else, each by up to `farthest` (in world lengths), so that inside and outside stay
 // told apart: hills go up and down, stars in and out, boxes grow and shrink.
 void deform(StressSetting& setting, RandomValues& random, double farthest);

@@ -27,7 +27,8 @@ struct TouchPart {
     bool one_sided = false;  // of closed meshes: touched from outside only; what is inside is let out
     std::shared_ptr<const SurfaceMap> surfaces =
         nullptr;  // null: the body's material is that of every triangle
-    std::shared_ptr<const TouchableTriangles> touchable = nullptr;  // null: all triangles may be touched
+    // Of just this tree; of another one, as after a deformation, it says nothing. Null: all may be touched.
+    std::shared_ptr<const TouchableTriangles> touchable = nullptr;
 
     const TriangleTree* tree() const {
         const auto* shared = std::get_if<std::shared_ptr<const TriangleTree>>(&surface);
@@ -35,7 +36,8 @@ struct TouchPart {
     }
     // What such a sphere has to be kept clear of, wherever it fits (see touchable.hpp).
     const TriangleTree* tree_for(double sphere_radius) const {
-        return touchable && sphere_radius >= touchable->radius ? &touchable->tree : tree();
+        const bool holds = touchable && touchable->whole == tree() && sphere_radius >= touchable->radius;
+        return holds ? &touchable->tree : tree();
     }
     const Solid& solid() const { return *std::get_if<Solid>(&surface); }
 };

@@ -172,7 +172,7 @@ std::shared_ptr<const TouchableTriangles> touchable_triangles(const TriangleTree
         mesh.vertices.insert(mesh.vertices.end(), {corners.a, corners.b, corners.c});
         mesh.triangles.push_back({first, first + 1, first + 2});
     }
-    TouchableTriangles touchable{radius, TriangleTree::build(mesh, run)};
+    TouchableTriangles touchable{radius, &tree, TriangleTree::build(mesh, run)};
     touchable.tree.name_triangles(slots);
     return std::make_shared<const TouchableTriangles>(std::move(touchable));
 }

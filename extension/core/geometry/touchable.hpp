@@ -20,6 +20,7 @@ namespace tactus {
 
 struct TouchableTriangles {
     double radius = 0.0;  // that spheres have at least (unit: meters)
+    const TriangleTree* whole = nullptr;
     // Of these triangles alone. Its triangle_at() gives slots of the whole mesh's tree.
     TriangleTree tree;
 };

@@ -13,6 +13,8 @@ namespace tactus {
 namespace {
 
 constexpr int few_contacts = 4;  // are told apart as soon one by one
+// Of the radius. On shorter ways it is the single facet that bends the step.
+constexpr double least_whole = 1e-3;
 
 }  // namespace
 
@@ -91,7 +93,7 @@ void Proxy::follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& desce
     const double curvature = 1.0 - pressure * bend;
     if (bend < 0.0 && descent.stops >= 2) {
         follow_hollow(step, slide / curvature, bend, normal, way, descent.trust);
-    } else if (bend > 0.0 && glm::dot(moved, along) > 0.7 * way) {
+    } else if (bend > 0.0 && slide > least_whole * settings_.radius && glm::dot(moved, along) > 0.7 * way) {
         follow_hill(step, curvature > 0.0 ? slide / curvature : 0.5 / bend, way, descent);
     }
 }
