@@ -156,6 +156,16 @@ void HandMirrors::look_at_scene(const SceneFacts& facts, Complaints& complaints)
     });
 }
 
+double HandMirrors::smallest_radius() const {
+    double smallest = 0.0;
+    for (const ProxyPointer* node : Roll<ProxyPointer>::all()) {
+        if (HapticWorld::of(node) == &world_ && (smallest == 0.0 || node->get_radius() < smallest)) {
+            smallest = node->get_radius();
+        }
+    }
+    return smallest;
+}
+
 SessionHandle HandMirrors::handle_of(const ProxyPointer* proxy) const {
     return handle_in(proxies_, proxy);
 }

@@ -41,6 +41,9 @@ public:
     // All of them are told that nothing runs.
     void release();
 
+    // Of a fingertip in this world (unit: meters); 0: there is none.
+    double smallest_radius() const;
+
     // no_handle where there is none.
     SessionHandle handle_of(const ProxyPointer* proxy) const;
     // The session has let go of what has left.

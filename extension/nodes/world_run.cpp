@@ -141,7 +141,9 @@ void WorldRun::synchronise_bodies(double seconds) {
     bodies_.mirrors().touched(hands_->touched());
     // In real time a tick may be under way that has already taken its commands.
     const std::uint64_t takes_effect = loop().ticks() + (loop().is_real_time() ? 2 : 1);
-    bodies_.synchronise({session(), Workers::shared(), defaults_, seconds, takes_effect});
+    MirrorContext context{session(), Workers::shared(), defaults_, seconds, takes_effect};
+    context.touch_radius = hands_->smallest_radius();
+    bodies_.synchronise(context);
 }
 
 // --- the far side

@@ -21,6 +21,7 @@ Workers::~Workers() {
     {
         const std::lock_guard lock(mutex_);
         jobs_.clear();
+        later_jobs_.clear();
         ending_ = true;
     }
     news_.notify_all();
@@ -87,12 +88,38 @@ void Workers::add(std::function<void()> job) {
     news_.notify_one();
 }
 
+void Workers::add_later(std::function<void()> job) {
+    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
+    if (threads_.empty()) {
+        start();
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        later_jobs_.push_back(std::move(job));
+    }
+    news_.notify_one();
+}
+
+void Workers::do_job(std::unique_lock<std::mutex>& lock, std::deque<std::function<void()>>& jobs) {
+    std::function<void()> job = std::move(jobs.front());
+    jobs.pop_front();
+    ++working_;
+    lock.unlock();
+    job();
+    job = nullptr;  // what it owns goes while nobody waits
+    lock.lock();
+    --working_;
+}
+
 // Help for a job that is under way comes before the next job: what was asked for first is ready first.
 void Workers::work() {
     work_in_background();  // a frame of the scene comes first
     std::unique_lock lock(mutex_);
     while (true) {
-        news_.wait(lock, [this] { return ending_ || !batches_.empty() || !jobs_.empty(); });
+        news_.wait(lock, [this] {
+            return ending_ || !batches_.empty() || !jobs_.empty() || !later_batches_.empty() ||
+                   has_later_job();
+        });
         if (!batches_.empty()) {
             const std::shared_ptr<Batch> batch = batches_.front();
             lock.unlock();
@@ -100,33 +127,47 @@ void Workers::work() {
             lock.lock();
             std::erase(batches_, batch);
         } else if (!jobs_.empty()) {
-            std::function<void()> job = std::move(jobs_.front());
-            jobs_.pop_front();
-            ++working_;
+            do_job(lock, jobs_);
+        } else if (!later_batches_.empty()) {
+            const std::shared_ptr<Batch> batch = later_batches_.front();
             lock.unlock();
-            job();
-            job = nullptr;  // what it owns goes while nobody waits
+            const bool has_more = take_task(*batch);
             lock.lock();
-            if (--working_ == 0 && jobs_.empty()) {
-                all_done_.notify_all();
+            if (!has_more) {
+                std::erase(later_batches_, batch);
             }
+        } else if (has_later_job()) {
+            is_later_under_way_ = true;
+            do_job(lock, later_jobs_);
+            is_later_under_way_ = false;
         } else {
             return;
+        }
+        if (is_idle()) {
+            all_done_.notify_all();
         }
     }
 }
 
 // A batch that has ended hands out no task: its function is not called then.
+bool Workers::take_task(Batch& batch) {
+    const std::size_t i = batch.next.fetch_add(1);
+    if (i >= batch.count) {
+        return false;
+    }
+    batch.task(i);
+    if (batch.done.fetch_add(1, std::memory_order_acq_rel) + 1 == batch.count) {
+        batch.done.notify_all();
+    }
+    return true;
+}
+
 void Workers::take_part(Batch& batch) {
-    for (std::size_t i = batch.next.fetch_add(1); i < batch.count; i = batch.next.fetch_add(1)) {
-        batch.task(i);
-        if (batch.done.fetch_add(1, std::memory_order_acq_rel) + 1 == batch.count) {
-            batch.done.notify_all();
-        }
+    while (take_task(batch)) {
     }
 }
 
-void Workers::run(std::size_t count, const std::function<void(std::size_t)>& task) {
+void Workers::run(std::size_t count, const std::function<void(std::size_t)>& task, Batches& among) {
     TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     if (count < 2) {
         run_serially(count, task);
@@ -135,7 +176,7 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& tas
     const auto batch = std::make_shared<Batch>(count, task);
     {
         const std::lock_guard lock(mutex_);
-        batches_.push_back(batch);
+        among.push_back(batch);
     }
     news_.notify_all();
     take_part(*batch);
@@ -143,17 +184,25 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& tas
         batch->done.wait(done);
     }
     const std::lock_guard lock(mutex_);
-    std::erase(batches_, batch);
+    std::erase(among, batch);
 }
 
 ParallelRunner Workers::runner() {
-    return [this](std::size_t count, const std::function<void(std::size_t)>& task) { run(count, task); };
+    return [this](std::size_t count, const std::function<void(std::size_t)>& task) {
+        run(count, task, batches_);
+    };
+}
+
+ParallelRunner Workers::runner_later() {
+    return [this](std::size_t count, const std::function<void(std::size_t)>& task) {
+        run(count, task, later_batches_);
+    };
 }
 
 void Workers::wait() {
     TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     std::unique_lock lock(mutex_);
-    all_done_.wait(lock, [this] { return working_ == 0 && jobs_.empty(); });
+    all_done_.wait(lock, [this] { return is_idle(); });
 }
 
 }  // namespace tactus

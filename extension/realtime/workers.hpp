@@ -28,6 +28,9 @@ public:
     Workers& operator=(const Workers&) = delete;
 
     void add(std::function<void()> job);
+    // What nobody waits for: begun when nothing else is to be done, one after the other, so that with two
+    // threads there is always one for what is added meanwhile. It uses runner_later().
+    void add_later(std::function<void()> job);
 
     // Those of the program; they end with end_shared().
     static Workers& shared();
@@ -44,6 +47,8 @@ public:
 
     // Calls tasks on the caller's thread and on those that have nothing to do.
     ParallelRunner runner();
+    // The same from inside of what was added for later: help ends as soon as anything else is to be done.
+    ParallelRunner runner_later();
 
     // Returns when all jobs are done.
     void wait();
@@ -53,7 +58,12 @@ private:
 
     void start();
     void work();
-    void run(std::size_t count, const std::function<void(std::size_t)>& task);
+    using Batches = std::deque<std::shared_ptr<Batch>>;
+    void run(std::size_t count, const std::function<void(std::size_t)>& task, Batches& among);
+    void do_job(std::unique_lock<std::mutex>& lock, std::deque<std::function<void()>>& jobs);
+    bool has_later_job() const { return !later_jobs_.empty() && !is_later_under_way_; }
+    bool is_idle() const { return working_ == 0 && jobs_.empty() && later_jobs_.empty(); }
+    static bool take_task(Batch& batch);
     static void take_part(Batch& batch);
 
     static std::unique_ptr<Workers>& instance();
@@ -62,9 +72,10 @@ private:
     std::mutex mutex_;  // of all below
     std::condition_variable news_;
     std::condition_variable all_done_;
-    std::deque<std::function<void()>> jobs_;
-    std::deque<std::shared_ptr<Batch>> batches_;  // that may still have tasks to give
-    std::size_t working_ = 0;                     // on a job
+    std::deque<std::function<void()>> jobs_, later_jobs_;
+    Batches batches_, later_batches_;  // that may still have tasks to give
+    std::size_t working_ = 0;          // on a job
+    bool is_later_under_way_ = false;  // on one of later_jobs_
     bool ending_ = false;
 };
 

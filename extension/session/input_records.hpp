@@ -57,6 +57,11 @@ struct DeformBody {
     SessionHandle handle = no_handle;
     Form form;
 };
+// To spheres of that radius (unit: meters); made of the body's form again.
+struct NarrowTouch {
+    SessionHandle handle = no_handle;
+    double radius = 0.0;
+};
 struct AddDevice {
     SessionHandle handle = no_handle;
     Workspace workspace;
@@ -110,7 +115,7 @@ using InputCall =
                  command::SetGravity, call::AddDevice, command::SetWorkspace, command::RemoveDevice,
                  call::AddProxy, command::SetProxy, command::SetField, command::RemoveProxy, call::AddTool,
                  command::SetTool, command::RemoveTool, call::Record, call::EndRecording, call::Attach,
-                 call::Announce, call::Epoch, call::WriteRows, call::RowsWritten>;
+                 call::Announce, call::Epoch, call::WriteRows, call::RowsWritten, call::NarrowTouch>;
 
 // By the loop. `link`: the number of the end.
 namespace heard {
@@ -372,6 +377,8 @@ template <>
 inline constexpr int members<call::AddBody> = 3;
 template <>
 inline constexpr int members<call::DeformBody> = 2;
+template <>
+inline constexpr int members<call::NarrowTouch> = 2;
 template <>
 inline constexpr int members<call::AddDevice> = 2;
 template <>

@@ -283,6 +283,7 @@ ReadyBody InputReplay::prepared(const call::Form& form) {
 void InputReplay::carry_out(const call::AddBody& c) {
     ReadyBody body = prepared(c.form);
     if (!is_over_) {
+        forms_[c.handle] = body.soft ? nullptr : body.touch;
         session_->use_handle(c.handle);
         check(session_->add_body(std::move(body), c.former).handle == c.handle);
     }
@@ -290,7 +291,25 @@ void InputReplay::carry_out(const call::AddBody& c) {
 
 void InputReplay::carry_out(const call::DeformBody& c) {
     ReadyBody body = prepared(c.form);
+    std::shared_ptr<const TouchShape>& form = forms_[c.handle];
+    if (form && body.touch && form->parts.size() == body.touch->parts.size()) {
+        form = body.touch;
+    }
     check(!is_over_ && session_->deform_body(c.handle, std::move(body)).empty());
+}
+
+// What is made does not depend on who made it.
+void InputReplay::carry_out(const call::NarrowTouch& c) {
+    check(is_proxy_radius(c.radius));
+    const auto known = forms_.find(c.handle);
+    if (!is_over_ && known != forms_.end() && known->second) {
+        session_->narrow_touch(c.handle, narrowed(*known->second, c.radius), c.radius);
+    }
+}
+
+void InputReplay::carry_out(const command::RemoveBody& c) {
+    forms_.erase(c.handle);
+    session_->remove_body(c.handle);
 }
 
 void InputReplay::carry_out(const call::AddDevice& c) {

@@ -60,6 +60,7 @@ private:
 
     void carry_out(const call::AddBody& c);
     void carry_out(const call::DeformBody& c);
+    void carry_out(const call::NarrowTouch& c);
     void carry_out(const call::AddDevice& c);
     void carry_out(const call::AddProxy& c);
     void carry_out(const call::AddTool& c);
@@ -72,6 +73,7 @@ private:
     void carry_out(const call::RowsWritten& c);
     void drain_rows();
     void carry_out(const command::AddJoint& c);
+    void carry_out(const command::RemoveBody& c);
     template <PlainCommand Command>
     void carry_out(const Command& c) {
         ask(*session_, c);
@@ -114,6 +116,8 @@ private:
     std::vector<std::unique_ptr<End>> ends_;
     std::vector<std::unique_ptr<RecorderRing<SessionRecord>>> rings_;
     std::unordered_map<std::uint64_t, Lineage> lineages_;
+    // By handle, of bodies that can be narrowed.
+    std::unordered_map<SessionHandle, std::shared_ptr<const TouchShape>> forms_;
     struct Rows {
         std::uint32_t ring = 0;
         std::uint64_t most = ~std::uint64_t{0}, taken = 0;

@@ -139,7 +139,7 @@ std::string check_workspace(const Workspace& w) {
 }
 
 std::string check_proxy(const ProxyDescription& d) {
-    if (!(d.settings.radius > 0.0 && d.settings.radius <= limits::longest_arm)) {
+    if (!is_proxy_radius(d.settings.radius)) {
         return "the proxy's radius is not a positive length: set it above 0 m";
     }
     return d.finger.modulus >= 0.0 && std::isfinite(d.finger.modulus) && d.finger.radius > 0.0 &&
@@ -176,6 +176,10 @@ std::uint32_t share_of_tick(const Command& command) {
 
 }  // namespace
 
+bool is_proxy_radius(double radius) {
+    return radius > 0.0 && radius <= limits::longest_arm;
+}
+
 struct Session::Impl {
     Impl(const SessionSettings& s, InputRecorder* input_recorder)
         : settings(s),
@@ -198,9 +202,9 @@ struct Session::Impl {
         }
     }
     // A command that is plain values is noted as it is, any other one by who sends it.
-    using NotedByTheirSenders =
-        std::variant<command::AddBody, command::DeformBody, command::AddDevice, command::AddProxy,
-                     command::AddTool, command::Record, command::EndRecording, command::Attach>;
+    using NotedByTheirSenders = std::variant<command::AddBody, command::DeformBody, command::NarrowTouch,
+                                             command::AddDevice, command::AddProxy, command::AddTool,
+                                             command::Record, command::EndRecording, command::Attach>;
     void note_plain(const Command& command) {
         std::visit(
             [this](const auto& c) {
@@ -387,6 +391,13 @@ std::string Session::deform_body(SessionHandle body, ReadyBody&& form) {
                                         std::move(form.touch)});
     }
     return std::move(form.error);
+}
+
+void Session::narrow_touch(SessionHandle body, std::shared_ptr<const TouchShape> shape, double radius) {
+    if (shape && impl_->bodies.in_use(body) && is_proxy_radius(radius)) {
+        impl_->note(call::NarrowTouch{body, radius});
+        impl_->send(command::NarrowTouch{body, std::move(shape)});
+    }
 }
 
 void Session::teleport_body(SessionHandle body, const Pose& pose) {

@@ -89,6 +89,9 @@ public:
     // along their way, however far that is; else they are let out of it. Its former touch shape is kept
     // until the next form. An error is that of the new body, and nothing happens.
     std::string deform_body(SessionHandle body, ReadyBody&& form);
+    // `shape`: what narrowed() makes for that radius of what the body is touched by now. Nothing is felt of
+    // it but that ticks are shorter. Of a body that gives, or of another form's triangles, it is not taken.
+    void narrow_touch(SessionHandle body, std::shared_ptr<const TouchShape> shape, double radius);
     void teleport_body(SessionHandle body, const Pose& pose);
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);

@@ -195,6 +195,17 @@ bool SessionLoop::carry_out(command::DeformBody& c, Retired& retired) {
     return true;
 }
 
+// One that is about to take another form is of that one's triangles.
+bool SessionLoop::carry_out(command::NarrowTouch& c, Retired& retired) {
+    Body* const narrowed = body(c.handle);
+    if (narrowed && !narrowed->soft && !narrowed->takes_form && scene_.narrow(narrowed->slot, *c.shape)) {
+        std::swap(narrowed->shape, c.shape);
+    }
+    retired.kind = Retired::Kind::form;
+    retired.shape = std::move(c.shape);
+    return true;
+}
+
 void SessionLoop::take_forms() {
     for (const SessionHandle handle : forming_) {
         Body& taking = bodies_[handle];

@@ -36,6 +36,11 @@ struct DeformBody {
     PreparedBody body, same_body;  // as in AddBody
     std::shared_ptr<const TouchShape> shape;
 };
+// The body's form, with more known of what can be touched of it (see narrowed()).
+struct NarrowTouch {
+    SessionHandle handle;
+    std::shared_ptr<const TouchShape> shape;
+};
 struct TeleportBody {
     SessionHandle handle;
     Pose pose;
@@ -154,13 +159,13 @@ struct Attach {
 namespace tactus {
 
 using Command = std::variant<
-    command::AddBody, command::RemoveBody, command::DeformBody, command::TeleportBody, command::MoveBody,
-    command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface, command::SetBodyLayers,
-    command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping, command::SetBodyPush,
-    command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint, command::SetGravity,
-    command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy, command::SetProxy,
-    command::SetField, command::RemoveProxy, command::AddTool, command::SetTool, command::RemoveTool,
-    command::Record, command::EndRecording, command::Attach>;
+    command::AddBody, command::RemoveBody, command::DeformBody, command::NarrowTouch, command::TeleportBody,
+    command::MoveBody, command::SetBodyVelocity, command::SetTouchMaterial, command::SetBodySurface,
+    command::SetBodyLayers, command::SetBodyMotion, command::SetBodyGravityScale, command::SetBodyDamping,
+    command::SetBodyPush, command::SeeBody, command::PushBody, command::AddJoint, command::RemoveJoint,
+    command::SetGravity, command::AddDevice, command::SetWorkspace, command::RemoveDevice, command::AddProxy,
+    command::SetProxy, command::SetField, command::RemoveProxy, command::AddTool, command::SetTool,
+    command::RemoveTool, command::Record, command::EndRecording, command::Attach>;
 
 // What has left the loop. Its handle may be given out again once the owner has seen this.
 struct Retired {

@@ -211,6 +211,7 @@ private:
     bool carry_out(command::AddBody& c, Retired& retired);
     bool carry_out(command::RemoveBody& c, Retired& retired);
     bool carry_out(command::DeformBody& c, Retired& retired);
+    bool carry_out(command::NarrowTouch& c, Retired& retired);
     bool carry_out(command::TeleportBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);

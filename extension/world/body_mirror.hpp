@@ -19,6 +19,7 @@ struct MirrorContext {
     double seconds = 0.0;            // what moved in the scene since the last time took so long for it
     std::uint64_t takes_effect = 0;  // the first tick that has certainly taken what is sent now
     std::uint64_t mesh_changes = 0;  // another one when the mesh that a body is touched by may be
+    double touch_radius = 0.0;       // the smallest of a fingertip (unit: meters); 0: there is none
 };
 
 class BodyMirror {
@@ -43,6 +44,12 @@ public:
 
     // Hands over a twin that has become ready, and says what is wrong with it.
     void take_ready(const MirrorContext& context);
+
+    // What fingertips cannot touch of it is found out meanwhile, and then left out (see BodyTwin).
+    void narrow(const MirrorContext& context, NarrowedTrees& trees) {
+        twin_.narrow(context.touch_radius, trees);
+    }
+    void take_narrowed(const MirrorContext& context) { twin_.take_narrowed(context.session); }
 
     // `tick` is the tick of the snapshot that the state is from.
     enum class Applied {

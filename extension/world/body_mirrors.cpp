@@ -49,12 +49,16 @@ void BodyMirrors::match(const std::vector<std::uint64_t>& bodies, const MakeBody
     });
     by_body_.clear();
     building_.clear();
+    narrowing_.clear();
     thrown_.clear();
     std::ranges::fill(by_handle_, Shown{});
     for (const auto& mirror : bodies_) {
         by_body_[mirror->id()] = mirror.get();
         if (mirror->can_be_thrown()) {
             thrown_.push_back(mirror.get());
+        }
+        if (mirror->twin().is_narrowing()) {
+            narrowing_.push_back(mirror.get());
         }
         take_handle(*mirror, no_handle);
     }
@@ -151,10 +155,36 @@ void BodyMirrors::synchronise(const MirrorContext& context) {
     if (!in_turn_ && !building_.empty()) {
         context.workers.wait();
     }
-    for (BodyMirror* mirror : std::vector(building_)) {
+    const std::vector<BodyMirror*> built = building_;
+    for (BodyMirror* mirror : built) {
         change(*mirror, [&](BodyMirror& one) { one.take_ready(context); });
     }
+    narrow(context, built);
     look_at_joints(context);
+}
+
+// Another fingertip may be a smaller one.
+void BodyMirrors::narrow(const MirrorContext& context, const std::vector<BodyMirror*>& built) {
+    const auto begin = [&](BodyMirror& mirror) {
+        mirror.narrow(context, narrowed_trees_);
+        if (mirror.twin().is_narrowing()) {
+            narrowing_.push_back(&mirror);
+        }
+    };
+    if (std::exchange(touch_radius_, context.touch_radius) == context.touch_radius) {
+        std::ranges::for_each(built, [&](BodyMirror* mirror) { begin(*mirror); });
+    } else {
+        narrowing_.clear();
+        std::ranges::for_each(bodies_, [&](const auto& mirror) { begin(*mirror); });
+    }
+    if (!in_turn_ && !narrowing_.empty()) {
+        context.workers.wait();
+    }
+    std::erase_if(narrowing_, [&](BodyMirror* mirror) {
+        mirror->take_narrowed(context);
+        mirror->narrow(context, narrowed_trees_);
+        return !mirror->twin().is_narrowing();
+    });
 }
 
 void BodyMirrors::show(const BodyState& state, std::uint64_t tick) {

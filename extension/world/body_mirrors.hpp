@@ -66,6 +66,7 @@ public:
 private:
     void look_at_bodies(const MirrorContext& context);
     void look_at_joints(const MirrorContext& context);
+    void narrow(const MirrorContext& context, const std::vector<BodyMirror*>& built);
     template <class Change>
     void change(BodyMirror& mirror, const Change& change);
     void take_handle(BodyMirror& mirror, SessionHandle before);
@@ -85,6 +86,9 @@ private:
     std::vector<Shown> by_handle_;
     std::vector<BodyMirror*> thrown_;    // of them all, those that can be
     std::vector<BodyMirror*> building_;  // in the order in which they were planned
+    std::vector<BodyMirror*> narrowing_;
+    NarrowedTrees narrowed_trees_;
+    double touch_radius_ = 0.0;  // as of the last time
     std::vector<std::uint64_t> touched_;
     bool all_changed_ = true;
     bool handles_changed_ = false;

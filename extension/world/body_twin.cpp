@@ -21,6 +21,7 @@ std::uint64_t next_revision() {
 
 bool BodyTwin::plan(BodyPlan plan, Workers& workers) {
     plan_ = std::move(plan);
+    narrowed_.forget_body();
     if (handle_ == no_handle) {
         place_ = plan_.place;
     }
@@ -80,6 +81,11 @@ bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {
     addition_ = std::move(job->built.addition);
     made_of_ = job->plan.makings;
     revision_ = next_revision();
+    can_be_narrowed_ =
+        job->plan.form.soft == nullptr && triangle_count(job->plan.form) > max_triangles_at_once;
+    if (!can_be_narrowed_) {
+        narrowed_ = {};
+    }
     send_rest(session, handle_, values_);
     return true;
 }
@@ -103,6 +109,8 @@ bool BodyTwin::deform(Session& session, Job& job) {
         return false;
     }
     session.deform_body(handle_, std::move(job.built.body));
+    can_be_narrowed_ = false;
+    narrowed_ = {};
     addition_ = std::move(job.built.addition);
     revision_ = next_revision();
     return true;
@@ -113,6 +121,8 @@ void BodyTwin::take_out(Session& session) {
         session.remove_body(handle_);
         handle_ = no_handle;
         shown_change_ = 0;
+        can_be_narrowed_ = false;
+        narrowed_.forget_body();
     }
 }
 
@@ -120,6 +130,24 @@ void BodyTwin::remove(Session& session) {
     take_out(session);
     job_.reset();
     is_waiting_ = false;
+    narrowed_ = {};
+}
+
+void BodyTwin::narrow(double radius, NarrowedTrees& trees) {
+    const bool is_smaller = narrowed_.radius() == 0.0 || radius < narrowed_.radius();
+    if (can_be_narrowed_ && job_ == nullptr && !is_narrowing() && radius > 0.0 && is_smaller) {
+        narrowed_.begin(*addition_.touch, radius, trees, *workers_);
+    }
+}
+
+void BodyTwin::take_narrowed(Session& session) {
+    if (!narrowed_.is_ready()) {
+        return;
+    }
+    if (auto narrower = narrowed_.take(*addition_.touch)) {
+        session.narrow_touch(handle_, narrower, narrowed_.radius());
+        addition_.touch = std::move(narrower);
+    }
 }
 
 void BodyTwin::set_values(Session& session, const BodyValues& values) {

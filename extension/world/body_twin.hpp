@@ -10,6 +10,7 @@
 #include "realtime/workers.hpp"
 #include "session/session.hpp"
 #include "world/body_form.hpp"
+#include "world/narrowed_touch.hpp"
 
 namespace tactus {
 
@@ -44,6 +45,13 @@ public:
     void stand_at(Session& session, const BodyPlace& now);
     // What is built is wanted no longer, and what there is goes.
     void remove(Session& session);
+
+    // Where it came from the workers and has kept its form since: has them find out what fingertips of that
+    // radius (unit: meters) can touch of it, unless they did so for one as small.
+    void narrow(double radius, NarrowedTrees& trees);
+    bool is_narrowing() const { return narrowed_.is_under_way(); }
+    // Hands over what they have found out.
+    void take_narrowed(Session& session);
 
     void set_values(Session& session, const BodyValues& values);
     // It has been put there, or, where it does not move by itself, moved there within `seconds`.
@@ -80,6 +88,8 @@ private:
     BodyPlan plan_;
     BodyAddition addition_;  // that the session's body was made from
     BodyMakings made_of_;    // likewise
+    bool can_be_narrowed_ = false;
+    NarrowedTouch narrowed_;
     std::vector<std::string> problems_;
 };
 

@@ -50,6 +50,39 @@ TEST(Workers, WhatAJobOwnsGoesWithItOnItsThread) {
     EXPECT_NE(on, std::this_thread::get_id());
 }
 
+TEST(Workers, WhatIsForLaterGivesWayToWhatIsAddedMeanwhile) {
+    Workers workers;
+    std::promise<void> begun;
+    std::atomic<int> tasks{0}, jobs{0}, at_once{0}, most_at_once{0};
+    std::atomic<bool> goes_on{false};
+    for (int i = 0; i < 3; ++i) {
+        workers.add_later([&, i] {
+            most_at_once = std::max<int>(most_at_once, ++at_once);
+            if (i == 0) {
+                begun.set_value();
+                goes_on.wait(false);
+            }
+            workers.runner_later()(100, [&](std::size_t) { ++tasks; });
+            --at_once;
+        });
+    }
+    begun.get_future().wait();
+    std::promise<void> done;
+    if (std::thread::hardware_concurrency() > 1) {
+        workers.add([&] { done.set_value(); });
+        done.get_future().wait();
+    }
+    for (int i = 0; i < 10; ++i) {
+        workers.add([&] { ++jobs; });
+    }
+    goes_on = true;
+    goes_on.notify_all();
+    workers.wait();
+    EXPECT_EQ(jobs, 10);
+    EXPECT_EQ(tasks, 300);
+    EXPECT_EQ(most_at_once, 1);
+}
+
 // With no threads there is nobody to wait for, and nothing is kept.
 TEST(Workers, WhatIsFreedAsideIsFreedAtOnceWhereNoThreadRuns) {
     struct Counted {

@@ -256,6 +256,39 @@ TEST(InputReplay, SoDoesOneWhoseTreesAreRefitted) {
     });
 }
 
+// Narrowed for the hand that slides over it, and for a smaller one; and of another form no more.
+TEST(InputReplay, ABodyThatIsNarrowedIsNarrowedAgain) {
+    RecordedInputs inputs;
+    SessionRig rig({}, &inputs.recorder);
+    ProxyDescription pointer;
+    pointer.device = rig.hand;
+    pointer.settings.radius = 0.1;
+    rig.session.set_proxy(rig.proxy, pointer);
+    const BodyAddition lump = mesh_body(shared::rough_sphere(4, 0.5, 1.0), Vec3(0.0), Motion::Static);
+    ReadyBody ready = Session::prepare_body(lump);
+    const std::shared_ptr<const TouchShape> form = ready.touch;
+    const SessionHandle body = rig.session.add_body(std::move(ready)).handle;
+    int touching = 0;
+    for (int i = 0; i < 200; ++i) {
+        if (i == 50 || i == 100) {
+            const double radius = i == 50 ? 0.1 : 0.06;
+            const auto shape = narrowed(*form, radius);
+            ASSERT_NE(shape, nullptr);
+            rig.session.narrow_touch(body, shape, radius);
+        } else if (i == 150) {
+            rig.session.deform_body(body, Session::prepare_body(lump));
+            rig.session.narrow_touch(body, narrowed(*form, 0.1), 0.1);
+        }
+        rig.device.position = (i < 10 ? 0.7 : 0.45) * Vec3(std::sin(0.004 * i), std::cos(0.004 * i), 0.0);
+        rig.tick();
+        rig.session.collect();
+        touching += glm::length(rig.device.force) > 0.0;
+    }
+    inputs.end();
+    EXPECT_GT(touching, 150);
+    expect_whole(inputs.play(), 200);
+}
+
 // --- what gives
 
 const HeldParts foot{Vec3(-1.0), Vec3(1.0, -0.039, 1.0), {}};

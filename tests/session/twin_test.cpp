@@ -147,5 +147,22 @@ TEST(SessionTwin, ChangesOfBodiesReachTheReplay) {
     twins.expect_same_after(300);
 }
 
+// Of both loops' bodies the former shape is given back.
+TEST(SessionTwin, ANarrowedShapeIsThatOfBoth) {
+    Twins twins;
+    BodyAddition lump = body(SphereShape{0.1}, {3.0, 0.0, 0.0}, Motion::Static);
+    lump.touch = make_touch_shape(lump.description.shapes).shape;
+    const SessionHandle handle = twins.rig.add(lump);
+    twins.rig.tick();
+    EXPECT_EQ(lump.touch.use_count(), 3);
+    const auto narrower = std::make_shared<const TouchShape>(*lump.touch);
+    twins.rig.session.narrow_touch(handle, narrower, 0.01);
+    twins.rig.tick();
+    twins.rig.session.collect();
+    EXPECT_EQ(narrower.use_count(), 3);
+    EXPECT_EQ(lump.touch.use_count(), 1);
+    twins.expect_same_after(100);
+}
+
 }  // namespace
 }  // namespace tactus

@@ -6,6 +6,8 @@
 #include <map>
 #include <random>
 
+#include "shared/random_values.hpp"
+
 namespace tactus::shared {
 
 namespace {
@@ -56,6 +58,16 @@ TriangleMesh icosphere(int levels, double radius) {
             finer.insert(finer.end(), {Triangle{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
         }
         mesh.triangles = std::move(finer);
+    }
+    return mesh;
+}
+
+TriangleMesh rough_sphere(int levels, double radius, double share) {
+    TriangleMesh mesh = icosphere(levels, 1.0);
+    RandomValues random(7);
+    const double edge = 1.1 / (1 << levels);
+    for (Vec3& v : mesh.vertices) {
+        v *= radius * (1.0 + share * edge * random.between(-1.0, 1.0));
     }
     return mesh;
 }

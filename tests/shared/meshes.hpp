@@ -9,6 +9,9 @@ namespace tactus::shared {
 // to the radius. 20 * 4^levels triangles.
 TriangleMesh icosphere(int levels, double radius);
 
+// The same with a scan's noise: every corner up or down by up to that share of an edge.
+TriangleMesh rough_sphere(int levels, double radius, double share);
+
 // Twelve triangles around the origin.
 TriangleMesh box(const Vec3& half_extents);
 // The same, each side a grid of cells x cells squares.

@@ -52,13 +52,15 @@ bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, c
     return at.inside && (one_sided || !was_inside(body, change, sphere.mask, sphere.center, work));
 }
 
-bool is_repeated(const TouchScene& scene, std::uint64_t since, std::uint64_t revision) {
-    for (std::uint64_t earlier = since + 1; earlier < revision; ++earlier) {
-        if (scene.change(earlier).body == scene.change(revision).body) {
-            return true;
-        }
+// Of several changes of one body the first. Where it was narrowed, it is as it was.
+bool counts(const TouchScene& scene, std::uint64_t since, std::uint64_t revision) {
+    const Change& change = scene.change(revision);
+    bool is_first = change.kind != Change::Kind::narrowed;
+    for (std::uint64_t number = since + 1; is_first && number < revision; ++number) {
+        const Change& earlier = scene.change(number);
+        is_first = earlier.kind == Change::Kind::narrowed || earlier.body != change.body;
     }
-    return false;
+    return is_first;
 }
 
 }  // namespace
@@ -77,7 +79,7 @@ bool let_out(const TouchScene& scene, std::uint64_t since, bool all, const Touch
     // A sphere that has not seen the scene before knows of no change in it: revisions begin at 1.
     if (since > 0 && scene.revision() - since <= TouchScene::remembered_changes) {
         for (std::uint64_t revision = since + 1; revision <= scene.revision(); ++revision) {
-            if (!is_repeated(scene, since, revision)) {
+            if (counts(scene, since, revision)) {
                 look_at(scene.change(revision).body, &scene.change(revision));
             }
         }

@@ -120,7 +120,8 @@ bool TouchScene::deform(int index, const TouchShape& shape) {
 bool TouchScene::only_gives_since(std::uint64_t since) const {
     bool gives = revision_ - since <= remembered_changes;
     for (std::uint64_t revision = since + 1; gives && revision <= revision_; ++revision) {
-        gives = change(revision).kind == Change::Kind::gives;
+        const Change::Kind kind = change(revision).kind;
+        gives = kind == Change::Kind::gives || kind == Change::Kind::narrowed;
     }
     return gives;
 }
@@ -131,6 +132,22 @@ bool TouchScene::give(int index, const TouchShape& shape, double by) {
     }
     body_at(index).gave_by += by;
     take_form(index, shape, Change::Kind::gives);
+    return true;
+}
+
+bool TouchScene::narrow(int index, const TouchShape& shape) {
+    TouchBody& body = body_at(index);
+    const bool is_same =
+        std::ranges::equal(body.shape->parts, shape.parts,
+                           [](const TouchPart& p, const TouchPart& q) { return p.tree() == q.tree(); });
+    if (!is_same) {
+        return false;
+    }
+    body.shape = &shape;
+    for (std::size_t i = 0; i < shape.parts.size(); ++i) {
+        parts_[body.first_part + i].part = &shape.parts[i];
+    }
+    note_change(index, Change::Kind::narrowed, body.pose, body.layer);
     return true;
 }
 

@@ -64,6 +64,9 @@ public:
     // The same for a body that gives under what touches it, in every tick, no corner by more than `by`: no
     // change to what is felt. False, and nothing happens, where the triangles are not refits of those before.
     bool give(int body, const TouchShape& shape, double by);
+    // The same form with more, or less, known of what can be touched of it (see narrowed()): no change to
+    // what is felt. False, and nothing happens, where a part is of another tree, or of none where it had one.
+    bool narrow(int body, const TouchShape& shape);
 
     std::size_t slots() const { return bodies_.size(); }
     std::size_t slots_in_use() const { return used_; }  // all bodies are below
@@ -76,10 +79,18 @@ public:
     std::span<const int> deformed_bodies() const { return deformed_; }
     std::uint64_t ticks() const { return ticks_; }  // begun so far
 
-    // Parts of a body that was added, removed, teleported, deformed or changed its layer: what a proxy
-    // remembers of them is void.
+    // Parts of a body that was added, removed, teleported, deformed, narrowed or changed its layer: what a
+    // proxy remembers of them is void.
     struct Change {
-        enum class Kind : std::uint8_t { came, went, elsewhere, layer, form, gives } kind = Kind::came;
+        enum class Kind : std::uint8_t {
+            came,
+            went,
+            elsewhere,
+            layer,
+            form,
+            gives,
+            narrowed
+        } kind = Kind::came;
         std::uint32_t first_part = 0;
         std::uint32_t part_count = 0;
         int body = -1;
@@ -90,7 +101,7 @@ public:
     static constexpr std::uint64_t remembered_changes = 64;
     std::uint64_t revision() const { return revision_; }
     const Change& change(std::uint64_t revision) const { return changes_[revision % remembered_changes]; }
-    // Nothing has happened since that revision but that bodies give.
+    // Nothing has happened since that revision but that bodies give, or were narrowed.
     bool only_gives_since(std::uint64_t revision) const;
     // Counts materials that were set.
     std::uint64_t material_changes() const { return material_changes_; }

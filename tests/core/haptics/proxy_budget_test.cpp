@@ -22,6 +22,7 @@ namespace tactus {
 namespace {
 
 using shared::RandomValues;
+using shared::rough_sphere;
 using shared::TouchRig;
 
 // Ticks in which the proxy stood still although it was not where it should be.
@@ -42,17 +43,6 @@ void limit_work(TouchRig& rig, std::int64_t units) {
     ProxySettings settings = rig.proxy.settings();
     settings.max_work = units;
     rig.proxy.set_settings(settings);
-}
-
-// A scan's noise: every vertex a share of an edge up or down.
-TriangleMesh rough_sphere(int level, double radius, double share) {
-    TriangleMesh mesh = shared::icosphere(level, 1.0);
-    RandomValues random(7);
-    const double edge = 1.1 / (1 << level);
-    for (Vec3& v : mesh.vertices) {
-        v *= radius * (1.0 + share * edge * random.between(-1.0, 1.0));
-    }
-    return mesh;
 }
 
 // The sphere's cube meets tens of thousands of boxes here.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "shared/meshes.hpp"
 #include "shared/poses.hpp"
 #include "shared/random_values.hpp"
 
@@ -125,6 +126,43 @@ TEST(TouchScene, RemovingAMovedBodyForgetsItsMotion) {
     scene.remove(body);
     EXPECT_TRUE(scene.moved_bodies().empty());
     scene.begin_tick();
+}
+
+TEST(TouchScene, ANarrowedBodyIsTheSameOneTouchedThroughAnotherShape) {
+    TouchScene scene(2, 4);
+    const PlacedShape lump{MeshShape{std::make_shared<const TriangleMesh>(shared::icosphere(1, 0.5))}, {}};
+    const PlacedShape ball{SphereShape{0.5}, at({2.0, 0.0, 0.0})};
+    const auto shape = make_touch_shape(std::vector{lump, ball}).shape;
+    const int body = scene.add(*shape, at({0.0, 1.0, 0.0}), {}, 1);
+    const std::uint64_t before = scene.revision();
+    scene.begin_tick();
+    const TouchShape narrower = *shape;
+    ASSERT_TRUE(scene.narrow(body, narrower));
+    const std::uint32_t first = scene.body(body).first_part;
+    EXPECT_EQ(scene.body(body).shape, &narrower);
+    EXPECT_EQ(scene.parts()[first].part, &narrower.parts[0]);
+    EXPECT_EQ(scene.parts()[first + 1].part, &narrower.parts[1]);
+    EXPECT_EQ(scene.parts()[first + 1].pose.position, Vec3(2.0, 1.0, 0.0));
+    EXPECT_EQ(scene.revision(), before + 1) << "what is remembered of it is void";
+    EXPECT_EQ(scene.change(before + 1).part_count, 2u);
+    EXPECT_TRUE(scene.only_gives_since(before));
+    EXPECT_EQ(scene.body(body).former, nullptr);
+    EXPECT_TRUE(scene.deformed_bodies().empty());
+}
+
+TEST(TouchScene, OfOtherPartsABodyIsNotNarrowed) {
+    TouchScene scene(1, 4);
+    const PlacedShape lump{MeshShape{std::make_shared<const TriangleMesh>(shared::icosphere(1, 0.5))}, {}};
+    const auto shape = make_touch_shape(std::vector{lump}).shape;
+    const int body = scene.add(*shape, {}, {}, 1);
+    const std::uint64_t before = scene.revision();
+    EXPECT_FALSE(scene.narrow(body, *make_touch_shape(std::vector{lump}).shape)) << "another tree";
+    EXPECT_FALSE(scene.narrow(body, *spheres(1))) << "no tree";
+    TouchShape more = *shape;
+    more.parts.push_back(spheres(1)->parts.front());
+    EXPECT_FALSE(scene.narrow(body, more));
+    EXPECT_EQ(scene.body(body).shape, shape.get());
+    EXPECT_EQ(scene.revision(), before);
 }
 
 }  // namespace
