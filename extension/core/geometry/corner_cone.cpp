@@ -40,9 +40,8 @@ bool CornerCone::may_touch(EmptyBall& ball) {
     if (!(doubt_ <= max_doubt) || !(rounding_ <= max_doubt) || rays_.size() > TouchPatch::max_directions) {
         return true;
     }
-    const auto opposite = std::ranges::find_if(rays_, [&](const Vec3& ray) {
-        return glm::length(ray + rays_.front()) < parallel_sine;
-    });
+    const auto opposite = std::ranges::find_if(
+        rays_, [&](const Vec3& ray) { return glm::length(ray + rays_.front()) < parallel_sine; });
     return opposite != rays_.end() ? may_touch_in_plane(rays_.front(), ball) : may_touch_in_cone(ball);
 }
 
@@ -99,9 +98,8 @@ bool CornerCone::may_touch_in_cone(EmptyBall& ball) {
     middle = unit(middle);
     const Vec3 right = unit(rays_.front() - middle * glm::dot(middle, rays_.front()));
     const Vec3 up = glm::cross(middle, right);
-    std::ranges::sort(rays_, {}, [&](const Vec3& ray) {
-        return std::atan2(glm::dot(ray, up), glm::dot(ray, right));
-    });
+    std::ranges::sort(rays_, {},
+                      [&](const Vec3& ray) { return std::atan2(glm::dot(ray, up), glm::dot(ray, right)); });
     bool touches = false;
     for (std::size_t i = 0; i < rays_.size() && !touches; ++i) {
         const Vec3& next = rays_[(i + 1) % rays_.size()];

@@ -65,8 +65,8 @@ struct TouchShapeResult {
 TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes,
                                   const ParallelRunner& run = run_serially);
 
-// The same for spheres of that radius (unit: meters), and larger ones: what they can touch of each mesh stands
-// in a tree of its own. To touch it is the same, sooner. Null where that is of no use.
+// The same for spheres of that radius (unit: meters), and larger ones: what they can touch of each mesh
+// stands in a tree of its own. To touch it is the same, sooner. Null where that is of no use.
 std::shared_ptr<const TouchShape> narrowed(const TouchShape& shape, double radius,
                                            const ParallelRunner& run = run_serially);
 

@@ -115,7 +115,8 @@ void visit_edges(const SharedMesh& shared, std::uint32_t vertex, Visit&& visit) 
 
 }  // namespace
 
-std::vector<std::uint32_t> touchable_slots(const TriangleTree& tree, double radius, const ParallelRunner& run) {
+std::vector<std::uint32_t> touchable_slots(const TriangleTree& tree, double radius,
+                                           const ParallelRunner& run) {
     const SharedMesh shared(tree);
     const std::size_t count = shared.slots.size();
     Marks by_face(count, 0), by_edge(count, 0), by_corner(count, 0);

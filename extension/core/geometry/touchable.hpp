@@ -4,13 +4,13 @@
 // A sphere touches a triangle from outside where a ball of its radius meets it in a point p and no point of
 // the mesh lies inside the ball.
 //
-//   Shrinking. If a ball of radius d touches at p, so does every smaller one inside it that touches at p: what
-//   cannot be touched with a radius R cannot with any larger one.
+//   Shrinking. If a ball of radius d touches at p, so does every smaller one inside it that touches at p:
+//   what cannot be touched with a radius R cannot with any larger one.
 //
 //   Nearest. If the nearest point of the mesh is d >= R away from a centre, the ball of radius d around it is
 //   empty and touches the triangle there, so that this triangle can be touched with R, too. From wherever a
-//   sphere of radius R fits, the nearest triangle is therefore one of those that R can touch: what keeps clear
-//   of these, and is nowhere nearer than R to the others, is clear of all.
+//   sphere of radius R fits, the nearest triangle is therefore one of those that R can touch: what keeps
+//   clear of these, and is nowhere nearer than R to the others, is clear of all.
 #pragma once
 
 #include "core/geometry/parallel.hpp"

@@ -121,7 +121,7 @@ private:
     struct Descent {
         double beyond = 0.0;   // how far above a surface the last step may have ended (unit: meters)
         double dropped = 0.0;  // the same, where it led along one
-        double trust = std::numeric_limits<double>::infinity();  // see bend_step (unit: meters)
+        double trust = std::numeric_limits<double>::infinity();     // see bend_step (unit: meters)
         double foreseen = std::numeric_limits<double>::infinity();  // see follow_hill (unit: meters)
         double last_bent = 0.0;  // length of the last bent step (unit: meters)
         double nearest =

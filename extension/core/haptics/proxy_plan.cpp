@@ -73,9 +73,9 @@ void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descen
     }
 }
 
-// A surface of many small facets bends as a whole otherwise than any of them. What pushes the sphere out turns
-// on its way there: by how much on the last way is the bend of the whole along the slide (unit: 1/meters,
-// above 0 on a hill), and a Newton step on the Lagrangian is the slide over 1 - pressure * bend.
+// A surface of many small facets bends as a whole otherwise than any of them. What pushes the sphere out
+// turns on its way there: by how much on the last way is the bend of the whole along the slide (unit:
+// 1/meters, above 0 on a hill), and a Newton step on the Lagrangian is the slide over 1 - pressure * bend.
 void Proxy::follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     const Vec3 push = step.drop + step.slide - pull;
     const double pressure = glm::length(push);

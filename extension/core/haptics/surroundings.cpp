@@ -71,8 +71,8 @@ bool Surroundings::fits(std::uint32_t index, const Vec3& center) {
 void Surroundings::make_sure(const Vec3& center) {
     if (!is_sure_) {
         broad_phase_.bring_near(0.0, center, work_);
-        is_sure_ = std::ranges::all_of(broad_phase_.near(),
-                                       [&](std::uint32_t part) { return fits(part, center); });
+        is_sure_ =
+            std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) { return fits(part, center); });
     }
 }
 

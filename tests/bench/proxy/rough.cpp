@@ -284,8 +284,9 @@ public:
             const double all = static_cast<double>(part.tree()->triangle_count());
             char key[16];
             std::snprintf(key, sizeof key, "_r%g", radius);
-            report.set(name_ + key + ".touchable_share",
-                       part.touchable ? static_cast<double>(part.touchable->tree.triangle_count()) / all : 1.0);
+            report.set(
+                name_ + key + ".touchable_share",
+                part.touchable ? static_cast<double>(part.touchable->tree.triangle_count()) / all : 1.0);
             report.set(name_ + key + ".narrowing_ms", milliseconds);
         }
         return at->second;
