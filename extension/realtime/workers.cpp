@@ -76,31 +76,19 @@ void Workers::start() {
     }
 }
 
-void Workers::add(std::function<void()> job) {
+void Workers::add_to(Jobs& jobs, std::function<void()> job) {
     TACTUS_ASSERT_NOT_HAPTIC_THREAD();
     if (threads_.empty()) {
         start();
     }
     {
         const std::lock_guard lock(mutex_);
-        jobs_.push_back(std::move(job));
+        jobs.push_back(std::move(job));
     }
     news_.notify_one();
 }
 
-void Workers::add_later(std::function<void()> job) {
-    TACTUS_ASSERT_NOT_HAPTIC_THREAD();
-    if (threads_.empty()) {
-        start();
-    }
-    {
-        const std::lock_guard lock(mutex_);
-        later_jobs_.push_back(std::move(job));
-    }
-    news_.notify_one();
-}
-
-void Workers::do_job(std::unique_lock<std::mutex>& lock, std::deque<std::function<void()>>& jobs) {
+void Workers::do_job(std::unique_lock<std::mutex>& lock, Jobs& jobs) {
     std::function<void()> job = std::move(jobs.front());
     jobs.pop_front();
     ++working_;

@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/triangle_tree.hpp"
@@ -27,10 +28,10 @@ public:
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    void add(std::function<void()> job);
+    void add(std::function<void()> job) { add_to(jobs_, std::move(job)); }
     // What nobody waits for: begun when nothing else is to be done, one after the other, so that with two
     // threads there is always one for what is added meanwhile. It uses runner_later().
-    void add_later(std::function<void()> job);
+    void add_later(std::function<void()> job) { add_to(later_jobs_, std::move(job)); }
 
     // Those of the program; they end with end_shared().
     static Workers& shared();
@@ -58,9 +59,11 @@ private:
 
     void start();
     void work();
+    using Jobs = std::deque<std::function<void()>>;
     using Batches = std::deque<std::shared_ptr<Batch>>;
     void run(std::size_t count, const std::function<void(std::size_t)>& task, Batches& among);
-    void do_job(std::unique_lock<std::mutex>& lock, std::deque<std::function<void()>>& jobs);
+    void add_to(Jobs& jobs, std::function<void()> job);
+    void do_job(std::unique_lock<std::mutex>& lock, Jobs& jobs);
     bool has_later_job() const { return !later_jobs_.empty() && !is_later_under_way_; }
     bool is_idle() const { return working_ == 0 && jobs_.empty() && later_jobs_.empty(); }
     static bool take_task(Batch& batch);
@@ -72,7 +75,7 @@ private:
     std::mutex mutex_;  // of all below
     std::condition_variable news_;
     std::condition_variable all_done_;
-    std::deque<std::function<void()>> jobs_, later_jobs_;
+    Jobs jobs_, later_jobs_;
     Batches batches_, later_batches_;  // that may still have tasks to give
     std::size_t working_ = 0;          // on a job
     bool is_later_under_way_ = false;  // on one of later_jobs_

@@ -47,6 +47,7 @@ std::shared_ptr<const TouchShape> refitted(const TouchShape& before, const Trian
     TouchPart& part = after->parts.front();
     const auto tree = std::make_shared<const TriangleTree>(part.tree()->refitted(moved));
     part.surface = tree;
+    part.touchable = nullptr;  // of the tree before
     part.radius = tree->radius();
     after->reach = glm::length(tree->center()) + tree->radius();
     return after;

@@ -7,14 +7,6 @@
 
 namespace tactus {
 
-namespace {
-
-Vec3 unit(const Vec3& v) {
-    return v / std::max(glm::length(v), 1e-300);
-}
-
-}  // namespace
-
 CornerCone::CornerCone(const SharedMesh& shared, std::uint32_t vertex) : place_(shared.place(vertex)) {
     double shortest = std::numeric_limits<double>::infinity();
     for (const std::uint32_t triangle : shared.triangles_at(vertex)) {

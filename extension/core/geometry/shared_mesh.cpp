@@ -4,16 +4,19 @@
 
 namespace tactus {
 
+void add_loose(TriangleMesh& mesh, const TriangleCorners& corners) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), {corners.a, corners.b, corners.c});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
 SharedMesh::SharedMesh(const TriangleTree& tree) : rounding(0x1p-50 * tree.magnitude()) {
     for (std::uint32_t pack = 0; pack < tree.pack_count(); ++pack) {
         const PackIds& ids = tree.triangle_ids(pack);
         for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
             if (lane == 0 || ids[lane] != ids[lane - 1]) {
                 const std::uint32_t slot = pack * lane_count + lane;
-                const TriangleCorners corners = tree.corners(slot);
-                const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-                mesh.vertices.insert(mesh.vertices.end(), {corners.a, corners.b, corners.c});
-                mesh.triangles.push_back({first, first + 1, first + 2});
+                add_loose(mesh, tree.corners(slot));
                 slots.push_back(slot);
             }
         }

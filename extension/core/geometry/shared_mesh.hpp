@@ -1,6 +1,8 @@
 // The triangles of a tree as a mesh whose corners are shared wherever they are at the same place.
 #pragma once
 
+#include <algorithm>
+#include <glm/geometric.hpp>
 #include <span>
 #include <vector>
 
@@ -8,6 +10,14 @@
 #include "core/geometry/triangle_tree.hpp"
 
 namespace tactus {
+
+// A triangle with corners of its own.
+void add_loose(TriangleMesh& mesh, const TriangleCorners& corners);
+
+// Of no length where the vector has none.
+inline Vec3 unit(const Vec3& v) {
+    return v / std::max(glm::length(v), 1e-300);
+}
 
 // In the tree's order, so that neighbours mostly follow each other.
 struct SharedMesh {

@@ -29,10 +29,6 @@ void mark(Marks& marks, std::uint32_t triangle) {
     std::atomic_ref(marks[triangle]).store(1, std::memory_order_relaxed);
 }
 
-Vec3 unit(const Vec3& v) {
-    return v / std::max(glm::length(v), 1e-300);
-}
-
 bool is_face_touchable(const SharedMesh& shared, std::uint32_t triangle, EmptyBall& ball) {
     const auto& [i, k, m] = shared.mesh.triangles[triangle];
     const Vec3 a = shared.place(i), b = shared.place(k), c = shared.place(m);
@@ -168,10 +164,7 @@ std::shared_ptr<const TouchableTriangles> touchable_triangles(const TriangleTree
     }
     TriangleMesh mesh;
     for (const std::uint32_t slot : slots) {
-        const TriangleCorners corners = tree.corners(slot);
-        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        mesh.vertices.insert(mesh.vertices.end(), {corners.a, corners.b, corners.c});
-        mesh.triangles.push_back({first, first + 1, first + 2});
+        add_loose(mesh, tree.corners(slot));
     }
     TouchableTriangles touchable{radius, &tree, TriangleTree::build(mesh, run)};
     touchable.tree.name_triangles(slots);
