@@ -127,6 +127,7 @@ private:
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
         int stops = 0;                                // steps that something has stopped
+        bool was_stopped = false;                     // the last one has been
         Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there
         Vec3 pushed{0.0};
         bool slid = false;

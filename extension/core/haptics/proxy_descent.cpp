@@ -117,6 +117,7 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     // How hard each contact presses, which friction goes by, only all of them tell.
     descent.recalls = hit.found && length > 0.0 && holds && !descent.grips && descent.slope == 0.0;
     descent.strays = stopped_at_once && strays(wanted);
+    descent.was_stopped = hit.found;
     if (hit.found) {
         ++descent.stops;
         surroundings_.keep_in_mind(stopped_by);
