@@ -62,8 +62,8 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
 
 // Flat steps never lead away from the hand, bent ones may, and several may lead around in a circle. What
 // counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a step has
-// won nothing, bent ones are trusted half as far as it went, and twice as far again where one has. A step that
-// was stopped was planned without what has stopped it, and its drop promised too much: it shows nothing.
+// won nothing, bent ones are trusted half as far as it went, and twice as far again where one has. A step
+// that was stopped was planned without what has stopped it, and its drop promised too much: it shows nothing.
 void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     const double distance = glm::distance(pull, step.drop);
     if (descent.was_stopped) {

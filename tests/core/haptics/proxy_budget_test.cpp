@@ -143,6 +143,25 @@ TEST(ProxyBudget, FacetAfterFacetContactsAreNotSoughtAnew) {
     EXPECT_LT(unfinished, 100);
 }
 
+// A step that the next facet has stopped was planned without it, and promised to come nearer to the hand than
+// any step can. Held against that, no bent step was believed in for the rest of the tick: 20 of these were
+// unfinished.
+TEST(ProxyBudget, WhatAStoppedStepPromisedIsNotHeldAgainstTheNext) {
+    int unfinished = 0, touching = 0;
+    for (const double radius : {0.05, 0.1, 0.2}) {
+        TouchRig rig(radius);
+        rig.add(rough_sphere(7, 0.5, 0.1));
+        rig.draw({0.5 + 2.0 * radius, 0.0, 0.0}, {0.5, 0.0, 0.0}, 400);
+        for (int i = 1; i <= 400; ++i) {
+            const ProxyTick tick = rig.tick(0.5 * Vec3(std::cos(0.02 * i), std::sin(0.02 * i), 0.0));
+            unfinished += (tick.status & proxy_unfinished) != 0;
+            touching += (tick.status & proxy_touching) != 0;
+        }
+    }
+    EXPECT_EQ(touching, 1'200);
+    EXPECT_LE(unfinished, 10);
+}
+
 // Wherever the work ends, a tick that calls itself finished is where exact descent ends.
 TEST(ProxyBudget, WithLittleWorkNoTickIsCalledFinishedThatIsNot) {
     constexpr double radius = 0.05;
