@@ -143,9 +143,8 @@ TEST(ProxyBudget, FacetAfterFacetContactsAreNotSoughtAnew) {
     EXPECT_LT(unfinished, 100);
 }
 
-// A step that the next facet has stopped was planned without it, and promised to come nearer to the hand than
-// any step can. Held against that, no bent step was believed in for the rest of the tick: 20 of these were
-// unfinished.
+// A step that the next facet stops was planned without it: what it promised does not end the trust in bent
+// steps (see Proxy::doubt).
 TEST(ProxyBudget, WhatAStoppedStepPromisedIsNotHeldAgainstTheNext) {
     int unfinished = 0, touching = 0;
     for (const double radius : {0.05, 0.1, 0.2}) {
