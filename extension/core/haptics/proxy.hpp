@@ -126,6 +126,7 @@ private:
         double last_bent = 0.0;  // length of the last bent step (unit: meters)
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
+        int planned = 0;                              // steps along a surface
         int stops = 0;                                // steps that something has stopped
         bool was_stopped = false;                     // the last one has been
         Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there

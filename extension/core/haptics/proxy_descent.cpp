@@ -104,7 +104,6 @@ Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& sto
 Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     const bool holds = step.pressing_count > 0;
     descent.slid = descent.slid || (holds && step.motion != step.drop);
-    const double wanted = glm::length(step.motion);
     step_over_crowd(step, pull, descent.slope);
     const Vec3 before = position_;
     const double slope = descent.slope;
@@ -116,7 +115,7 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     const bool stopped_at_once = hit.found && length == 0.0;
     // How hard each contact presses, which friction goes by, only all of them tell.
     descent.recalls = hit.found && length > 0.0 && holds && !descent.grips && descent.slope == 0.0;
-    descent.strays = stopped_at_once && strays(wanted);
+    descent.strays = stopped_at_once && strays(glm::length(step.motion));
     descent.was_stopped = hit.found;
     if (hit.found) {
         ++descent.stops;
@@ -190,7 +189,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
 void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent,
                      ProxyTick& tick) {
     const bool is_unfinished = tick.residual > tolerances().step;
-    const double way = glm::distance(position_, start);
+    const double way = is_unfinished ? glm::distance(position_, start) : 0.0;
     crowd_slope_ = is_unfinished && way < least_progress * settings_.radius ? descent.slope : 0.0;
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);

@@ -13,8 +13,9 @@ namespace tactus {
 namespace {
 
 constexpr int few_contacts = 4;  // are told apart as soon one by one
-// Of the radius. On shorter ways it is the single facet that bends the step.
+// On shorter ways (of the radius), and in fewer steps, it is the single facet that bends the step.
 constexpr double least_whole = 1e-3;
+constexpr int least_planned = 4;
 
 }  // namespace
 
@@ -63,12 +64,14 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
 // Flat steps never lead away from the hand, bent ones may, and several may lead around in a circle. What
 // counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a step has
 // won nothing, bent ones are trusted half as far as it went, and twice as far again where one has. A step
-// that was stopped was planned without what has stopped it, and its drop promised too much: it shows nothing.
+// that was stopped was planned without what has stopped it, the next one mostly over what is in mind alone:
+// both promise too much, and show nothing.
 void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
-    const double distance = glm::distance(pull, step.drop);
     if (descent.was_stopped) {
-        descent.nearest = std::min(descent.nearest, distance);
-    } else if (distance < descent.nearest - tolerances().same) {
+        return;
+    }
+    const double distance = glm::distance(pull, step.drop);
+    if (distance < descent.nearest - tolerances().same) {
         descent.nearest = distance;
         descent.trust *= 2.0;
     } else if (descent.last_bent > 0.0) {
@@ -81,22 +84,25 @@ void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descen
 // 1/meters, above 0 on a hill), and a Newton step on the Lagrangian is the slide over 1 - pressure * bend.
 void Proxy::follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     const Vec3 push = step.drop + step.slide - pull;
-    const double pressure = glm::length(push);
-    const Vec3 normal = push / std::max(pressure, 1e-300);
-    const Vec3 turned = normal - std::exchange(descent.pushed, normal);
+    const Vec3 pushed = std::exchange(descent.pushed, push);
     const Vec3 moved = position_ - std::exchange(descent.began, position_);
     const double way = glm::length(moved);
     const double slide = glm::length(step.slide);
+    ++descent.planned;
     descent.foreseen = std::numeric_limits<double>::infinity();
-    if (way <= 0.0 || slide <= 0.0) {
+    if (way <= 0.0 || slide <= tolerances().step) {
         return;
     }
+    const double pressure = glm::length(push);
+    const Vec3 normal = push / std::max(pressure, 1e-300);
+    const Vec3 turned = normal - pushed / std::max(glm::length(pushed), 1e-300);
     const Vec3 along = step.slide / slide;
     const double bend = glm::dot(turned, along) / way;
     const double curvature = 1.0 - pressure * bend;
     if (bend < 0.0 && descent.stops >= 2) {
         follow_hollow(step, slide / curvature, bend, normal, way, descent.trust);
-    } else if (bend > 0.0 && slide > least_whole * settings_.radius && glm::dot(moved, along) > 0.7 * way) {
+    } else if (bend > 0.0 && descent.planned >= least_planned && slide > least_whole * settings_.radius &&
+               glm::dot(moved, along) > 0.7 * way) {
         follow_hill(step, curvature > 0.0 ? slide / curvature : 0.5 / bend, way, descent);
     }
 }
@@ -131,9 +137,12 @@ void Proxy::follow_hill(ConstrainedStep& step, double newton, double way, Descen
 // clear of all that lies behind it wherever it goes: where it rises on its way, the crowd below is behind. It
 // drops in a later step.
 void Proxy::step_over_crowd(ConstrainedStep& step, const Vec3& pull, double slope) const {
+    if (slope <= 0.0) {
+        return;
+    }
     const Vec3 push = step.drop + step.slide - pull;
     const double pressure = glm::length(push);
-    if (slope > 0.0 && pressure > 0.0) {
+    if (pressure > 0.0) {
         step.motion += push * (slope * glm::length(step.motion - step.drop) / pressure);
     }
 }

@@ -68,16 +68,13 @@ bool Surroundings::fits(std::uint32_t index, const Vec3& center) {
     return nearest.complete && nearest.distance >= room;
 }
 
-void Surroundings::make_sure(const Vec3& center) {
-    if (!is_sure_) {
-        broad_phase_.bring_near(0.0, center, work_);
-        is_sure_ =
-            std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) { return fits(part, center); });
-    }
+bool Surroundings::fits_everywhere(const Vec3& center) {
+    broad_phase_.bring_near(0.0, center, work_);
+    return std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) { return fits(part, center); });
 }
 
 // Who has a part's memory: its own, or the one that was least recently used.
-Surroundings::Owner& Surroundings::owner_of(std::uint32_t part) {
+Surroundings::Owner& Surroundings::owner_of(std::uint32_t part, const TriangleTree& tree) {
     const std::uint32_t stamp = broad_phase_.stamp(part);
     auto owner = std::ranges::find_if(
         owners_, [&](const Owner& own) { return own.part == part && own.stamp == stamp; });
@@ -86,8 +83,8 @@ Surroundings::Owner& Surroundings::owner_of(std::uint32_t part) {
         *owner = {part, stamp};
     }
     owner->used_at = ticks_;
-    if (const TriangleTree* const tree = &tree_of(part); owner->tree != tree) {
-        owner->tree = tree;
+    if (owner->tree != &tree) {
+        owner->tree = &tree;
         memories_[static_cast<std::size_t>(owner - owners_.begin())].clear();
     }
     return *owner;
@@ -101,9 +98,10 @@ double Surroundings::wanted_margin() const {
 
 // The remembered triangles around a point of the part, gathered anew where the old ones do not cover a way of
 // the given length from there. Null where they are too many: the tree is asked itself then.
-PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, double way) {
+PackMemory* Surroundings::memory_around(std::uint32_t index, const TriangleTree& tree, const Vec3& local,
+                                        double way) {
     const double needed = rest() + tolerances().reach + way;
-    Owner& owner = owner_of(index);
+    Owner& owner = owner_of(index, tree);
     PackMemory& memory = memories_[static_cast<std::size_t>(&owner - owners_.data())];
     if (memory.covered_around(local) < needed && owner.crowded_at != ticks_) {
         const ScenePart& placed = scene_->parts()[index];
@@ -112,7 +110,7 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const Vec3& local, 
         const double margin = wanted_margin();
         const double ahead = length > tolerances().reach ? ahead_share * margin : 0.0;
         const Vec3 heading = direction_to_local(placed.pose, last_way / std::max(length, 1e-300));
-        memory.gather(tree_of(index), local + heading * ahead, needed + 2.0 * margin, ahead,
+        memory.gather(tree, local + heading * ahead, needed + 2.0 * margin, ahead,
                       broad_phase_.reading(index), work_);
     }
     if (memory.covered_around(local) < needed) {
@@ -132,7 +130,7 @@ bool Surroundings::is_clear(double length) const {
 Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double limit) {
     const TriangleTree& tree = tree_of(index);
     const double length = glm::length(way.motion) * limit;
-    if (PackMemory* const memory = memory_around(index, way.start, std::min(length, wanted_margin()))) {
+    if (PackMemory* const memory = memory_around(index, tree, way.start, std::min(length, wanted_margin()))) {
         const double known = memory->covered_share(way.start, way.motion, way.distance + way.slack);
         const Hit hit = memory->sweep(tree, way, std::min(limit, known), broad_phase_.reading(index), work_);
         if (!hit.is_free() || known >= limit) {

@@ -35,7 +35,7 @@ public:
     // have is said here. Then it is asked once, of the whole mesh; as long as it does not fit, all questions
     // are.
     void doubt() { is_sure_ = false; }
-    void make_sure(const Vec3& center);
+    void make_sure(const Vec3& center) { is_sure_ = is_sure_ || fits_everywhere(center); }
 
     // True where nothing can be met within `length` of the centre, as far as is already known.
     bool is_clear(double length) const;
@@ -115,9 +115,10 @@ private:
     const TriangleTree& tree_of(std::uint32_t part) const;
     std::uint32_t slot_in_whole(std::uint32_t part, std::uint32_t slot) const;
     bool fits(std::uint32_t part, const Vec3& center);
-    Owner& owner_of(std::uint32_t part);
+    bool fits_everywhere(const Vec3& center);
+    Owner& owner_of(std::uint32_t part, const TriangleTree& tree);
     double wanted_margin() const;
-    PackMemory* memory_around(std::uint32_t part, const Vec3& local, double way);
+    PackMemory* memory_around(std::uint32_t part, const TriangleTree& tree, const Vec3& local, double way);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
     void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
     void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);

@@ -108,6 +108,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
                                       ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = tree_of(index);
+    const bool is_whole = &tree == placed.part->tree();
     const int first_count = out.list().count;
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t last_id = Hit::no_triangle;
@@ -121,7 +122,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
                 last_id = id;
                 const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
-                const FeatureId feature{index, slot_in_whole(index, slot)};
+                const FeatureId feature{index,
+                                        is_whole ? slot : id};  // a narrowed tree's are slots of the whole
                 add_seen({normal, distances[k] - rest(), feature, ContactState::seen}, limit, out);
             }
         }
@@ -129,7 +131,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     double others = 0.0;
     bool is_known = false;
     // Above a surface a ball around the sphere ends before the surface begins.
-    if (PackMemory* const memory = memory_around(index, local, 0.0)) {
+    if (PackMemory* const memory = memory_around(index, tree, local, 0.0)) {
         others = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
         // What is remembered ends somewhere: in free space before the surface begins.
         const double covered = memory->covered_around(local);
