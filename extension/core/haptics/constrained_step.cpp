@@ -127,15 +127,6 @@ Vec3 step_on_line(const Vec3& pull, std::span<const Bend, 2> bends, const Vec3& 
                                   std::min({trust, belief(p, direction), belief(q, direction)}));
 }
 
-bool is_free(const Vec3& motion, std::span<const HalfSpace> planes, double tolerance) {
-    for (const HalfSpace& plane : planes) {
-        if (glm::dot(plane.normal, motion) < plane.offset - tolerance) {
-            return false;
-        }
-    }
-    return true;
-}
-
 NearestInHalfSpaces nearest_free(const Vec3& pull, std::span<HalfSpace> planes, double tolerance,
                                  WorkBudget& work) {
     NearestInHalfSpaces nearest = nearest_in_halfspaces(pull, planes, tolerance, work);
@@ -153,6 +144,13 @@ NearestInHalfSpaces nearest_free(const Vec3& pull, std::span<HalfSpace> planes, 
 }
 
 }  // namespace
+
+bool stays_in_front(const Vec3& motion, const ContactList& contacts, double tolerance) {
+    return std::ranges::all_of(contacts.all(), [&](const Contact& contact) {
+        return contact.state == ContactState::covered ||
+               glm::dot(contact.normal, motion) >= -contact.gap - tolerance;
+    });
+}
 
 Vec3 lift_to_rest(const ContactList& contacts, double tolerance, WorkBudget& work) {
     HalfSpaces planes(contacts);
@@ -204,8 +202,7 @@ void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& conta
             -(p.normal * (p.gap - cosine * q.gap) + q.normal * (q.gap - cosine * p.gap)) / squared_sine;
         curved = base + step_on_line(pull, bends, across / std::sqrt(squared_sine), base, tolerance, trust);
     }
-    HalfSpaces planes(contacts);
-    if (is_free(curved, planes.all(), tolerance)) {
+    if (stays_in_front(curved, contacts, tolerance)) {
         step.motion = curved;
         step.bent = true;
     }

@@ -88,9 +88,18 @@ bool Proxy::look_around(Descent& descent) {
 }
 
 // As far as that, by no more than a question's share of the work. Where that leads nowhere it is a crowd that
-// stands in the way: the next step rises, and more steeply each time.
+// stands in the way: the next step rises, and more steeply each time. Nothing is asked where the contacts
+// tell already: a straight way that stays in front of their planes meets none of them, and one no longer than
+// what is left out by them is above rest meets nothing else.
 Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
     const Vec3 before = position_;
+    const double length = glm::length(step.motion);
+    if (contacts_hold_ && length <= surroundings_.unseen_gap() &&
+        stays_in_front(step.motion, contacts_, tolerances().same)) {
+        position_ += step.motion;
+        surroundings_.travelled(length);
+        return {};
+    }
     const WorkShare share(surroundings_.work(), question_share());
     const Hit hit = advance(step.motion, stopped_by);
     if (share.is_too_small() && !hit.complete &&

@@ -62,20 +62,21 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
 }
 
 // Flat steps never lead away from the hand, bent ones may, and several may lead around in a circle. What
-// counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a step has
-// won nothing, bent ones are trusted half as far as it went, and twice as far again where one has. A step
-// that was stopped was planned without what has stopped it, the next one mostly over what is in mind alone:
-// both promise too much, and show nothing.
+// counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a bent step
+// has won something, the next is trusted twice as far as it went, and a quarter as far where it has not. A
+// step that was stopped was planned without what has stopped it, the next one mostly over what is in mind
+// alone: both promise too much, and show nothing.
 void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     if (descent.was_stopped) {
         return;
     }
     const double distance = glm::distance(pull, step.drop);
-    if (distance < descent.nearest - tolerances().same) {
+    const bool has_won = distance < descent.nearest - tolerances().same;
+    if (has_won) {
         descent.nearest = distance;
-        descent.trust *= 2.0;
-    } else if (descent.last_bent > 0.0) {
-        descent.trust = 0.5 * descent.last_bent;
+    }
+    if (descent.last_bent > 0.0) {
+        descent.trust = (has_won ? 2.0 : 0.25) * descent.last_bent;
     }
 }
 

@@ -53,6 +53,9 @@ public:
     // False where the work did not suffice for everything that the sphere overlaps, when they were found
     // last.
     bool saw_all() const { return saw_all_; }
+    // No surface that is not among the contacts found last is less far above rest; 0 says nothing (unit:
+    // meters).
+    double unseen_gap() const { return saw_all_ ? unseen_gap_ : 0.0; }
 
     // For a close look at contacts around the centre.
     ContactLook look_from(const Vec3& center) { return {*scene_, center, rest(), tolerances().same, work_}; }
@@ -132,6 +135,7 @@ private:
     BroadPhase broad_phase_;
     WorkBudget work_{0};
     bool saw_all_ = true;
+    double unseen_gap_ = 0.0;
     bool is_sure_ = false;  // no triangle is nearer than touchable_share of the radius
     std::uint64_t ticks_ = 0;
     PassedBodies passed_;

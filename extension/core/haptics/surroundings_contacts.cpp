@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/haptics/surroundings.hpp"
 
@@ -21,6 +22,7 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
     out.clear();
     ContactGathering gathering(out);
     saw_all_ = true;
+    unseen_gap_ = std::numeric_limits<double>::infinity();
     broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center, work_);
     double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
@@ -35,10 +37,12 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
             find_solid_contact(part, local, limit, gathering);
         }
     }
-    // What was taken in before something nearer was found.
+    unseen_gap_ = std::clamp(limit - rest() - tolerances().same, 0.0, std::max(0.0, unseen_gap_));
+    // What was taken in before something nearer was found. The limit of a full list is just below its
+    // farthest.
     const auto kept = std::remove_if(
         out.items.begin(), out.items.begin() + out.count,
-        [&](const Contact& contact) { return contact.gap > limit - rest() + tolerances().same; });
+        [&](const Contact& contact) { return contact.gap > limit - rest() + 2.0 * tolerances().same; });
     out.count = static_cast<int>(kept - out.items.begin());
     add_in_mind(center, tolerances().reach + beyond, out);
     add_insisted(center, out);
@@ -142,6 +146,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     }
     if (!is_known) {
         out.shorten(first_count);
+        last_id = Hit::no_triangle;
         const LanesVec3 center = splat(local);
         others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
             work_.spend(cost::contact_look);
@@ -149,6 +154,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             take(pack, tangents, least_distances(tangents, center));
         });
         saw_all_ = saw_all_ && others >= rest();
+        unseen_gap_ = std::min(unseen_gap_, others - rest() - tolerances().same);
     }
     broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
 }
@@ -220,6 +226,7 @@ void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
         if (same != end) {
             *same = contact;
         } else {
+            unseen_gap_ = out.is_full() ? 0.0 : unseen_gap_;
             out.count = std::min(out.count, ContactList::capacity - 1);
             out.add(contact);
         }
