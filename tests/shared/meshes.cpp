@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numbers>
 #include <random>
 
 #include "shared/random_values.hpp"
@@ -144,6 +145,17 @@ TriangleMesh groove(double angle, double length) {
                      length * right - along,
                      length * right + along};
     mesh.triangles = {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5}};
+    return mesh;
+}
+
+TriangleMesh cone(std::uint32_t sides, double height) {
+    TriangleMesh mesh;
+    mesh.vertices.push_back(Vec3(0.0));
+    for (std::uint32_t i = 0; i < sides; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / sides;
+        mesh.vertices.push_back({std::cos(angle), -height, std::sin(angle)});
+        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
+    }
     return mesh;
 }
 

@@ -25,6 +25,10 @@ TriangleMesh terrain(int cells, double size, double height);
 // (radians).
 TriangleMesh groove(double angle, double length);
 
+// A tip at the origin that so many triangles share; their other corners lie on a circle of radius 1 that far
+// below.
+TriangleMesh cone(std::uint32_t sides, double height);
+
 // count triangles with corners in a ball of the given radius.
 TriangleMesh soup(int count, double radius, unsigned seed);
 

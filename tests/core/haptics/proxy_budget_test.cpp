@@ -23,6 +23,7 @@ namespace tactus {
 namespace {
 
 using shared::around_sphere;
+using shared::cone;
 using shared::icosphere;
 using shared::RandomValues;
 using shared::rough_sphere;
@@ -162,6 +163,21 @@ TEST(ProxyBudget, WhatAStoppedStepPromisedIsNotHeldAgainstTheNext) {
     }
     EXPECT_EQ(touching, 1'200);
     EXPECT_LE(unfinished, 2);
+}
+
+// More than a list of contacts holds are exactly as near.
+TEST(ProxyBudget, OnATipOfAThousandTrianglesItIsHeld) {
+    TouchRig rig(0.1);
+    rig.add(cone(1'000, 1.0));
+    rig.draw({0.0, 1.5, 0.0}, {0.05, 0.3, 0.0}, 200);
+    int touching = 0, unfinished = 0;
+    for (int i = 0; i < 1'000; ++i) {
+        const ProxyTick tick = rig.tick({0.05 * std::cos(0.02 * i), -0.05, 0.03 * std::sin(0.03 * i)});
+        touching += (tick.status & proxy_touching) != 0;
+        unfinished += (tick.status & proxy_unfinished) != 0;
+    }
+    EXPECT_EQ(touching, 1'000);
+    EXPECT_LE(unfinished, 250);
 }
 
 // An edge as long as the sphere is wide says nothing of a hill that many facets make.

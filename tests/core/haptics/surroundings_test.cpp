@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <set>
 #include <span>
 #include <vector>
@@ -32,18 +30,6 @@ Vec3 resting_place(const TriangleMesh& mesh, const Vec3& from, double radius) {
     TouchRig rig(radius);
     rig.add(mesh);
     return rig.draw(from, 0.3 * from, 400).position;
-}
-
-// A tip that many triangles share.
-TriangleMesh cone(std::uint32_t sides) {
-    TriangleMesh mesh;
-    mesh.vertices.push_back({0.0, 0.0, 0.0});
-    for (std::uint32_t i = 0; i < sides; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / sides;
-        mesh.vertices.push_back({std::cos(angle), -1.0, std::sin(angle)});
-        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
-    }
-    return mesh;
 }
 
 struct Counts {
@@ -100,7 +86,7 @@ TEST(Surroundings, NothingButContactsIsNearerThanTheUnseenGap) {
     for (Vec3& place : places) {
         place = Vec3(0.0, radius, 0.0) + 1e-6 * random.direction();
     }
-    expect_only_contacts_near(cone(200), places, radius, 1e-3, at_a_tip);
+    expect_only_contacts_near(shared::cone(200, 1.0), places, radius, 1e-3, at_a_tip);
     EXPECT_GT(over_rough.contacts, 50u);
     EXPECT_GT(in_a_crowd.contacts, 300u);
     EXPECT_GT(at_a_tip.long_lists, 0u);
