@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <deque>
-#include <latch>
+#include <future>
 
 #include "core/geometry/surface_query.hpp"
 #include "shared/meshes.hpp"
@@ -33,23 +33,10 @@ public:
     Vec3 position{0.0};
 };
 
-// What waits at it goes on once it is opened, or gone.
-class Gate {
-public:
-    ~Gate() { open(); }
-    void open() {
-        if (!std::exchange(is_open_, true)) {
-            latch_->count_down();
-        }
-    }
-    std::function<void()> wait() const {
-        return [latch = latch_] { latch->wait(); };
-    }
-
-private:
-    std::shared_ptr<std::latch> latch_ = std::make_shared<std::latch>(1);
-    bool is_open_ = false;
-};
+// Goes on once the promise is kept, or gone.
+std::function<void()> wait_for(std::promise<void>& promise) {
+    return [kept = promise.get_future().share()] { kept.wait(); };
+}
 
 std::shared_ptr<TriangleSource> source_of(
     const TriangleMesh& mesh, const std::function<void()>& before = [] {}) {
@@ -138,20 +125,20 @@ TEST(NarrowedTouch, SteppedTimeWaitsForIt) {
 
 TEST(NarrowedTouch, InRealTimeTheMeshIsThereFirst) {
     Scene scene(true);
-    Gate building, narrowing;
-    scene.add(source_of(shared::rough_sphere(4, 0.5, 1.0), building.wait()));
+    std::promise<void> building, narrowing;
+    scene.add(source_of(shared::rough_sphere(4, 0.5, 1.0), wait_for(building)));
     scene.frame();
     EXPECT_FALSE(scene.is_there());
-    building.open();
+    building.set_value();
     scene.workers.wait();
-    scene.workers.add_later(narrowing.wait());
+    scene.workers.add_later(wait_for(narrowing));
     scene.frame();
     EXPECT_TRUE(scene.is_there());
     EXPECT_EQ(scene.mirrors.building(), 0u);
     EXPECT_FALSE(scene.mirrors.of(1)->twin().is_building()) << "it can be touched";
     EXPECT_TRUE(scene.mirrors.of(1)->twin().is_narrowing());
     EXPECT_EQ(scene.touchable(), nullptr);
-    narrowing.open();
+    narrowing.set_value();
     scene.workers.wait();
     scene.frame();
     EXPECT_NE(scene.touchable(), nullptr);
@@ -258,18 +245,18 @@ TEST(NarrowedTouch, ABodyThatDeformsIsLeftAlone) {
 // Before the workers have come to it, or while they are at it.
 TEST(NarrowedTouch, WhatIsGoneMeanwhileIsNotNarrowed) {
     Scene scene(true);
-    Gate building, narrowing;
+    std::promise<void> building, narrowing;
     Prop& prop = scene.add(source_of(shared::rough_sphere(4, 0.5, 1.0)));
     scene.frame();
     scene.workers.wait();
-    scene.workers.add_later(narrowing.wait());
+    scene.workers.add_later(wait_for(narrowing));
     scene.frame();
     ASSERT_TRUE(scene.mirrors.of(1)->twin().is_narrowing());
-    scene.change(prop, source_of(shared::scanned(4), building.wait()));
+    scene.change(prop, source_of(shared::scanned(4), wait_for(building)));
     scene.frame();
     EXPECT_FALSE(scene.mirrors.of(1)->twin().is_narrowing());
-    building.open();
-    narrowing.open();
+    building.set_value();
+    narrowing.set_value();
     scene.frames();
     EXPECT_TRUE(scene.is_there());
     prop.is_there = false;

@@ -198,7 +198,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
 void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent,
                      ProxyTick& tick) {
     const bool is_unfinished = tick.residual > tolerances().step;
-    const double way = is_unfinished ? glm::distance(position_, start) : 0.0;
+    const double way = glm::distance(position_, start);
     crowd_slope_ = is_unfinished && way < least_progress * settings_.radius ? descent.slope : 0.0;
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);
