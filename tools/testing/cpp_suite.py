@@ -86,6 +86,11 @@ def seen_by_program(path: Path, platform: Platform) -> str:
     return f"Z:{path}" if platform.system == "windows" else str(path)
 
 
+def _own_temporary_folder(folder: str) -> dict[str, str]:
+    """For GoogleTest and the standard library: what a test writes there, no other run on this machine writes or removes."""
+    return {"TEST_TMPDIR": folder, "TMPDIR": folder}
+
+
 def _chosen(program: Path, wanted: str, platform: Platform) -> list[str]:
     prefix = f"cpp.{_layer(program)}."
     return matching([prefix + name for name in _names(program, platform)], wanted)
@@ -103,8 +108,8 @@ def _run_program(program: Path, chosen: list[str], time_limit: float, platform: 
         command = [*platform.emulator, program, *options]
         try:
             done = subprocess.run(
-                command, cwd=cache.clone(), env=environment(platform), timeout=time_limit, text=True,
-                errors="replace", capture_output=True,
+                command, cwd=cache.clone(), env=environment(platform) | _own_temporary_folder(folder), timeout=time_limit,
+                text=True, errors="replace", capture_output=True,
             )  # fmt: skip
         except subprocess.TimeoutExpired:
             return [Result(prefix + "program", f"not done after {time_limit} s")]
