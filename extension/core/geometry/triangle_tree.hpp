@@ -98,7 +98,7 @@ public:
 
     // Calls visit(pack) for packs that may hold a triangle within `limit` of the point, nearest box first;
     // visit may lower `limit`. Returns a lower bound of the distances of all packs that were not visited:
-    // below the limit only where the budget was gone.
+    // below the limit only where the budget was gone, or more nodes were near than can wait.
     template <class Visit>
     double visit_near(const Vec3& point, const double& limit, WorkBudget& work, Visit&& visit) const;
 
@@ -289,7 +289,9 @@ double TriangleTree::visit_near(const Vec3& point, const double& limit, WorkBudg
             visit(pack);
             bound = square_up(limit + slack);
         });
-    return std::max(0.0, std::sqrt(static_cast<double>(left_out)) * (1.0 - 1e-6) - slack);
+    // What lies beyond the bound is farther than the limit, however little of that the rounding leaves.
+    const double least = std::max(0.0, std::sqrt(static_cast<double>(left_out)) * (1.0 - 1e-6) - slack);
+    return left_out > bound ? std::max(least, limit) : least;
 }
 
 }  // namespace tactus

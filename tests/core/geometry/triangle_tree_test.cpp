@@ -264,6 +264,21 @@ TEST(TriangleTree, OneThatIsNearlyTheNearestEndsTheSearch) {
     }
 }
 
+// Among a thousand boxes some are farther than asked for by no more than their bound may err.
+TEST(TriangleTree, WhatHasBeenLookedAtWholeIsComplete) {
+    const TriangleTree tree = TriangleTree::build(shared::icosphere(4, 1.0));
+    RandomValues random(52);
+    for (int i = 0; i < 200; ++i) {
+        const Vec3 point = random.in_ball(1e-4);
+        const double far = random.between(0.995, 1.0005);
+        WorkBudget work(plenty);
+        const NearestTriangle found = tree.nearest(point, far, work);
+        ASSERT_TRUE(found.complete) << i;
+        double limit = far;
+        ASSERT_GE(tree.visit_near(point, limit, work, [](std::uint32_t) {}), far) << i;
+    }
+}
+
 Hit sweep(const TriangleTree& tree, const Vec3& start, const Vec3& motion, double radius, double slack,
           std::int64_t units = 1'000'000) {
     WorkBudget work(units);
