@@ -117,13 +117,19 @@ public:
     }
 
 private:
+    // What the last step was, if it was a bent one.
+    struct BentStep {
+        double length = 0.0;    // 0: it was not (unit: meters)
+        double slide = 0.0;     // of the flat step in its place (unit: meters)
+        double distance = 0.0;  // where it began, as `Descent::nearest` (unit: meters)
+    };
     // What steers the steps of one tick.
     struct Descent {
         double beyond = 0.0;   // how far above a surface the last step may have ended (unit: meters)
         double dropped = 0.0;  // the same, where it led along one
         double trust = std::numeric_limits<double>::infinity();     // see bend_step (unit: meters)
         double foreseen = std::numeric_limits<double>::infinity();  // see follow_hill (unit: meters)
-        double last_bent = 0.0;  // length of the last bent step (unit: meters)
+        BentStep last_bent;
         double nearest =
             std::numeric_limits<double>::infinity();  // to the hand while touching (unit: meters)
         int planned = 0;                              // steps along a surface

@@ -134,7 +134,7 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     }
     descent.beyond = drop_after(length, slope);
     descent.dropped = holds ? descent.beyond : 0.0;
-    descent.last_bent = step.bent ? length : 0.0;
+    descent.last_bent = {step.bent ? length : 0.0, glm::length(step.slide), glm::distance(pull, step.drop)};
     // Stopped at once by something that is no contact: it is one now.
     descent.is_stuck = stopped_at_once && !surroundings_.insist_on(stopped_by, position_);
     return hit;

@@ -62,10 +62,12 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
 }
 
 // Flat steps never lead away from the hand, bent ones may, and several may lead around in a circle. What
-// counts is how far from the hand the proxy is once it has dropped onto what holds it back: where a bent step
-// has won something, the next is trusted twice as far as it went, and a quarter as far where it has not. A
-// step that was stopped was planned without what has stopped it, the next one mostly over what is in mind
-// alone: both promise too much, and show nothing.
+// counts is how far from the hand the proxy is once it has dropped onto what holds it back: the gradient of
+// half that distance's square is the flat slide, and a step that ends at the nearest place of a parabola wins
+// half of what the gradient promises. Where a bent step has won as much, the next is trusted twice as far as
+// it went; half as far where it has won less, and a quarter where nothing. A step that was stopped was
+// planned without what has stopped it, the next one mostly over what is in mind alone: both promise too much,
+// and show nothing.
 void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const {
     if (descent.was_stopped) {
         return;
@@ -75,8 +77,11 @@ void Proxy::doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descen
     if (has_won) {
         descent.nearest = distance;
     }
-    if (descent.last_bent > 0.0) {
-        descent.trust = (has_won ? 2.0 : 0.25) * descent.last_bent;
+    const BentStep& last = descent.last_bent;
+    if (last.length > 0.0) {
+        const double won = 0.5 * (last.distance * last.distance - distance * distance);
+        const bool kept_promise = won >= 0.5 * last.slide * last.length;
+        descent.trust = (!has_won ? 0.25 : kept_promise ? 2.0 : 0.5) * last.length;
     }
 }
 

@@ -52,11 +52,6 @@ const TriangleTree& Surroundings::tree_of(std::uint32_t index) const {
     return is_sure_ ? *part.tree_for(radius_) : *part.tree();
 }
 
-std::uint32_t Surroundings::slot_in_whole(std::uint32_t part, std::uint32_t slot) const {
-    const TriangleTree& tree = tree_of(part);
-    return &tree == scene_->parts()[part].part->tree() ? slot : tree.triangle_at(slot);
-}
-
 bool Surroundings::fits(std::uint32_t index, const Vec3& center) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree* const whole = placed.part->tree();
@@ -156,7 +151,8 @@ Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopp
         if (!hit.is_free()) {
             first = hit;
             const bool is_triangle = placed.part->tree() && hit.triangle != Hit::no_triangle;
-            stopped_by = {part, is_triangle ? slot_in_whole(part, hit.triangle) : hit.triangle};
+            stopped_by = {part,
+                          is_triangle ? slot_in_whole(part, tree_of(part), hit.triangle) : hit.triangle};
         }
     }
     return first;

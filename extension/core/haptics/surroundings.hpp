@@ -52,10 +52,10 @@ public:
 
     // False where the work did not suffice for everything that the sphere overlaps, when they were found
     // last.
-    bool saw_all() const { return saw_all_; }
+    bool saw_all() const { return seen_gap_ >= 0.0; }
     // No surface that is not among the contacts found last is less far above rest; 0 says nothing (unit:
     // meters).
-    double unseen_gap() const { return saw_all_ ? unseen_gap_ : 0.0; }
+    double unseen_gap() const { return std::max(0.0, seen_gap_ - tolerances().same); }
 
     // For a close look at contacts around the centre.
     ContactLook look_from(const Vec3& center) { return {*scene_, center, rest(), tolerances().same, work_}; }
@@ -116,7 +116,10 @@ private:
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
     const TriangleTree& tree_of(std::uint32_t part) const;
-    std::uint32_t slot_in_whole(std::uint32_t part, std::uint32_t slot) const;
+    // What touches is told by its slot in the tree of all triangles: one of the others names those.
+    std::uint32_t slot_in_whole(std::uint32_t part, const TriangleTree& tree, std::uint32_t slot) const {
+        return &tree == scene_->parts()[part].part->tree() ? slot : tree.triangle_at(slot);
+    }
     bool fits(std::uint32_t part, const Vec3& center);
     bool fits_everywhere(const Vec3& center);
     Owner& owner_of(std::uint32_t part, const TriangleTree& tree);
@@ -134,9 +137,8 @@ private:
     double stride_ = 0.0;
     BroadPhase broad_phase_;
     WorkBudget work_{0};
-    bool saw_all_ = true;
-    double unseen_gap_ = 0.0;
-    bool is_sure_ = false;  // no triangle is nearer than touchable_share of the radius
+    double seen_gap_ = 0.0;  // up to there above rest all is among the contacts found last (unit: meters)
+    bool is_sure_ = false;   // no triangle is nearer than touchable_share of the radius
     std::uint64_t ticks_ = 0;
     PassedBodies passed_;
     std::array<FeatureId, max_in_mind> in_mind_{};

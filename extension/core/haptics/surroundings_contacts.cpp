@@ -11,6 +11,8 @@ namespace tactus {
 
 namespace {
 
+constexpr double nothing_seen = -std::numeric_limits<double>::infinity();
+
 // What is within reach of the nearest surface, or of rest where that is higher.
 double limit_from(double nearest, double rest, double reach, double limit) {
     return std::min(limit, std::max(rest, nearest) + reach);
@@ -21,8 +23,7 @@ double limit_from(double nearest, double rest, double reach, double limit) {
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
     ContactGathering gathering(out);
-    saw_all_ = true;
-    unseen_gap_ = std::numeric_limits<double>::infinity();
+    seen_gap_ = std::numeric_limits<double>::infinity();
     broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center, work_);
     double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
@@ -37,7 +38,7 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
             find_solid_contact(part, local, limit, gathering);
         }
     }
-    unseen_gap_ = std::clamp(limit - rest() - tolerances().same, 0.0, std::max(0.0, unseen_gap_));
+    seen_gap_ = std::min(seen_gap_, std::max(0.0, limit - rest()));
     // What was taken in before something nearer was found. The limit of a full list is just below its
     // farthest.
     const auto kept = std::remove_if(
@@ -50,7 +51,7 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
 
 void Surroundings::recall_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
-    saw_all_ = false;
+    seen_gap_ = nothing_seen;
     const ContactLook look = look_from(center);
     for (std::size_t i = 0; i < in_mind_count_; ++i) {
         const Contact contact = look.exact_contact(in_mind_[i]);
@@ -64,7 +65,7 @@ void Surroundings::recall_contacts(const Vec3& center, ContactList& out, double 
 void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, ContactList& out) {
     constexpr double share = 1.0 - 1e-4;
     out.clear();
-    saw_all_ = false;
+    seen_gap_ = nothing_seen;
     broad_phase_.bring_near(max_gap, center, work_);
     const ContactLook look = look_from(center);
     for (const std::uint32_t part : broad_phase_.near()) {
@@ -83,7 +84,7 @@ void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, Con
             const Lanes squared = offset_from_triangles(tree.pack(nearest.pack), splat(local)).squared;
             const unsigned lanes = lane_bits(squared <= splat(smallest(squared)));
             feature.triangle = slot_in_whole(
-                part, nearest.pack * lane_count + static_cast<std::uint32_t>(std::countr_zero(lanes)));
+                part, tree, nearest.pack * lane_count + static_cast<std::uint32_t>(std::countr_zero(lanes)));
         }
         if (const Contact contact = look.exact_contact(feature); contact.gap <= max_gap) {
             out.add(contact);
@@ -112,7 +113,6 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
                                       ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = tree_of(index);
-    const bool is_whole = &tree == placed.part->tree();
     const int first_count = out.list().count;
     double nearest = std::numeric_limits<double>::infinity();
     std::uint32_t last_id = Hit::no_triangle;
@@ -126,8 +126,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
                 last_id = id;
                 const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
-                const FeatureId feature{index,
-                                        is_whole ? slot : id};  // a narrowed tree's are slots of the whole
+                const FeatureId feature{index, slot_in_whole(index, tree, slot)};
                 add_seen({normal, distances[k] - rest(), feature, ContactState::seen}, limit, out);
             }
         }
@@ -153,8 +152,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
             take(pack, tangents, least_distances(tangents, center));
         });
-        saw_all_ = saw_all_ && others >= rest();
-        unseen_gap_ = std::min(unseen_gap_, others - rest() - tolerances().same);
+        seen_gap_ = std::min(seen_gap_, others - rest());
     }
     broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
 }
@@ -226,7 +224,7 @@ void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
         if (same != end) {
             *same = contact;
         } else {
-            unseen_gap_ = out.is_full() ? 0.0 : unseen_gap_;
+            seen_gap_ = out.is_full() ? std::min(seen_gap_, 0.0) : seen_gap_;
             out.count = std::min(out.count, ContactList::capacity - 1);
             out.add(contact);
         }
