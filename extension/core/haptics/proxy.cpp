@@ -120,7 +120,7 @@ void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& 
     }
     if (fly(hand)) {
         touching_.clear();
-        residual_ = 0.0;
+        believed_ = 0.0;
     } else {
         descend(hand, given_way, tick);
     }

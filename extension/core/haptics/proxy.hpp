@@ -57,7 +57,7 @@ struct ProxyMemory {
     TouchList touching;
     double slide_speed = 0.0;  // (unit: meters per second)
     double crowd_slope = 0.0;
-    double residual = 0.0;  // (unit: meters)
+    double believed = 0.0;  // (unit: meters)
 };
 
 // A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
@@ -87,7 +87,7 @@ public:
     // The proxy as it was, to move it again from there.
     ProxyMemory memory() const {
         return {position_, present_,     sliding_,     overlaps_, hand_,
-                touching_, slide_speed_, crowd_slope_, residual_};
+                touching_, slide_speed_, crowd_slope_, believed_};
     }
     void recall(const ProxyMemory& memory) {
         put(memory.position);
@@ -98,7 +98,7 @@ public:
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
         crowd_slope_ = memory.crowd_slope;
-        residual_ = memory.residual;
+        believed_ = memory.believed;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -191,7 +191,7 @@ private:
     double seconds_ = 0.001;    // of this tick
     double slide_speed_ = 0.0;  // that friction goes by, see friction.hpp (unit: meters per second)
     double crowd_slope_ = 0.0;  // the next tick's first, where a crowd has held it in the last: see Descent
-    double residual_ = 0.0;     // of the last tick (unit: meters)
+    double believed_ = 0.0;     // of what the last tick has left to go, see descend (unit: meters)
     Vec3 hand_{0.0};            // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_

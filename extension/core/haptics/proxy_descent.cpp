@@ -134,18 +134,20 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     }
     descent.beyond = drop_after(length, slope);
     descent.dropped = holds ? descent.beyond : 0.0;
-    descent.last_bent = {step.bent ? length : 0.0, glm::length(step.slide), glm::distance(pull, step.drop)};
+    descent.last_bent =
+        step.bent ? BentStep{length, glm::length(step.slide), glm::distance(pull, step.drop)} : BentStep{};
     // Stopped at once by something that is no contact: it is one now.
     descent.is_stuck = stopped_at_once && !surroundings_.insist_on(stopped_by, position_);
     return hit;
 }
 
-// A bent step is believed in at first as far as a proxy follows its hand, and what the last tick has left.
+// A bent step is believed in at first as far as a proxy follows its hand, and in what the last tick has left
+// as far as that tick has come to believe in one.
 void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
     const Vec3 start = position_;
     Descent descent;
     descent.slope = crowd_slope_;
-    descent.trust = std::max(max_sensitivity * (given_way + residual_), least_trust * settings_.radius);
+    descent.trust = std::max(max_sensitivity * given_way + believed_, least_trust * settings_.radius);
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
     for (tick.steps = 0; tick.steps < settings_.max_steps && !descent.is_stuck; ++tick.steps) {
@@ -191,7 +193,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
         }
     }
     conclude(start, step, descent, tick);
-    residual_ = tick.residual;
+    believed_ = std::min(tick.residual, descent.trust);
 }
 
 // What the tick leaves to the next one, and says.
