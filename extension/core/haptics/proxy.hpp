@@ -21,7 +21,7 @@ struct ProxySettings {
     double radius = 0.01;               // (unit: meters), > 0
     std::uint32_t mask = 0xffff'ffffu;  // layers it touches
     int max_steps = 64;                 // a tick; what is missing then is made up in the next
-    std::int64_t max_work = 16'000;     // a tick (see WorkBudget): about 0.3 ms
+    std::int64_t max_work = 18'000;     // a tick (see WorkBudget): about 0.3 ms
 };
 
 enum ProxyStatus : std::uint32_t {

@@ -232,7 +232,7 @@ TEST(ProxyBudget, InACrowdThatTakesMoreThanATickItGoesOn) {
     const TriangleMesh mesh = shared::graded(256, 500);
     const shared::JudgeTree judge(mesh);
     const std::vector<Vec3> way = shared::slow_scan(judge, radius, 450);
-    for (const int work : {4'000, 8'000, 16'000}) {
+    for (const int work : {4'000, 8'000, 18'000}) {
         TouchRig rig(radius);
         rig.add(mesh);
         limit_work(rig, work);
