@@ -67,13 +67,14 @@ double PackMemory::covered_share(const Vec3& start, const Vec3& motion, double r
     return (std::sqrt(along * along + squared * inside) - along) / std::max(squared, 1e-300);
 }
 
-const PackBound& PackMemory::look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
-                                     double odometer) {
+const PackMemory::Seen& PackMemory::look_at(std::size_t index, const TriangleTree& tree,
+                                            const LanesVec3& point, double odometer) {
     Seen& last = seen(index);
     if (last.at != odometer) {
-        last = {bound_from(offset_from_triangles(tree.pack(pack(index)), point), point), odometer};
+        const PackOffset offset = offset_from_triangles(tree.pack(pack(index)), point);
+        last = {bound_from(offset, point), odometer, lane_bits(offset.is_face)};
     }
-    return last.tangents;
+    return last;
 }
 
 // Tangents from before tell when a pack can be met at the earliest: the earliest are swept first, and end the
@@ -88,7 +89,8 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
     std::array<Candidate, capacity> candidates;
     std::size_t count = 0;
     visit_on_way(length * limit, reach, odometer, [&](std::size_t i) {
-        const PackBound& at = seen(i).at >= 0.0 ? seen(i).tangents : look_at(i, tree, from, odometer);
+        const PackBound& at =
+            seen(i).at >= 0.0 ? seen(i).tangents : look_at(i, tree, from, odometer).tangents;
         const double t = earliest_below(at, from, direction, reach);
         if (t <= limit) {
             std::size_t place = count++;
@@ -109,7 +111,7 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
         work.spend(cost::pack_look);
         const LanesVec3 to = splat(way.start + way.motion * hit.t);
         const PackBound before = seen(i).tangents;
-        const PackBound& last = look_at(i, tree, to, odometer + length * hit.t);
+        const PackBound& last = look_at(i, tree, to, odometer + length * hit.t).tangents;
         set_clear(i, odometer + smallest(least_distances(last, to)) - length * hit.t);
         if (!may_come_within(before, last, from, to, reach)) {
             continue;

@@ -39,7 +39,8 @@ public:
     double covered_share(const Vec3& start, const Vec3& motion, double reach) const;
 
     // As TriangleTree::visit_near for the packs that are known, with what is seen of each:
-    // visit(pack, tangents, distances). Returns a lower bound of the distances of the others.
+    // visit(pack, tangents, faces), the last as lane_bits() of PackOffset::is_face. Returns a lower bound of
+    // the distances of the others.
     template <class Visit>
     double visit_near(const TriangleTree& tree, const Vec3& point, const double& limit, double odometer,
                       WorkBudget& work, Visit&& visit);
@@ -51,7 +52,8 @@ public:
 private:
     struct Seen {
         PackBound tangents;
-        double at = -1.0;  // odometer reading at that look; below 0: none yet
+        double at = -1.0;    // odometer reading at that look; below 0: none yet
+        unsigned faces = 0;  // then, see visit_near
     };
     using PackNumbers = std::uint32_t __attribute__((vector_size(4 * node_width)));
     struct Gathering {
@@ -70,8 +72,8 @@ private:
     // length. Returns a lower bound of the distance of all other packs that are known.
     template <class Visit>
     double visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const;
-    // The tangents at `point`, where the sphere is once its odometer has that reading.
-    const PackBound& look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
+    // As it is seen from `point`, where the sphere is once its odometer has that reading.
+    const Seen& look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
                              double odometer);
     void set_clear(std::size_t index, double until) {
         clear_until_[index / lane_count][index % lane_count] = until;
@@ -116,11 +118,9 @@ double PackMemory::visit_near(const TriangleTree& tree, const Vec3& point, const
                 return;
             }
         }
-        const PackBound& tangents = look_at(i, tree, center, odometer);
-        const Lanes distances = least_distances(tangents, center);
-        set_clear(i, odometer + smallest(distances));
-        passed_by = std::min(passed_by, smallest(distances));
-        visit(pack(i), tangents, distances);
+        const Seen& look = look_at(i, tree, center, odometer);
+        set_clear(i, odometer + smallest(least_distances(look.tangents, center)));
+        visit(pack(i), look.tangents, look.faces);
     });
     return std::min(others, passed_by);
 }

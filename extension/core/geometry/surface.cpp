@@ -3,6 +3,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/geometry/triangle_pack.hpp"
+
 namespace tactus {
 
 namespace {
@@ -15,8 +17,7 @@ Vec3 normal_at(const TriangleCorners& t, TriangleFeature kind, const Vec3& offse
         const Vec3 ac = t.c - t.a;
         const Vec3 across = glm::cross(ab, ac);
         const double squared = glm::dot(across, across);
-        constexpr double sliver = 1e-4;  // sine of its sharpest angle
-        if (squared > sliver * sliver * glm::dot(ab, ab) * glm::dot(ac, ac)) {
+        if (squared > sliver_area * sliver_area * glm::dot(ab, ab) * glm::dot(ac, ac)) {
             return across * (std::copysign(1.0, glm::dot(across, offset)) / std::sqrt(squared));
         }
     }

@@ -36,11 +36,14 @@ TriangleCorners corners_of(const Pack& pack, std::uint32_t lane) {
 struct PackOffset {
     LanesVec3 offset;  // from the closest point of each triangle to the point (unit: meters)
     Lanes squared;     // its squared length (unit: square meters)
+    LaneMask is_face{};  // the closest point is inside a triangle that is no sliver
 };
 
 // The sine of a triangle's sharpest angle, or what comes to the same, below which its normal's direction is
 // rounding: such a triangle is its edges (docs/tolerances.md).
 constexpr double flat_area = 1e-12;
+// Below that one the normal of a triangle tells less than the offset from its edges.
+constexpr double sliver_area = 1e-4;
 
 namespace pack_detail {
 
@@ -89,8 +92,8 @@ inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& 
 
     const Lanes height = dot(normal, best.offset) / lanes_max(squared_normal, splat(1e-300));
     const LanesVec3 offset = normal * height;
-    const PackOffset plane{offset, dot(offset, offset)};
-    return {select(inside, plane.offset, best.offset), select(inside, plane.squared, best.squared)};
+    return {select(inside, offset, best.offset), select(inside, dot(offset, offset), best.squared),
+            inside & (squared_normal > squared_sides * splat(sliver_area * sliver_area))};
 }
 
 inline PackBound bound_from(const PackOffset& seen, const LanesVec3& from) {

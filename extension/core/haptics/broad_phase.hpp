@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -41,8 +42,10 @@ public:
     // along, as near as the balls around them.
     void bring_near(double length, const Vec3& center, WorkBudget& work);
     std::span<const std::uint32_t> near() const { return near_; }
-    // True where no part that is not near can be met within `length`.
-    bool far_are_clear(double length) const { return far_.empty() || far_.front().due > odometer_ + length; }
+    // How far the sphere can go at least before it touches a part that is not near.
+    double far_clearance() const {
+        return far_.empty() ? std::numeric_limits<double>::infinity() : far_.front().due - odometer_;
+    }
 
     // s + m for one part (unit: meters).
     double reading(std::uint32_t part) const { return odometer_ + records_[part].own_way; }

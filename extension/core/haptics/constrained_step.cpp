@@ -152,6 +152,12 @@ bool stays_in_front(const Vec3& motion, const ContactList& contacts, double tole
     });
 }
 
+bool stays_in_front_of_all(const Vec3& motion, const ContactList& contacts, double tolerance) {
+    return std::ranges::all_of(contacts.all(), [&](const Contact& contact) {
+        return glm::dot(contact.normal, motion) >= -contact.gap - tolerance;
+    });
+}
+
 Vec3 lift_to_rest(const ContactList& contacts, double tolerance, WorkBudget& work) {
     HalfSpaces planes(contacts);
     return nearest_free(Vec3(0.0), planes.all(), tolerance, work).point;

@@ -33,8 +33,9 @@ ConstrainedStep flat_step(const Vec3& pull, const ContactList& contacts, double 
 void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& contacts,
                std::span<const Curvature> curvatures, double tolerance, double trust);
 
-// Whether the way ends in front of all contacts' planes.
+// Whether the way ends in front of the planes of all contacts that count; of all contacts.
 bool stays_in_front(const Vec3& motion, const ContactList& contacts, double tolerance);
+bool stays_in_front_of_all(const Vec3& motion, const ContactList& contacts, double tolerance);
 
 // The shortest way to where no contact is below rest; zero where there is none.
 Vec3 lift_to_rest(const ContactList& contacts, double tolerance, WorkBudget& work);

@@ -23,8 +23,8 @@ struct FeatureId {
 
 enum class ContactState : std::uint8_t {
     seen,     // as the search found it: good enough to tell which contacts hold the sphere back
-    face,     // looked at closely: flat
-    edge,     // likewise: of a triangle
+    face,     // of a triangle, which a search tells as well as a close look
+    edge,     // looked at closely: of a triangle
     corner,   // likewise
     solid,    // a shape in closed form
     covered,  // an edge or corner for which a nearer or earlier contact stands

@@ -73,8 +73,8 @@ void ContactLook::cover_behind_nearest(ContactList& contacts) const {
     work_.spend(2 * contacts.count);
     for (int i = 0; i < contacts.count; ++i) {
         Contact& other = contacts[i];
-        if (other.state != ContactState::seen || other.feature.part != first.feature.part ||
-            other.gap <= first.gap + same_) {
+        if ((other.state != ContactState::seen && other.state != ContactState::face) ||
+            other.feature.part != first.feature.part || other.gap <= first.gap + same_) {
             continue;
         }
         const TriangleCorners t = part.part->tree()->corners(other.feature.triangle);
@@ -111,6 +111,11 @@ bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoin
                glm::distance(candidate.point,
                              closest_point_on_triangle(candidate.point, t.a, t.b, t.c).point) <= on_it;
     };
+    const auto is_face = [&](const Contact& other) {
+        return other.state == ContactState::face ||
+               ((other.state == ContactState::seen || other.state == ContactState::covered) &&
+                at(other.feature).kind == TriangleFeature::face);
+    };
     work_.spend(1 + contacts.count / 8);
     for (int i = 0; i < contacts.count; ++i) {
         Contact& other = contacts[i];
@@ -118,7 +123,7 @@ bool ContactLook::is_covered(ContactList& contacts, int index, const SurfacePoin
             continue;
         }
         const bool nearer = other.gap < contact.gap - same_;
-        const bool stands_first = !nearer && at(other.feature).kind == TriangleFeature::face;
+        const bool stands_first = !nearer && is_face(other);
         if (stands_first && other.state == ContactState::covered) {
             other.state = ContactState::seen;
         }

@@ -95,7 +95,7 @@ Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& sto
     const Vec3 before = position_;
     const double length = glm::length(step.motion);
     if (contacts_hold_ && length <= surroundings_.unseen_gap() &&
-        stays_in_front(step.motion, contacts_, tolerances().same)) {
+        stays_in_front_of_all(step.motion, contacts_, tolerances().same)) {
         position_ += step.motion;
         surroundings_.travelled(length);
         return {};

@@ -44,7 +44,7 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
         surroundings_.keep_in_mind(contact.feature);
         is_flat = is_flat && contact.state == ContactState::face;
     }
-    if (step.pressing_count == 0) {
+    if (step.pressing_count == 0 || (is_flat && is_end(step))) {
         return step;
     }
     doubt(step, pull, descent);

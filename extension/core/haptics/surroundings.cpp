@@ -116,7 +116,7 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const TriangleTree&
 }
 
 bool Surroundings::is_clear(double length) const {
-    return broad_phase_.far_are_clear(length) &&
+    return broad_phase_.far_clearance() > length &&
            std::ranges::all_of(broad_phase_.near(),
                                [&](std::uint32_t part) { return broad_phase_.is_clear(part, length); });
 }

@@ -126,6 +126,8 @@ private:
     double wanted_margin() const;
     PackMemory* memory_around(std::uint32_t part, const TriangleTree& tree, const Vec3& local, double way);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
+    void leave_out(std::uint32_t part);
+    void drop_beyond(double max_gap, ContactList& out);
     void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
     void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);

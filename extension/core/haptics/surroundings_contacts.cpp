@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/haptics/surroundings.hpp"
 
@@ -23,11 +24,12 @@ double limit_from(double nearest, double rest, double reach, double limit) {
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
     out.clear();
     ContactGathering gathering(out);
-    seen_gap_ = std::numeric_limits<double>::infinity();
     broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center, work_);
+    seen_gap_ = broad_phase_.far_clearance();
     double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
         if (!counts(part, beyond, -1)) {
+            leave_out(part);
             continue;
         }
         const ScenePart& placed = scene_->parts()[part];
@@ -38,15 +40,32 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
             find_solid_contact(part, local, limit, gathering);
         }
     }
-    seen_gap_ = std::min(seen_gap_, std::max(0.0, limit - rest()));
-    // What was taken in before something nearer was found. The limit of a full list is just below its
-    // farthest.
-    const auto kept = std::remove_if(
-        out.items.begin(), out.items.begin() + out.count,
-        [&](const Contact& contact) { return contact.gap > limit - rest() + 2.0 * tolerances().same; });
-    out.count = static_cast<int>(kept - out.items.begin());
+    // The limit of a full list is just below its farthest.
+    if (out.is_full()) {
+        seen_gap_ = std::min(seen_gap_, std::max(0.0, limit - rest()));
+    }
+    drop_beyond(limit - rest() + 2.0 * tolerances().same, out);
     add_in_mind(center, tolerances().reach + beyond, out);
     add_insisted(center, out);
+}
+
+// A part that is not asked for its contacts.
+void Surroundings::leave_out(std::uint32_t part) {
+    if (!passed_.contains(static_cast<int>(scene_->parts()[part].body))) {
+        seen_gap_ = std::min(seen_gap_, broad_phase_.clearance(part));
+    }
+}
+
+// What was taken in before something nearer was found.
+void Surroundings::drop_beyond(double max_gap, ContactList& out) {
+    const int count = std::exchange(out.count, 0);
+    for (int i = 0; i < count; ++i) {
+        if (out[i].gap <= max_gap) {
+            out[out.count++] = out[i];
+        } else {
+            seen_gap_ = std::min(seen_gap_, out[i].gap);
+        }
+    }
 }
 
 void Surroundings::recall_contacts(const Vec3& center, ContactList& out, double beyond) {
@@ -106,6 +125,8 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, do
                  {index},
                  ContactState::solid});
         limit = limit_from(at.distance, rest(), tolerances().reach, limit);
+    } else {
+        seen_gap_ = std::min(seen_gap_, at.distance - rest());
     }
 }
 
@@ -114,47 +135,55 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = tree_of(index);
     const int first_count = out.list().count;
-    double nearest = std::numeric_limits<double>::infinity();
+    const Lanes none = splat(std::numeric_limits<double>::infinity());
+    Lanes nearest = none;
+    Lanes passed_by = none;  // beyond the limit
     std::uint32_t last_id = Hit::no_triangle;
-    const auto take = [&](std::uint32_t pack, const PackBound& tangents, const Lanes& distances) {
-        const double least = smallest(distances);
-        nearest = std::min(nearest, least);
-        limit = limit_from(least, rest(), tolerances().reach, limit);
-        for (int k = 0; k < lane_count; ++k) {
+    const LanesVec3 center = splat(local);
+    const auto take = [&](std::uint32_t pack, const PackBound& tangents, unsigned faces) {
+        const Lanes distances = least_distances(tangents, center);
+        nearest = lanes_min(nearest, distances);
+        limit = limit_from(smallest(distances), rest(), tolerances().reach, limit);
+        const LaneMask within = distances <= splat(limit);
+        passed_by = lanes_min(passed_by, select(within, none, distances));
+        for (unsigned bits = lane_bits(within); bits != 0; bits &= bits - 1) {
+            const int k = std::countr_zero(bits);
             const std::uint32_t slot = pack * lane_count + static_cast<std::uint32_t>(k);
             const std::uint32_t id = tree.triangle_at(slot);
-            if (distances[k] <= limit && id != last_id) {  // the last triangle fills up a pack
-                last_id = id;
-                const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
-                const FeatureId feature{index, slot_in_whole(index, tree, slot)};
-                add_seen({normal, distances[k] - rest(), feature, ContactState::seen}, limit, out);
+            if (id == last_id) {  // the last triangle fills up a pack
+                continue;
             }
+            last_id = id;
+            const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
+            const FeatureId feature{index, slot_in_whole(index, tree, slot)};
+            const auto state = faces & 1u << k ? ContactState::face : ContactState::seen;
+            add_seen({normal, distances[k] - rest(), feature, state}, limit, out);
         }
     };
     double others = 0.0;
     bool is_known = false;
     // Above a surface a ball around the sphere ends before the surface begins.
     if (PackMemory* const memory = memory_around(index, tree, local, 0.0)) {
-        others = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
+        const double known = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
         // What is remembered ends somewhere: in free space before the surface begins.
         const double covered = memory->covered_around(local);
-        if (std::min(others, nearest) > covered) {
-            others = std::max(covered, tree.least_distance(local, work_));
-        }
-        is_known = limit <= std::max(covered, others);
+        others = std::min(known, smallest(nearest)) > covered
+                     ? std::max(covered, tree.least_distance(local, work_))
+                     : std::min(known, covered);
+        is_known = limit <= others;
     }
     if (!is_known) {
         out.shorten(first_count);
+        passed_by = none;
         last_id = Hit::no_triangle;
-        const LanesVec3 center = splat(local);
         others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
             work_.spend(cost::contact_look);
-            const PackBound tangents = bound_from(offset_from_triangles(tree.pack(pack), center), center);
-            take(pack, tangents, least_distances(tangents, center));
+            const PackOffset offset = offset_from_triangles(tree.pack(pack), center);
+            take(pack, bound_from(offset, center), lane_bits(offset.is_face));
         });
-        seen_gap_ = std::min(seen_gap_, others - rest());
     }
-    broad_phase_.set_clear(index, std::min(nearest, others) - rest() - tolerances().reach);
+    seen_gap_ = std::min({seen_gap_, others - rest(), smallest(passed_by) - rest()});
+    broad_phase_.set_clear(index, std::min(smallest(nearest), others) - rest() - tolerances().reach);
 }
 
 // An edge or corner is found once with every triangle that shares it: the first stands for all. Once the list

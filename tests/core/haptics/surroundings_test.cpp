@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <set>
@@ -93,6 +95,63 @@ TEST(Surroundings, NothingButContactsIsNearerThanTheUnseenGap) {
     EXPECT_GT(over_rough.contacts, 50u);
     EXPECT_GT(in_a_crowd.contacts, 300u);
     EXPECT_GT(at_a_tip.long_lists, 0u);
+}
+
+// What is known of bodies that are not asked, and of triangles that are only remembered, is from earlier
+// places of the sphere. Over large faces it is enough for most steps.
+TEST(Surroundings, TheUnseenGapHoldsOnTheWayBesideOtherBodies) {
+    constexpr double radius = 0.1, step = 2e-3;
+    struct Body {
+        TriangleMesh mesh;
+        Pose pose;
+    };
+    std::vector<Body> bodies{{shared::grid_box({2.0, 0.05, 2.0}, 6), {{0.0, -0.05, 0.0}}},
+                             {shared::grid_box({0.05, 0.4, 0.4}, 4), {{0.75, 0.4, 0.1}}}};
+    std::vector<std::shared_ptr<const TouchShape>> shapes;
+    TouchScene scene(4, 4);
+    for (const Body& body : bodies) {
+        shapes.push_back(shape_of(body.mesh));
+        scene.add(*shapes.back(), body.pose, {}, 1);
+    }
+    const Vec3 ball(0.2, 0.35, 0.35);
+    constexpr double ball_radius = 0.3;
+    const PlacedShape solid{SphereShape{ball_radius}, {}};
+    shapes.push_back(make_touch_shape({&solid, 1}).shape);
+    scene.add(*shapes.back(), {ball}, {}, 1);
+    Surroundings surroundings(4);
+    Vec3 center(-1.0, radius, 0.0);
+    int longer_than_a_step = 0;
+    constexpr int ticks = 1'000;
+    for (int tick = 0; tick < ticks; ++tick) {
+        scene.begin_tick();
+        surroundings.begin_tick(scene, center, radius, 0xffff'ffffu, WorkBudget(100'000));
+        ContactList list;
+        surroundings.find_contacts(center, list);
+        const double near = radius + surroundings.tolerances().skin + surroundings.unseen_gap();
+        longer_than_a_step += surroundings.unseen_gap() > step;
+        const auto is_found = [&](const FeatureId& feature) {
+            return std::ranges::find(list.all(), feature, &Contact::feature) != list.all().end();
+        };
+        EXPECT_TRUE(glm::distance(center, ball) - ball_radius >= near || is_found({2}));
+        for (std::uint32_t body = 0; body < bodies.size(); ++body) {
+            const TriangleTree& tree = *shapes[body]->parts.front().tree();
+            for (std::uint32_t slot = 0; slot < tree.pack_count() * lane_count; ++slot) {
+                const TriangleCorners t = tree.corners(slot);
+                const Vec3 local = to_local(bodies[body].pose, center);
+                const bool is_first =
+                    slot % lane_count == 0 || tree.triangle_at(slot) != tree.triangle_at(slot - 1);
+                EXPECT_TRUE(!is_first || is_found({body, slot}) ||
+                            slow_distance(local, {t.a, t.b, t.c}) >= near)
+                    << tick;
+            }
+        }
+        const Vec3 way = step * glm::normalize(Vec3(1.0, 0.0, std::cos(0.02 * tick)));
+        surroundings.first_stride();
+        surroundings.next_stride(step, true);
+        surroundings.travelled(step);
+        center += way;
+    }
+    EXPECT_GT(longer_than_a_step, ticks / 4);
 }
 
 }  // namespace
