@@ -8,6 +8,7 @@
 #include "core/geometry/mesh_check.hpp"
 #include "core/geometry/touch_shape.hpp"
 #include "core/math/bit_hash.hpp"
+#include "session/request_checks.hpp"
 
 namespace tactus {
 

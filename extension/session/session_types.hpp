@@ -51,9 +51,6 @@ struct ProxyDescription {
     bool enabled = true;
 };
 
-// That a proxy may have (unit: meters).
-bool is_proxy_radius(double radius);
-
 // How a hand holds a tool.
 struct ToolUse {
     SessionHandle device = no_handle;
