@@ -73,8 +73,7 @@ private:
     template <class Visit>
     double visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const;
     // As it is seen from `point`, where the sphere is once its odometer has that reading.
-    const Seen& look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point,
-                             double odometer);
+    const Seen& look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point, double odometer);
     void set_clear(std::size_t index, double until) {
         clear_until_[index / lane_count][index % lane_count] = until;
     }

@@ -34,8 +34,8 @@ TriangleCorners corners_of(const Pack& pack, std::uint32_t lane) {
 }
 
 struct PackOffset {
-    LanesVec3 offset;  // from the closest point of each triangle to the point (unit: meters)
-    Lanes squared;     // its squared length (unit: square meters)
+    LanesVec3 offset;    // from the closest point of each triangle to the point (unit: meters)
+    Lanes squared;       // its squared length (unit: square meters)
     LaneMask is_face{};  // the closest point is inside a triangle that is no sliver
 };
 

@@ -90,7 +90,8 @@ bool Proxy::look_around(Descent& descent) {
 // As far as that, by no more than a question's share of the work. Where that leads nowhere it is a crowd that
 // stands in the way: the next step rises, and more steeply each time. Nothing is asked where the contacts
 // tell already: a straight way that stays in front of their planes meets none of them, and one no longer than
-// what is left out by them is above rest meets nothing else.
+// what is left out by them is above rest meets nothing else. Covered ones are asked as well: what stands for
+// them does so at this place.
 Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
     const Vec3 before = position_;
     const double length = glm::length(step.motion);
