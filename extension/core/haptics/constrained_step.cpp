@@ -143,19 +143,22 @@ NearestInHalfSpaces nearest_free(const Vec3& pull, std::span<HalfSpace> planes, 
     return nearest;
 }
 
+// Of the contact's plane.
+bool ends_in_front(const Vec3& motion, const Contact& contact, double tolerance) {
+    return glm::dot(contact.normal, motion) >= -contact.gap - tolerance;
+}
+
 }  // namespace
 
 bool stays_in_front(const Vec3& motion, const ContactList& contacts, double tolerance) {
     return std::ranges::all_of(contacts.all(), [&](const Contact& contact) {
-        return contact.state == ContactState::covered ||
-               glm::dot(contact.normal, motion) >= -contact.gap - tolerance;
+        return contact.state == ContactState::covered || ends_in_front(motion, contact, tolerance);
     });
 }
 
 bool stays_in_front_of_all(const Vec3& motion, const ContactList& contacts, double tolerance) {
-    return std::ranges::all_of(contacts.all(), [&](const Contact& contact) {
-        return glm::dot(contact.normal, motion) >= -contact.gap - tolerance;
-    });
+    return std::ranges::all_of(
+        contacts.all(), [&](const Contact& contact) { return ends_in_front(motion, contact, tolerance); });
 }
 
 Vec3 lift_to_rest(const ContactList& contacts, double tolerance, WorkBudget& work) {

@@ -98,7 +98,7 @@ TEST(Surroundings, NothingButContactsIsNearerThanTheUnseenGap) {
 }
 
 // What is known of bodies that are not asked, and of triangles that are only remembered, is from earlier
-// places of the sphere. Over large faces it is enough for most steps.
+// places of the sphere. Over large faces it is enough for many steps.
 TEST(Surroundings, TheUnseenGapHoldsOnTheWayBesideOtherBodies) {
     constexpr double radius = 0.1, step = 2e-3;
     struct Body {
