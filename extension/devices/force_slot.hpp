@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "core/safety/force_watch.hpp"
+#include "platform/atomic_wait.hpp"
 #include "platform/clock.hpp"
 #include "realtime/triple_buffer.hpp"
 
@@ -39,14 +40,14 @@ public:
 
     // Watchdog: when the force that the device gives must have been renewed or taken away; 0: it gives none.
     Nanoseconds due() const { return due_.load(std::memory_order_acquire); }
-    void wait_for_force() const { due_.wait(0, std::memory_order_acquire); }
+    void wait_for_force() const { wait_while(due_, 0); }
     // Wakes who waits for a force, since none will come.
     void end_wait() { watch(-1); }
 
 private:
     void watch(Nanoseconds due) {
         if (due_.exchange(due, std::memory_order_acq_rel) == 0 && due != 0) {
-            due_.notify_all();
+            wake_all(due_);
         }
     }
 

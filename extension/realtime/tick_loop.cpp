@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "platform/atomic_wait.hpp"
 #include "platform/clock.hpp"
 #include "realtime/thread_role.hpp"
 #include "realtime/tick_schedule.hpp"
@@ -50,7 +51,7 @@ std::string TickLoop::start(const TickLoopSettings& settings, TickFunction tick,
     if (!refused.empty()) {
         return "the haptic thread could not be created: " + refused;
     }
-    ready_.wait(false, std::memory_order_acquire);
+    wait_while(ready_, false);
     running_ = true;
     keep_awake();
     return {};
@@ -83,7 +84,7 @@ void TickLoop::run() {
     report_ = make_thread_realtime(settings_.realtime);
     touch_stack();
     ready_.store(true, std::memory_order_release);
-    ready_.notify_one();
+    wake_all(ready_);
 
     Sleeper sleeper(settings_.sleep);
     TickSchedule schedule(first_deadline(monotonic_now(), settings_), settings_.period,

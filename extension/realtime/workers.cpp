@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "platform/atomic_wait.hpp"
 #include "platform/this_thread.hpp"
 #include "realtime/thread_role.hpp"
 
@@ -15,6 +16,7 @@ struct Workers::Batch {
     const std::function<void(std::size_t)>& task;  // lives until all are done
     std::atomic<std::size_t> next{0};
     std::atomic<std::size_t> done{0};
+    std::atomic<bool> all_done{false};
 };
 
 Workers::~Workers() {
@@ -145,7 +147,8 @@ bool Workers::take_task(Batch& batch) {
     }
     batch.task(i);
     if (batch.done.fetch_add(1, std::memory_order_acq_rel) + 1 == batch.count) {
-        batch.done.notify_all();
+        batch.all_done.store(true, std::memory_order_release);
+        wake_all(batch.all_done);
     }
     return true;
 }
@@ -168,9 +171,7 @@ void Workers::run(std::size_t count, const std::function<void(std::size_t)>& tas
     }
     news_.notify_all();
     take_part(*batch);
-    for (std::size_t done = batch->done.load(); done < count; done = batch->done.load()) {
-        batch->done.wait(done);
-    }
+    wait_while(batch->all_done, false);
     const std::lock_guard lock(mutex_);
     std::erase(among, batch);
 }

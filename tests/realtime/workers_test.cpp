@@ -8,6 +8,8 @@
 #include <numeric>
 #include <thread>
 
+#include "platform/atomic_wait.hpp"
+
 namespace tactus {
 
 namespace {
@@ -60,7 +62,7 @@ TEST(Workers, WhatIsForLaterGivesWayToWhatIsAddedMeanwhile) {
             most_at_once = std::max<int>(most_at_once, ++at_once);
             if (i == 0) {
                 begun.set_value();
-                goes_on.wait(false);
+                wait_while(goes_on, false);
             }
             workers.runner_later()(100, [&](std::size_t) { ++tasks; });
             --at_once;
@@ -76,7 +78,7 @@ TEST(Workers, WhatIsForLaterGivesWayToWhatIsAddedMeanwhile) {
         workers.add([&] { ++jobs; });
     }
     goes_on = true;
-    goes_on.notify_all();
+    wake_all(goes_on);
     workers.wait();
     EXPECT_EQ(jobs, 10);
     EXPECT_EQ(tasks, 300);

@@ -245,9 +245,10 @@ TEST(NarrowedTouch, ABodyThatDeformsIsLeftAlone) {
 // Before the workers have come to it, or while they are at it.
 TEST(NarrowedTouch, WhatIsGoneMeanwhileIsNotNarrowed) {
     Scene scene(true);
-    std::promise<void> building, narrowing;
-    Prop& prop = scene.add(source_of(shared::rough_sphere(4, 0.5, 1.0)));
+    std::promise<void> built, building, narrowing;
+    Prop& prop = scene.add(source_of(shared::rough_sphere(4, 0.5, 1.0), wait_for(built)));
     scene.frame();
+    built.set_value();
     scene.workers.wait();
     scene.workers.add_later(wait_for(narrowing));
     scene.frame();

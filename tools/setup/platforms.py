@@ -48,7 +48,7 @@ def host() -> Platform:
 FOREIGN = [
     Platform(
         "windows", "windows", "x86_64", "x86_64-w64-mingw32-", (*X86_64, *WINDOWS), (),
-        libraries=("ws2_32", "avrt", "winmm", "psapi"), emulator=("/usr/lib/wine/wine64",),
+        libraries=("ws2_32", "avrt", "winmm", "psapi", "synchronization"), emulator=("/usr/lib/wine/wine64",),
     ),
     Platform(
         "linux_arm64", "linux", "arm64", "aarch64-linux-gnu-", ("-march=armv8-a",),

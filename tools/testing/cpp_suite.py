@@ -86,9 +86,11 @@ def seen_by_program(path: Path, platform: Platform) -> str:
     return f"Z:{path}" if platform.system == "windows" else str(path)
 
 
-def _own_temporary_folder(folder: str) -> dict[str, str]:
-    """For GoogleTest and the standard library: what a test writes there, no other run on this machine writes or removes."""
-    return {"TEST_TMPDIR": folder, "TMPDIR": folder}
+def _own_temporary_folder(folder: str, platform: Platform) -> dict[str, str]:
+    """For GoogleTest and the standard library: what a test writes there, no other run on this machine writes or removes.
+    Wine looks for its server by TMPDIR, and all programs of one Windows need the same."""
+    by_library = {} if platform.system == "windows" else {"TMPDIR": folder}
+    return {"TEST_TMPDIR": seen_by_program(Path(folder), platform)} | by_library
 
 
 def _chosen(program: Path, wanted: str, platform: Platform) -> list[str]:
@@ -108,7 +110,7 @@ def _run_program(program: Path, chosen: list[str], time_limit: float, platform: 
         command = [*platform.emulator, program, *options]
         try:
             done = subprocess.run(
-                command, cwd=cache.clone(), env=environment(platform) | _own_temporary_folder(folder), timeout=time_limit,
+                command, cwd=cache.clone(), env=environment(platform) | _own_temporary_folder(folder, platform), timeout=time_limit,
                 text=True, errors="replace", capture_output=True,
             )  # fmt: skip
         except subprocess.TimeoutExpired:
