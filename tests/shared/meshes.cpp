@@ -159,6 +159,23 @@ TriangleMesh cone(std::uint32_t sides, double height) {
     return mesh;
 }
 
+TriangleMesh bore(int count, double radius, double half_length) {
+    TriangleMesh mesh;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2.0 * std::numbers::pi * i / count;
+        for (const double y : {-half_length, half_length}) {
+            mesh.vertices.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
+        }
+    }
+    const auto corners = static_cast<std::uint32_t>(2 * count);
+    for (std::uint32_t i = 0; i < corners; i += 2) {
+        const std::uint32_t next = (i + 2) % corners;
+        mesh.triangles.push_back({i, i + 1, next});
+        mesh.triangles.push_back({next, i + 1, next + 1});
+    }
+    return mesh;
+}
+
 TriangleMesh soup(int count, double radius, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> spread(-1.0, 1.0);

@@ -29,6 +29,9 @@ TriangleMesh groove(double angle, double length);
 // below.
 TriangleMesh cone(std::uint32_t sides, double height);
 
+// The wall of a bore around the y axis, open at both ends: `count` facets of two triangles.
+TriangleMesh bore(int count, double radius, double half_length);
+
 // count triangles with corners in a ball of the given radius.
 TriangleMesh soup(int count, double radius, unsigned seed);
 

@@ -22,7 +22,8 @@ struct Hit {
     double t = 1.0;        // the way is free up to here; the limit that was asked for where nothing stops it
     bool found = false;    // a surface stops the sphere at t
     bool complete = true;  // false: the budget ran out, and what lies beyond t is not known
-    std::uint32_t triangle = no_triangle;  // slot of the triangle that stops it, in a tree
+    // Slot of the triangle that stops it, in a tree; where not complete, of one that would stop it later.
+    std::uint32_t triangle = no_triangle;
 
     bool is_free() const { return !found && complete; }
 };

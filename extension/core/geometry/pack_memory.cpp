@@ -106,7 +106,7 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
     for (std::size_t k = 0; k < count && candidates[k].t <= hit.t; ++k) {
         const auto [earliest, i] = candidates[k];
         if (work.is_gone()) {
-            return {earliest, false, false, Hit::no_triangle};
+            return {earliest, false, false, hit.triangle};
         }
         work.spend(cost::pack_look);
         const LanesVec3 to = splat(way.start + way.motion * hit.t);

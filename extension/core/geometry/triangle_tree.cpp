@@ -45,7 +45,7 @@ FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudg
 
 NearestTriangle TriangleTree::nearest(const Vec3& point, double far, WorkBudget& work, double enough) const {
     double least;
-    return search(point, far, 1.0, enough, least, work);
+    return search(point, {far}, 1.0, enough, least, work);
 }
 
 NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
@@ -53,28 +53,52 @@ NearestTriangle TriangleTree::nearest(const Vec3& point, double far) const {
     return nearest(point, far, unlimited);
 }
 
+// Where the boxes of thousands are about as near, the nearest first are all branches before any leaf: the
+// first triangle is the one that the nearest child of each node leads to.
 NearestTriangle TriangleTree::nearly_nearest(const Vec3& point, double far, double share,
                                              WorkBudget& work) const {
+    const std::uint32_t first = pack_down_nearest_boxes(point, work);
+    const double distance = distance_to_pack(first, point, work);
+    const NearestTriangle known = distance < far ? NearestTriangle{distance, first} : NearestTriangle{far};
     double least;
-    return search(point, far, share, 0.0, least, work);
+    return search(point, known, share, 0.0, least, work);
+}
+
+std::uint32_t TriangleTree::pack_down_nearest_boxes(const Vec3& point, WorkBudget& work) const {
+    const FloatPoint at = to_float_point(point - origin_);
+    std::uint32_t at_node = 0;
+    while ((at_node & BoxNode::leaf_bit) == 0) {
+        work.spend(cost::box_node);
+        const FloatLanes distances = squared_distance(nodes_[at_node], turned_[at_node], at, 0.0f);
+        int nearest = 0;
+        for (int i = 1; i < node_width; ++i) {
+            nearest = distances[i] < distances[nearest] ? i : nearest;
+        }
+        at_node = nodes_[at_node].child[nearest];
+    }
+    return at_node & ~BoxNode::leaf_bit;
+}
+
+double TriangleTree::distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const {
+    work.spend(cost::pack_look);
+    return std::sqrt(smallest(offset_from_triangles(packs_[pack], splat(point)).squared));
 }
 
 double TriangleTree::least_distance(const Vec3& point, WorkBudget& work) const {
     double least;
-    search(point, 1e30, 0.5, 0.0, least, work);
+    search(point, {1e30}, 0.5, 0.0, least, work);
     return least;
 }
 
-// The nearest triangle among those found when only what may be nearer than `share` of the nearest so far is
-// opened, and none once one is nearer than `enough`. `least` is a lower bound of all distances.
-NearestTriangle TriangleTree::search(const Vec3& point, double far, double share, double enough,
-                                     double& least, WorkBudget& work) const {
-    NearestTriangle nearest{far};
-    const LanesVec3 exact = splat(point);
-    double limit = share * far;
+// The nearest triangle among what is known and those found when only what may be nearer than `share` of the
+// nearest so far is opened, and none once one is nearer than `enough`. `least` is a lower bound of all
+// distances.
+NearestTriangle TriangleTree::search(const Vec3& point, const NearestTriangle& known, double share,
+                                     double enough, double& least, WorkBudget& work) const {
+    NearestTriangle nearest = known;
+    double limit = share * known.distance;
     const double outside = visit_near(point, limit, work, [&](std::uint32_t pack) {
-        work.spend(cost::pack_look);
-        const double distance = std::sqrt(smallest(offset_from_triangles(packs_[pack], exact).squared));
+        const double distance = distance_to_pack(pack, point, work);
         if (distance < nearest.distance) {
             nearest = {distance, pack};
             limit = distance < enough ? 0.0 : share * distance;
@@ -123,7 +147,6 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
         hit.t = known;
         hit.found = false;
         hit.complete = false;
-        hit.triangle = Hit::no_triangle;
     }
     return hit;
 }

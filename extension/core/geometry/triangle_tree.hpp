@@ -142,8 +142,10 @@ private:
     double float_slack(const Vec3& relative) const;
     double point_rounding(const Vec3& relative) const;
     bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
-    NearestTriangle search(const Vec3& point, double far, double share, double enough, double& least,
-                           WorkBudget& work) const;
+    NearestTriangle search(const Vec3& point, const NearestTriangle& known, double share, double enough,
+                           double& least, WorkBudget& work) const;
+    std::uint32_t pack_down_nearest_boxes(const Vec3& point, WorkBudget& work) const;
+    double distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const;
     template <class Keys, class Visit>
     float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;
     void place_nodes(const TriangleMesh& mesh, const CornerExtent& extent, const ParallelRunner& run);
@@ -157,7 +159,7 @@ private:
     };
     Extremes fit_leaves(std::size_t first_node, std::size_t end);
     void fit_inner(const Extremes& all);
-    void fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle,
+    void fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle, float unit,
                         std::span<const std::uint32_t> packs) const;
     void fit_turned_boxes(const ParallelRunner& run);
     std::size_t packs_below(std::uint32_t child, std::span<std::uint32_t> out) const;

@@ -44,12 +44,12 @@ struct TurnedBox {
             width = std::max(width, -smallest(lanes_min(aside, -aside)));
         }
     }
-    void put(TurnedNode& turned, int slot) const {
+    void put(TurnedNode& turned, int slot, float unit) const {
         const double more = turned_margin * (length + width + (high - low));
         turned.low[slot] = round_down(low - more);
         turned.high[slot] = round_up(high + more);
-        turned.length[slot] = upper_half(length + more);
-        turned.width[slot] = upper_half(width + more);
+        turned.length[slot] = share_up(length + more, unit);
+        turned.width[slot] = share_up(width + more, unit);
     }
 };
 
@@ -121,8 +121,9 @@ std::size_t TriangleTree::packs_below(std::uint32_t child, std::span<std::uint32
     return count;
 }
 
-// `middle`: of the child's box, in the frame of the mesh. Left as it is where no plane fits the packs.
-void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle,
+// `middle`: of the child's box, in the frame of the mesh; `unit`: its share_unit. Left as it is where no
+// plane fits the packs.
+void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle, float unit,
                                   std::span<const std::uint32_t> packs) const {
     Vec3 area(0.0);
     for (const std::uint32_t p : packs) {
@@ -146,7 +147,7 @@ void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& midd
     for (const std::uint32_t p : packs) {
         box.take(pack(p));
     }
-    box.put(turned, slot);
+    box.put(turned, slot, unit);
 }
 
 void TriangleTree::fit_turned_boxes(const ParallelRunner& run) {
@@ -155,11 +156,12 @@ void TriangleTree::fit_turned_boxes(const ParallelRunner& run) {
         std::vector<std::uint32_t> room(max_packs);
         for (; n < end; ++n) {
             const FloatPoint middles = middle_of(nodes_[n]);
+            const FloatLanes units = share_unit(nodes_[n]);
             for (int i = 0; i < node_width; ++i) {
                 const std::uint32_t child = nodes_[n].child[i];
                 const std::size_t count = child == BoxNode::unused ? 0 : packs_below(child, room);
                 if (count > 0 && count <= max_packs) {
-                    fit_turned_box(turned_[n], i, origin_ + lane(middles, i), {room.data(), count});
+                    fit_turned_box(turned_[n], i, origin_ + lane(middles, i), units[i], {room.data(), count});
                 }
             }
         }

@@ -7,7 +7,8 @@
 // small.
 #pragma once
 
-#include <bit>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "core/geometry/box_node.hpp"
@@ -15,8 +16,7 @@
 namespace tactus {
 
 using ShortLanes = std::int16_t __attribute__((vector_size(16)));
-using UpperHalves = std::uint16_t __attribute__((vector_size(16)));
-using UpperLanes = std::uint32_t __attribute__((vector_size(32)));
+using ShareLanes = std::uint16_t __attribute__((vector_size(16)));
 
 struct alignas(32) TurnedNode {
     // A unit vector across the surface, no longer than 1; 0 where no plane fits it.
@@ -25,8 +25,8 @@ struct alignas(32) TurnedNode {
     // The way in the surface that it extends farthest, about of length 2^15; with the normal it gives the
     // axes.
     ShortLanes along[3];
-    // The largest |along . x| and |third . x|, as the upper halves of floats (unit: meters).
-    UpperHalves length, width;
+    // The largest |along . x| and |third . x|, in units of `share_unit`.
+    ShareLanes length, width;
 };
 
 // The axes of turned boxes beside the normal: across it and each other to a float's rounding, no longer than
@@ -67,12 +67,21 @@ inline TurnedAxes axes_of(const TurnedNode& turned) {
     return {cross(third, turned.normal), third};
 }
 
-// The smallest number of that kind not below a length, and back.
-inline std::uint16_t upper_half(double length) {
-    return static_cast<std::uint16_t>((std::bit_cast<std::uint32_t>(round_up(length)) >> 16) + 1);
+// Lengths of a turned box are shares of the three sides together of its child's box along the axes: none is
+// longer, wherever between them rounding has put the middle. They err by a few hundred-thousandths: were it a
+// hundredth, the walls of a bore would all seem to reach into a sphere that sits on their rim.
+inline FloatLanes share_unit(const BoxNode& boxes) {
+    constexpr float share = 1.0001f / 65'535.0f;
+    return ((boxes.high[0] - boxes.low[0]) + (boxes.high[1] - boxes.low[1]) +
+            (boxes.high[2] - boxes.low[2])) *
+           splat_float(share);
 }
-inline FloatLanes widened(const UpperHalves& halves) {
-    return std::bit_cast<FloatLanes>(__builtin_convertvector(halves, UpperLanes) << 16);
+// The smallest share not below a length, and back.
+inline std::uint16_t share_up(double length, float unit) {
+    return static_cast<std::uint16_t>(std::min(65'535.0, std::ceil(length * (1.0 + 1e-6) / unit)));
+}
+inline FloatLanes lengths_of(const ShareLanes& shares, FloatLanes unit) {
+    return __builtin_convertvector(shares, FloatLanes) * unit;
 }
 
 namespace box_detail {
@@ -99,8 +108,9 @@ inline Beyond beyond_turned(const BoxNode& boxes, const TurnedNode& turned, cons
         splat_float(rounding) + splat_float(4e-7f) * (size_of(n) + size_of(a) + size_of(t));
     const FloatLanes upper = most(n - turned.high - doubt, zero);
     const FloatLanes lower = most(turned.low - n - doubt, zero);
-    const FloatLanes far = most(size_of(a) - widened(turned.length) - doubt - doubt, zero);
-    const FloatLanes aside = most(size_of(t) - widened(turned.width) - doubt - doubt, zero);
+    const FloatLanes unit = share_unit(boxes);
+    const FloatLanes far = most(size_of(a) - lengths_of(turned.length, unit) - doubt - doubt, zero);
+    const FloatLanes aside = most(size_of(t) - lengths_of(turned.width, unit) - doubt - doubt, zero);
     return {upper - lower, (a > zero) ? far : -far, (t > zero) ? aside : -aside};
 }
 
@@ -126,8 +136,9 @@ inline Nearing nearing(const BoxNode& boxes, const TurnedNode& turned, const Tur
 inline FloatMask is_behind(const BoxNode& boxes, const TurnedNode& turned, const TurnedAxes& axes,
                            const FloatWay& way) {
     const FloatLanes rise = dot(turned.normal, way.motion);
-    const FloatLanes length = widened(turned.length);
-    const FloatLanes width = widened(turned.width);
+    const FloatLanes unit = share_unit(boxes);
+    const FloatLanes length = lengths_of(turned.length, unit);
+    const FloatLanes width = lengths_of(turned.width, unit);
     const FloatLanes reach = most(turned.low * rise, turned.high * rise) +
                              length * splat_float(short_axes) * size_of(dot(axes.along, way.motion)) +
                              width * splat_float(short_axes) * size_of(dot(axes.third, way.motion));

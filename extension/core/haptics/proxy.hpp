@@ -138,13 +138,14 @@ private:
         Vec3 began{0.0};  // where the last step began, and which way the surfaces pushed there
         Vec3 pushed{0.0};
         bool slid = false;
-        bool is_last = false;   // the work is gone: this step is planned, not taken
-        bool touched = false;   // something has held it in this tick
-        bool strays = false;    // the last step was stopped at once, and would be so again: see lift
-        bool recalls = false;   // the next step goes by what is in mind: see look_around
-        bool grips = false;     // friction has a say in the last step
-        bool is_stuck = false;  // what stops it at once is a contact already
-        double slope = 0.0;     // by which steps rise from what is touched: see step_over_crowd
+        bool is_last = false;       // the work is gone: this step is planned, not taken
+        bool touched = false;       // something has held it in this tick
+        bool strays = false;        // the last step was stopped at once, and would be so again: see lift
+        bool recalls = false;       // the next step goes by what is in mind: see look_around
+        bool grips = false;         // friction has a say in the last step
+        bool is_stuck = false;      // what stops it at once is a contact already
+        bool is_cut_short = false;  // the last plan, by its share of the work
+        double slope = 0.0;         // by which steps rise from what is touched: see step_over_crowd
     };
 
     void put(const Vec3& place);
@@ -164,6 +165,7 @@ private:
     Hit take(ConstrainedStep& step, const Vec3& pull, Descent& descent);
     void conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
     bool is_end(const ConstrainedStep& step) const;
+    ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);
     ConstrainedStep plan(const Vec3& pull, Descent& descent);
     void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     void follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& descent) const;

@@ -15,6 +15,8 @@ constexpr double least_trust = 1e-6;
 constexpr std::int64_t least_question_share = 1'000;
 // A sweep that takes its whole share and leads less far than that is held by a crowd (of the radius).
 constexpr double least_progress = 1e-3;
+// A tick in a crowd that leads less far than that leaves the next one in it (of the radius).
+constexpr double least_progress_of_tick = 1e-2;
 // What stands for a crowd is looked for up to here above rest (of the radius).
 constexpr double crowd_reach = 1e-2;
 // A crowd whose boxes are thinner than t is behind a step of slope s from the angle s off the touching place
@@ -87,6 +89,17 @@ bool Proxy::look_around(Descent& descent) {
     return descent.is_last || !work.is_gone();
 }
 
+// Where it takes more than a question's share to tell which contacts hold it back, they are a crowd as well.
+ConstrainedStep Proxy::plan_in_share(const Vec3& pull, Descent& descent) {
+    const WorkShare share(surroundings_.work(), question_share());
+    const ConstrainedStep step = plan(pull, descent);
+    descent.is_cut_short = share.is_too_small();
+    if (descent.is_cut_short) {
+        descent.slope = std::max(descent.slope, least_slope);
+    }
+    return step;
+}
+
 // As far as that, by no more than a question's share of the work. Where that leads nowhere it is a crowd that
 // stands in the way: the next step rises, and more steeply each time. Nothing is asked where the contacts
 // tell already: a straight way that stays in front of their planes meets none of them, and one no longer than
@@ -121,14 +134,15 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     const Hit hit = advance(step, descent, stopped_by);
     const double length = glm::distance(before, position_);
     // Where the work has ended before it moved, they are still those at its place.
-    contacts_hold_ = length == 0.0 && !hit.found && slope == descent.slope && !descent.recalls;
+    const bool is_stopper_known = hit.found || hit.triangle != Hit::no_triangle;
+    contacts_hold_ = length == 0.0 && !is_stopper_known && slope == descent.slope && !descent.recalls;
     const bool stopped_at_once = hit.found && length == 0.0;
     // How hard each contact presses, which friction goes by, only all of them tell.
     descent.recalls = hit.found && length > 0.0 && holds && !descent.grips && descent.slope == 0.0;
     descent.strays = stopped_at_once && strays(glm::length(step.motion));
     descent.was_stopped = hit.found;
-    if (hit.found) {
-        ++descent.stops;
+    descent.stops += hit.found;
+    if (is_stopper_known) {
         surroundings_.keep_in_mind(stopped_by);
     } else {
         surroundings_.clear_mind();
@@ -165,10 +179,11 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
             continue;
         }
         const Vec3 pull = hand - position_;
-        step = plan(pull, descent);
+        step = plan_in_share(pull, descent);
         // Planned from less than there is, it says nothing: not that the end is reached either.
-        const bool is_known = !work.is_gone();
+        const bool is_known = !work.is_gone() && !descent.is_cut_short;
         if (!is_known && !descent.is_last) {
+            contacts_hold_ = contacts_hold_ && !descent.is_cut_short;
             tick.residual = glm::length(pull);
             continue;
         }
@@ -202,7 +217,7 @@ void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Desce
                      ProxyTick& tick) {
     const bool is_unfinished = tick.residual > tolerances().step;
     const double way = glm::distance(position_, start);
-    crowd_slope_ = is_unfinished && way < least_progress * settings_.radius ? descent.slope : 0.0;
+    crowd_slope_ = is_unfinished && way < least_progress_of_tick * settings_.radius ? descent.slope : 0.0;
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;

@@ -46,8 +46,9 @@ public:
     // The same of what is in mind alone.
     void recall_contacts(const Vec3& center, ContactList& out, double beyond);
 
-    // One contact for each part up to that gap: as near as any to 1e-4 of the radius. Where thousands of
-    // triangles are about as near, to find them all takes longer than a tick, to find such a one does not.
+    // One contact for each part up to that gap: as near as any to 1e-4 of the radius, as far as a bounded
+    // search tells. Where thousands of triangles are about as near, to find them all takes longer than a
+    // tick.
     void find_nearest_contacts(const Vec3& center, double max_gap, ContactList& out);
 
     // False where the work did not suffice for everything that the sphere overlaps, when they were found

@@ -12,6 +12,8 @@ namespace tactus {
 
 namespace {
 
+// Of a crowd one that is about as near as any is found with that much work, by the first branches of a tree.
+constexpr std::int64_t search_in_crowd = 750;
 constexpr double nothing_seen = -std::numeric_limits<double>::infinity();
 
 // What is within reach of the nearest surface, or of rest where that is higher.
@@ -96,6 +98,7 @@ void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, Con
             const TriangleTree& tree = tree_of(part);
             const Vec3 local = to_local(scene_->parts()[part].pose, center);
             const double far = rest() + max_gap;
+            const WorkShare first_branches(work_, search_in_crowd);
             const NearestTriangle nearest = tree.nearly_nearest(local, far, share, work_);
             if (nearest.distance >= far) {
                 continue;

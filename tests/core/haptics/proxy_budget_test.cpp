@@ -286,30 +286,12 @@ TEST(ProxyBudget, AHeapOfTinyTrianglesLetsItGo) {
     EXPECT_EQ(watch.frozen, 0);
 }
 
-// A bore of `count` facets around the y axis.
-TriangleMesh bore(int count, double radius, double half_length) {
-    TriangleMesh mesh;
-    for (int i = 0; i < count; ++i) {
-        const double angle = 2.0 * std::numbers::pi * i / count;
-        for (const double y : {-half_length, half_length}) {
-            mesh.vertices.push_back({radius * std::cos(angle), y, radius * std::sin(angle)});
-        }
-    }
-    const auto corners = static_cast<std::uint32_t>(2 * count);
-    for (std::uint32_t i = 0; i < corners; i += 2) {
-        const std::uint32_t next = (i + 2) % corners;
-        mesh.triangles.push_back({i, i + 1, next});
-        mesh.triangles.push_back({next, i + 1, next + 1});
-    }
-    return mesh;
-}
-
 // Every tick leads over some forty facets, each of which is in the way.
 TEST(ProxyBudget, AHollowOfManyFacetsTakesFewSteps) {
     constexpr double radius = 0.05;
     constexpr double wide = 0.1;
     TouchRig rig(radius);
-    rig.add(bore(5'000, wide, 0.2));
+    rig.add(shared::bore(5'000, wide, 0.2));
     rig.draw(Vec3(0.0), {0.08, 0.0, 0.0}, 20);
     int steps = 0;
     for (int i = 1; i <= 100; ++i) {
@@ -358,7 +340,8 @@ TEST(ProxyBudget, OverAFlatFaceOfSliversItGlides) {
 // A ball too wide for a hole touches all of its rim: which edges stand for which is told mostly by tangents.
 TEST(ProxyBudget, OnARimOfManyEdgesToTellThemApartIsCheap) {
     constexpr double wide = 0.1, height = 0.2, radius = 0.12;
-    const PlacedShape placed{MeshShape{std::make_shared<const TriangleMesh>(bore(1'000, wide, height))}, {}};
+    const PlacedShape placed{
+        MeshShape{std::make_shared<const TriangleMesh>(shared::bore(1'000, wide, height))}, {}};
     const TouchShapeResult made = make_touch_shape({&placed, 1});
     TouchScene scene(1, 1);
     scene.add(*made.shape, {}, {}, 1);
@@ -383,6 +366,39 @@ TEST(ProxyBudget, OnARimOfManyEdgesToTellThemApartIsCheap) {
     EXPECT_LE(before - work.left(), 40 * contacts.count);
     EXPECT_GE(counting, contacts.count / 4);  // an edge, its ends, and the triangles that share them
     EXPECT_LT(counting, contacts.count);
+}
+
+// All edges of a rim lie within a ten-thousandth of the radius of a ball in a hole's mouth: to look at each
+// once takes more than a tick. It rolls out of the mouth and back.
+TEST(ProxyBudget, InTheMouthOfABoreItGoesOn) {
+    constexpr double wide = 0.1, height = 0.2, radius = 0.11;
+    const TriangleMesh mesh = shared::bore(8'000, wide, height);
+    const shared::JudgeTree judge(mesh);
+    TouchRig rig(radius);
+    rig.add(mesh);
+    RandomValues random(3);
+    Vec3 hand(0.0, height + 0.1, 0.0);
+    Vec3 goal = hand;
+    rig.tick(hand);
+    int unfinished = 0, standing = 0, longest = 0, series = 0;
+    for (int i = 0; i < 2'000; ++i) {
+        if (i % 20 == 0) {
+            goal = Vec3(0.0, height, 0.0) + random.in_ball(0.3);
+        }
+        hand += 0.1 * (goal - hand);
+        const Vec3 before = rig.proxy.position();
+        const ProxyTick tick = rig.tick(hand);
+        const bool is_unfinished = (tick.status & proxy_unfinished) != 0;
+        const bool stands = is_unfinished && glm::distance(before, tick.position) < 1e-3 * radius;
+        unfinished += is_unfinished;
+        standing += stands;
+        series = stands ? series + 1 : 0;
+        longest = std::max(longest, series);
+        ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
+    }
+    EXPECT_GT(unfinished, 50);
+    EXPECT_LE(standing, 400);
+    EXPECT_LE(longest, 100);
 }
 
 // A proxy appears where up to a thousandth of its radius is missing, and is lifted off in the same tick: or,
