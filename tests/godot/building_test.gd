@@ -146,8 +146,8 @@ func test_bodies_of_the_same_mesh_share_its_tree() -> void:
 			var body := _body_of(mesh, Vector3(i, 0, 0))
 			body.add_child(_collider())
 			scene.add_child(body)
-		world.add_child(scene)
 		var before: int = world.get_statistics().trees_built
+		world.add_child(scene)
 		world.advance(TICK)
 		check_equal(world.get_statistics().trees_built - before, 1, "trees of %d bodies" % count)
 		world.free()
