@@ -10,8 +10,10 @@ from setup.platforms import Platform
 ENTRY = "tactus_library_init"
 # What every machine of the system has.
 OF_THE_SYSTEM = {
-    "windows": {"kernel32.dll", "msvcrt.dll", "advapi32.dll", "ws2_32.dll", "avrt.dll", "winmm.dll", "psapi.dll"}
-    | {"api-ms-win-core-synch-l1-2-0.dll"},  # of Windows 8 on
+    "windows": {
+        "kernel32.dll", "msvcrt.dll", "advapi32.dll", "ws2_32.dll", "avrt.dll", "winmm.dll", "psapi.dll",
+        "api-ms-win-core-synch-l1-2-0.dll",  # of Windows 8 on
+    },
     "linux": {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"},
 }
 

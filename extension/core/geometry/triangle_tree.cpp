@@ -64,19 +64,21 @@ NearestTriangle TriangleTree::nearly_nearest(const Vec3& point, double far, doub
     return search(point, known, share, 0.0, least, work);
 }
 
+// Any will do: what rounding does to the distances changes nothing that is said of it. Unused slots are
+// infinitely far.
 std::uint32_t TriangleTree::pack_down_nearest_boxes(const Vec3& point, WorkBudget& work) const {
     const FloatPoint at = to_float_point(point - origin_);
-    std::uint32_t at_node = 0;
-    while ((at_node & BoxNode::leaf_bit) == 0) {
+    std::uint32_t node = 0;
+    while ((node & BoxNode::leaf_bit) == 0) {
         work.spend(cost::box_node);
-        const FloatLanes distances = squared_distance(nodes_[at_node], turned_[at_node], at, 0.0f);
+        const FloatLanes distances = squared_distance(nodes_[node], turned_[node], at, 0.0f);
         int nearest = 0;
         for (int i = 1; i < node_width; ++i) {
             nearest = distances[i] < distances[nearest] ? i : nearest;
         }
-        at_node = nodes_[at_node].child[nearest];
+        node = nodes_[node].child[nearest];
     }
-    return at_node & ~BoxNode::leaf_bit;
+    return node & ~BoxNode::leaf_bit;
 }
 
 double TriangleTree::distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const {

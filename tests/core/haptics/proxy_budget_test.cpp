@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <vector>
 
 #include "core/haptics/contact_look.hpp"
