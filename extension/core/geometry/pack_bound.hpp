@@ -92,6 +92,13 @@ inline bool may_come_within(const PackBound& first, const PackBound& last, const
     return any(may_come_within(height(first), height(last), first.normal, last.normal, splat(distance)));
 }
 
+// Whether the tangents let the point come within the distance at either end of its motion, and so anywhere.
+inline bool comes_below(const PackBound& bound, const LanesVec3& from, const LanesVec3& motion,
+                        double distance) {
+    const Lanes start = least_distances(bound, from);
+    return any(start + lanes_min(splat(0.0), dot(bound.normal, motion)) <= splat(distance));
+}
+
 // No earlier than this (a share of the way) does a point come within `distance` of a triangle of the pack;
 // infinite where it only moves away. `at` may be tangents from anywhere.
 inline double earliest_below(const PackBound& at, const LanesVec3& from, const LanesVec3& motion,

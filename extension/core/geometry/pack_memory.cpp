@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <compare>
 #include <utility>
 
 namespace tactus {
@@ -13,6 +14,8 @@ namespace {
 struct Candidate {
     double t;
     std::size_t index;
+
+    auto operator<=>(const Candidate&) const = default;
 };
 
 }  // namespace
@@ -40,15 +43,15 @@ void PackMemory::gather(const TriangleTree& tree, const Vec3& center, double rad
     center_ = center;
     radius_ = packs.radius;
     clear_until_.fill(splat(std::numeric_limits<double>::infinity()));
+    gathered.looked_at = 0;
     std::size_t next = 0;  // both gatherings come node by node: after a pack mostly the same one follows
     for (std::size_t i = 0; i < count_; ++i) {
         gathered.packs[i / node_width][i % node_width] = found[i].pack;
         const std::size_t before = last.index_of(found[i].pack, next, last_count);
         if (before < last_count) {
             gathered.seen[i] = last.seen[before];
+            gathered.looked_at |= (last.looked_at >> before & 1) << i;
             next = before + 1;
-        } else {
-            gathered.seen[i].at = -1.0;
         }
         set_clear(i, odometer + static_cast<double>(found[i].distance) - away);
     }
@@ -67,12 +70,30 @@ double PackMemory::covered_share(const Vec3& start, const Vec3& motion, double r
     return (std::sqrt(along * along + squared * inside) - along) / std::max(squared, 1e-300);
 }
 
+PackMemory::NearPacks PackMemory::near_way(double length, double limit, double odometer) const {
+    const Lanes travelled = splat(odometer + length);
+    const Lanes none = splat(std::numeric_limits<double>::infinity());
+    Lanes others = none;
+    PackSet near = 0;
+    for (std::size_t first = 0; first < count_; first += lane_count) {
+        const Lanes bound = clear_until_[first / lane_count] - travelled;
+        const LaneMask reached = (bound <= splat(limit)) & (bound < none);  // no limit has none beyond count_
+        others = lanes_min(others, select(reached, none, bound));
+        near |= PackSet{lane_bits(reached)} << first;
+    }
+    return {near, smallest(others)};
+}
+
 const PackMemory::Seen& PackMemory::look_at(std::size_t index, const TriangleTree& tree,
                                             const LanesVec3& point, double odometer) {
     Seen& last = seen(index);
-    if (last.at != odometer) {
+    PackSet& looked_at = gatherings_[now_].looked_at;
+    if (last.at != odometer || (looked_at >> index & 1) == 0) {
         const PackOffset offset = offset_from_triangles(tree.pack(pack(index)), point);
-        last = {bound_from(offset, point), odometer, lane_bits(offset.is_face)};
+        last.tangents = bound_from(offset, point);
+        last.at = odometer;
+        last.faces = lane_bits(offset.is_face);
+        looked_at |= PackSet{1} << index;
     }
     return last;
 }
@@ -86,20 +107,19 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
     const double length = glm::length(way.motion);
     const LanesVec3 from = splat(way.start);
     const LanesVec3 direction = splat(way.motion);
+    const LanesVec3 whole = splat(way.motion * limit);
+    const PackSet near = near_way(length * limit, reach, odometer).packs;
+    visit_each(near & ~gatherings_[now_].looked_at, [&](std::size_t i) { look_at(i, tree, from, odometer); });
+    PackSet reached = 0;
+    visit_each(near, [&](std::size_t i) {
+        reached |= PackSet{comes_below(seen(i).tangents, from, whole, reach)} << i;
+    });
     std::array<Candidate, capacity> candidates;
     std::size_t count = 0;
-    visit_on_way(length * limit, reach, odometer, [&](std::size_t i) {
-        const PackBound& at =
-            seen(i).at >= 0.0 ? seen(i).tangents : look_at(i, tree, from, odometer).tangents;
-        const double t = earliest_below(at, from, direction, reach);
-        if (t <= limit) {
-            std::size_t place = count++;
-            for (; place > 0 && t < candidates[place - 1].t; --place) {
-                candidates[place] = candidates[place - 1];
-            }
-            candidates[place] = {t, i};
-        }
+    visit_each(reached, [&](std::size_t i) {
+        candidates[count++] = {earliest_below(seen(i).tangents, from, direction, reach), i};
     });
+    std::sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count));
     work.spend(static_cast<std::int64_t>(count_ / lane_count + count * cost::pack_look));
     Hit hit;
     hit.t = limit;

@@ -52,13 +52,17 @@ public:
 private:
     struct Seen {
         PackBound tangents;
-        double at = -1.0;    // odometer reading at that look; below 0: none yet
+        double at = 0.0;     // odometer reading at that look
         unsigned faces = 0;  // then, see visit_near
     };
+    // Packs by a bit each.
+    using PackSet = std::uint64_t;
+    static_assert(capacity <= std::numeric_limits<PackSet>::digits);
     using PackNumbers = std::uint32_t __attribute__((vector_size(4 * node_width)));
     struct Gathering {
         std::array<PackNumbers, capacity / node_width> packs{};
         std::array<Seen, capacity> seen;
+        PackSet looked_at = 0;
 
         std::uint32_t pack(std::size_t index) const { return packs[index / node_width][index % node_width]; }
         // Where that pack stands among the first `count`, looked for from `first` on; `count` where it does
@@ -68,12 +72,23 @@ private:
 
     std::uint32_t pack(std::size_t index) const { return gatherings_[now_].pack(index); }
     Seen& seen(std::size_t index) { return gatherings_[now_].seen[index]; }
-    // Calls visit(index) for every pack that may have a triangle within `limit` of a place on a way of that
-    // length. Returns a lower bound of the distance of all other packs that are known.
+    struct NearPacks {
+        PackSet packs = 0;
+        double others = 0.0;  // a lower bound of the distance of all others that are known (unit: meters)
+    };
+    // Those that may have a triangle within `limit` of a place on a way of that length.
+    NearPacks near_way(double length, double limit, double odometer) const;
     template <class Visit>
-    double visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const;
+    static void visit_each(PackSet packs, Visit&& visit) {
+        for (; packs != 0; packs &= packs - 1) {
+            visit(static_cast<std::size_t>(std::countr_zero(packs)));
+        }
+    }
     // As it is seen from `point`, where the sphere is once its odometer has that reading.
     const Seen& look_at(std::size_t index, const TriangleTree& tree, const LanesVec3& point, double odometer);
+    double clear_until(std::size_t index) const {
+        return clear_until_[index / lane_count][index % lane_count];
+    }
     void set_clear(std::size_t index, double until) {
         clear_until_[index / lane_count][index % lane_count] = until;
     }
@@ -86,42 +101,27 @@ private:
     int now_ = 0;
 };
 
-template <class Visit>
-double PackMemory::visit_on_way(double length, const double& limit, double odometer, Visit&& visit) const {
-    const Lanes travelled = splat(odometer + length);
-    const Lanes none = splat(std::numeric_limits<double>::infinity());
-    Lanes least = none;
-    for (std::size_t first = 0; first < count_; first += lane_count) {
-        const Lanes bound = clear_until_[first / lane_count] - travelled;
-        const LaneMask reached = (bound <= splat(limit)) & (bound < none);  // no limit has none beyond count_
-        least = lanes_min(least, select(reached, least, bound));
-        for (unsigned left = lane_bits(reached); left != 0; left &= left - 1) {
-            visit(first + static_cast<std::size_t>(std::countr_zero(left)));
-        }
-    }
-    return smallest(least);
-}
-
+// All that branches ask for is computed before: one that is guessed wrong waits for nothing then.
 template <class Visit>
 double PackMemory::visit_near(const TriangleTree& tree, const Vec3& point, const double& limit,
                               double odometer, WorkBudget& work, Visit&& visit) {
     const LanesVec3 center = splat(point);
-    double passed_by = std::numeric_limits<double>::infinity();
-    const double others = visit_on_way(0.0, limit, odometer, [&](std::size_t i) {
-        work.spend(cost::pack_look);
-        if (seen(i).at >= 0.0) {
-            const double least = smallest(least_distances(seen(i).tangents, center));
-            if (least > limit) {
-                set_clear(i, odometer + least);
-                passed_by = std::min(passed_by, least);
-                return;
-            }
+    auto [near, others] = near_way(0.0, limit, odometer);
+    work.spend(std::popcount(near) / 2);
+    visit_each(near & gatherings_[now_].looked_at, [&](std::size_t i) {
+        set_clear(i, odometer + smallest(least_distances(seen(i).tangents, center)));
+    });
+    visit_each(near, [&](std::size_t i) {
+        if (const double least = clear_until(i) - odometer; least > limit) {
+            others = std::min(others, least);
+            return;
         }
+        work.spend(cost::pack_look);
         const Seen& look = look_at(i, tree, center, odometer);
         set_clear(i, odometer + smallest(least_distances(look.tangents, center)));
         visit(pack(i), look.tangents, look.faces);
     });
-    return std::min(others, passed_by);
+    return others;
 }
 
 }  // namespace tactus

@@ -32,7 +32,7 @@ FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudg
     };
     FoundPacks found;
     float limit = square_up(radius + slack);
-    const float left_out = visit_best_first(
+    const float left_out = visit_best_first<PackUse::tell>(
         limit, work,
         [&](std::uint32_t node) { return squared_distance(nodes_[node], turned_[node], at, rounding); },
         [&](std::uint32_t pack, float squared) {

@@ -19,6 +19,7 @@
 #include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
 #include "core/geometry/turned_node.hpp"
+#include "core/geometry/visit_queue.hpp"
 #include "core/geometry/winding.hpp"
 #include "core/geometry/work.hpp"
 
@@ -146,7 +147,9 @@ private:
                            double& least, WorkBudget& work) const;
     std::uint32_t pack_down_nearest_boxes(const Vec3& point, WorkBudget& work) const;
     double distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const;
-    template <class Keys, class Visit>
+    // Whether the packs of a node are looked at, or only told.
+    enum class PackUse { look, tell };
+    template <PackUse use = PackUse::look, class Keys, class Visit>
     float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;
     void place_nodes(const TriangleMesh& mesh, const CornerExtent& extent, const ParallelRunner& run);
     void place_triangles(const TriangleMesh& mesh, bool single, const ParallelRunner& run);
@@ -179,53 +182,11 @@ private:
     friend class TreeBoxes;
 };
 
-// A queue of nodes, least key first. What does not fit is left out, and its key remembered.
-class VisitQueue {
-public:
-    struct Entry {
-        float key;
-        std::uint32_t node;
-    };
-
-    bool is_empty() const { return count_ == 0; }
-    // False where there is no room.
-    bool push(const Entry& entry) {
-        if (count_ == capacity) {
-            return false;
-        }
-        std::size_t at = count_++;
-        for (; at > 0 && entry.key < entries_[(at - 1) / 2].key; at = (at - 1) / 2) {
-            entries_[at] = entries_[(at - 1) / 2];
-        }
-        entries_[at] = entry;
-        return true;
-    }
-    Entry pop() {
-        const Entry top = entries_[0];
-        const Entry last = entries_[--count_];
-        std::size_t at = 0;
-        for (std::size_t child = 1; child < count_; child = 2 * at + 1) {
-            child += child + 1 < count_ && entries_[child + 1].key < entries_[child].key;
-            if (!(entries_[child].key < last.key)) {
-                break;
-            }
-            entries_[at] = entries_[child];
-            at = child;
-        }
-        entries_[at] = last;
-        return top;
-    }
-
-private:
-    static constexpr std::size_t capacity = 512;
-    std::array<Entry, capacity> entries_;
-    std::size_t count_ = 0;
-};
-
 // Opens nodes in the order of their keys, so that whatever the budget leaves over lies beyond everything that
-// was seen. Packs are visited as soon as their node is open, least key first: they lower the limit before any
-// other node is. Returns a lower bound of the keys of all packs that were not visited.
-template <class Keys, class Visit>
+// was seen. Packs are visited as soon as their node is open: they lower the limit before any other node is.
+// Those that are looked at are asked for early, and visited least key first. Returns a lower bound of the
+// keys of all packs that were not visited.
+template <TriangleTree::PackUse use, class Keys, class Visit>
 float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const {
     VisitQueue queue;
     queue.push({0.0f, 0});
@@ -248,10 +209,12 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
             const int i = std::countr_zero(bits);
             const VisitQueue::Entry child{key[i], node.child[i]};
             if (child.node & BoxNode::leaf_bit) {
-                fetch_pack(child.node & ~BoxNode::leaf_bit);
                 int place = count++;
-                for (; place > 0 && child.key < packs[place - 1].key; --place) {
-                    packs[place] = packs[place - 1];
+                if constexpr (use == PackUse::look) {
+                    fetch_pack(child.node & ~BoxNode::leaf_bit);
+                    for (; place > 0 && child.key < packs[place - 1].key; --place) {
+                        packs[place] = packs[place - 1];
+                    }
                 }
                 packs[place] = child;
             } else {
