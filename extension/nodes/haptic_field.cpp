@@ -5,7 +5,7 @@
 #include <godot_cpp/classes/image.hpp>
 #include <span>
 
-#include "core/geometry/iso_surface.hpp"
+#include "core/mesh/iso_surface.hpp"
 #include "nodes/mesh_drawing.hpp"
 #include "nodes/red_channel.hpp"
 

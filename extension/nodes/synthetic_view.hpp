@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "world/sensing_library.hpp"
 
 namespace tactus {

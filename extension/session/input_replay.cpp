@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "core/geometry/mesh_check.hpp"
 #include "core/geometry/touch_shape.hpp"
 #include "core/math/bit_hash.hpp"
+#include "core/mesh/mesh_check.hpp"
 #include "session/request_checks.hpp"
 
 namespace tactus {

@@ -5,8 +5,8 @@
 #include <glm/matrix.hpp>
 #include <utility>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/smooth_normals.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/smooth_normals.hpp"
 #include "physics/solid_properties.hpp"
 #include "world/same_shapes.hpp"
 

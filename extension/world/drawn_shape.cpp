@@ -6,9 +6,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "core/geometry/smooth_normals.hpp"
 #include "core/geometry/touch_shape.hpp"
 #include "core/math/perpendicular.hpp"
+#include "core/mesh/smooth_normals.hpp"
 
 namespace tactus {
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/geometry/same_places.hpp"
+#include "core/mesh/same_places.hpp"
 
 namespace tactus {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "world/triangle_source.hpp"
 
 namespace tactus {

@@ -1,7 +1,7 @@
 #include "world/mesh_file.hpp"
 
-#include "core/geometry/mesh_check.hpp"
-#include "core/geometry/obj_text.hpp"
+#include "core/mesh/mesh_check.hpp"
+#include "core/mesh/obj_text.hpp"
 
 namespace tactus {
 

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/geometry/convex_hull.hpp"
 #include "core/geometry/touch_shape.hpp"
+#include "core/mesh/convex_hull.hpp"
 
 namespace tactus {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "core/ports/depth_sensing.hpp"
 #include "world/triangle_source.hpp"
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "world/scene_frame.hpp"
 #include "world/triangle_source.hpp"
 

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "core/geometry/mesh_check.hpp"
+#include "core/mesh/mesh_check.hpp"
 #include "platform/large_pages.hpp"
 #include "realtime/workers.hpp"
 

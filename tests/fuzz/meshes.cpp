@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string_view>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/convex_hull.hpp"
-#include "core/geometry/iso_surface.hpp"
-#include "core/geometry/mesh_check.hpp"
-#include "core/geometry/obj_text.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/convex_hull.hpp"
+#include "core/mesh/iso_surface.hpp"
+#include "core/mesh/mesh_check.hpp"
+#include "core/mesh/obj_text.hpp"
 #include "core/soft/soft_body.hpp"
 #include "core/tool/tool_proxy.hpp"
 #include "fuzz_target.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/geometry/obj_text.hpp"
+#include "core/mesh/obj_text.hpp"
 #include "shared/random_values.hpp"
 
 namespace tactus::shared {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/iso_surface.hpp"
 #include "core/haptics/force_law.hpp"
+#include "core/mesh/iso_surface.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/fields.hpp"
 #include "shared/hand_paths.hpp"

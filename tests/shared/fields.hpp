@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/geometry/sampled_field.hpp"
+#include "core/mesh/sampled_field.hpp"
 
 namespace tactus::shared {
 

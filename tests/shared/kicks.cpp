@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/convex_hull.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/convex_hull.hpp"
 #include "session/session.hpp"
 #include "shared/deforms.hpp"
 #include "shared/meshes.hpp"

@@ -1,7 +1,7 @@
 // Meshes that tests and benches share. All lengths in metres.
 #pragma once
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus::shared {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus::shared {
 

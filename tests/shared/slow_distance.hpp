@@ -7,7 +7,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus::shared {
 

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/math/pose.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

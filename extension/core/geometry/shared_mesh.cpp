@@ -1,6 +1,6 @@
 #include "core/geometry/shared_mesh.hpp"
 
-#include "core/geometry/same_places.hpp"
+#include "core/mesh/same_places.hpp"
 
 namespace tactus {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/mesh_check.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/mesh_check.hpp"
 
 namespace tactus {
 

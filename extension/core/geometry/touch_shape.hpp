@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/geometry/shape.hpp"
-#include "core/geometry/smooth_normals.hpp"
 #include "core/geometry/solid.hpp"
 #include "core/geometry/touchable.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "core/mesh/smooth_normals.hpp"
 
 namespace tactus {
 

@@ -7,8 +7,8 @@
 
 #include "core/geometry/parallel.hpp"
 #include "core/geometry/tree_split.hpp"
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

@@ -16,12 +16,12 @@
 
 #include "core/geometry/pack_store.hpp"
 #include "core/geometry/parallel.hpp"
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/geometry/triangle_pack.hpp"
 #include "core/geometry/turned_node.hpp"
 #include "core/geometry/visit_queue.hpp"
 #include "core/geometry/winding.hpp"
 #include "core/geometry/work.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

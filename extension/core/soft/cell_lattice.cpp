@@ -8,9 +8,9 @@
 #include <map>
 #include <set>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/mesh_check.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/mesh_check.hpp"
 #include "core/soft/soft_draft.hpp"
 
 namespace tactus {

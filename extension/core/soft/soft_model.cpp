@@ -8,8 +8,8 @@
 #include <map>
 #include <numeric>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/mesh_check.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/mesh_check.hpp"
 #include "core/soft/soft_draft.hpp"
 
 namespace tactus {

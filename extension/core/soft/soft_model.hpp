@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "core/soft/rotation_lanes.hpp"
 #include "core/soft/sparse_factor.hpp"
 

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "core/geometry/mesh_check.hpp"
-#include "core/geometry/same_places.hpp"
+#include "core/mesh/mesh_check.hpp"
+#include "core/mesh/same_places.hpp"
 #include "core/soft/soft_draft.hpp"
 
 namespace tactus {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/closest_point_on_triangle.hpp"
-#include "core/geometry/mesh_check.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/mesh_check.hpp"
 
 namespace tactus {
 

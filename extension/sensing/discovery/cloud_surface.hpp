@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "sensing/discovery/discovery.hpp"
 
 namespace tactus {

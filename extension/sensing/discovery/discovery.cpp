@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/geometry/convex_hull.hpp"
+#include "core/mesh/convex_hull.hpp"
 
 namespace tactus {
 

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/geometry/mesh_check.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "core/mesh/mesh_check.hpp"
 #include "sensing/image/depth_renderer.hpp"
 
 namespace tactus {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/geometry/closed_mesh.hpp"
 #include "core/geometry/closest_point_on_triangle.hpp"
 #include "core/geometry/triangle_tree.hpp"
+#include "core/mesh/closed_mesh.hpp"
 
 namespace tactus {
 

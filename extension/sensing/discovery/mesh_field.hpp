@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/geometry/parallel.hpp"
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/math/pose.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

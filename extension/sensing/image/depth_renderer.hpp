@@ -8,8 +8,8 @@
 #include <array>
 #include <span>
 
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/math/pose.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "sensing/image/depth_image.hpp"
 
 namespace tactus {

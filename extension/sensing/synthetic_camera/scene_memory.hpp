@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 #include "core/ports/depth_sensing.hpp"
 #include "platform/mapped_file.hpp"
 

@@ -8,9 +8,9 @@
 #include <sstream>
 #include <vector>
 
-#include "core/geometry/mesh_check.hpp"
-#include "core/geometry/obj_text.hpp"
 #include "core/haptics/force_law.hpp"
+#include "core/mesh/mesh_check.hpp"
+#include "core/mesh/obj_text.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/touch_rig.hpp"
 #include "support/process.hpp"

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/triangle_mesh.hpp"
 #include "core/math/pose.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus::shared {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/iso_surface.hpp"
+#include "core/mesh/iso_surface.hpp"
 #include "shared/field_figures.hpp"
 #include "shared/fields.hpp"
 #include "shared/judge_tree.hpp"

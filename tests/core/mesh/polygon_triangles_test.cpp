@@ -1,4 +1,4 @@
-#include "core/geometry/polygon_triangles.hpp"
+#include "core/mesh/polygon_triangles.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "core/geometry/obj_text.hpp"
+#include "core/mesh/obj_text.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <optional>
 #include <span>
 
-#include "core/geometry/polygon_triangles.hpp"
+#include "core/mesh/polygon_triangles.hpp"
 
 namespace tactus {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/geometry/sampled_field.hpp"
+#include "core/mesh/sampled_field.hpp"
 
 namespace tactus {
 

@@ -8,8 +8,8 @@
 
 #include <string>
 
-#include "core/geometry/sampled_field.hpp"
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/sampled_field.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

@@ -1,7 +1,7 @@
 // Which meshes bound a solid: only they have an inside (see winding.hpp).
 #pragma once
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-#include "core/geometry/closed_mesh.hpp"
+#include "core/mesh/closed_mesh.hpp"
 
 #include <algorithm>
 #include <bit>

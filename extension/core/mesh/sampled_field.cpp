@@ -1,4 +1,4 @@
-#include "core/geometry/sampled_field.hpp"
+#include "core/mesh/sampled_field.hpp"
 
 #include <algorithm>
 #include <cmath>

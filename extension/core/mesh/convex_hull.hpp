@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "core/geometry/triangle_mesh.hpp"
+#include "core/mesh/triangle_mesh.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-#include "core/geometry/obj_text.hpp"
+#include "core/mesh/obj_text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/iso_surface.hpp"
+#include "core/mesh/iso_surface.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/geometry/closed_mesh.hpp"
-#include "core/geometry/mesh_check.hpp"
+#include "core/mesh/closed_mesh.hpp"
+#include "core/mesh/mesh_check.hpp"
 #include "shared/fields.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/random_values.hpp"

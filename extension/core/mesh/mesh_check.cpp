@@ -1,4 +1,4 @@
-#include "core/geometry/mesh_check.hpp"
+#include "core/mesh/mesh_check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Quickhull (Barber, Dobkin, Huhdanpaa 1996): start from a tetrahedron; take the point farthest in front of a
 // face, find the faces it sees, and put a cone of new faces from their rim to the point. Every face keeps the
 // points in front of it.
-#include "core/geometry/convex_hull.hpp"
+#include "core/mesh/convex_hull.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/geometry/convex_hull.hpp"
+#include "core/mesh/convex_hull.hpp"
 
 #include <gtest/gtest.h>
 

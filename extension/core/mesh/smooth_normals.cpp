@@ -1,11 +1,11 @@
-#include "core/geometry/smooth_normals.hpp"
+#include "core/mesh/smooth_normals.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <span>
 
-#include "core/geometry/same_places.hpp"
+#include "core/mesh/same_places.hpp"
 
 namespace tactus {
 

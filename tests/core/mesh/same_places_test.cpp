@@ -1,4 +1,4 @@
-#include "core/geometry/same_places.hpp"
+#include "core/mesh/same_places.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/iso_surface.hpp"
+#include "core/mesh/iso_surface.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/padded_field.hpp"
+#include "core/mesh/padded_field.hpp"
 
 namespace tactus {
 
