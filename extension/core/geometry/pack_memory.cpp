@@ -89,7 +89,8 @@ const PackMemory::Seen& PackMemory::look_at(std::size_t index, const TriangleTre
     Seen& last = seen(index);
     PackSet& looked_at = gatherings_[now_].looked_at;
     if (last.at != odometer || (looked_at >> index & 1) == 0) {
-        const PackOffset offset = offset_from_triangles(tree.pack(pack(index)), point);
+        TrianglePack room;
+        const PackOffset offset = offset_from_triangles(tree.pack(pack(index), room), point);
         last.tangents = bound_from(offset, point);
         last.at = odometer;
         last.faces = lane_bits(offset.is_face);
@@ -136,7 +137,8 @@ Hit PackMemory::sweep(const TriangleTree& tree, const SphereWay& way, double lim
         if (!may_come_within(before, last, from, to, reach)) {
             continue;
         }
-        const PackHit met = sweep_to_triangles(tree.pack(pack(i)), way, hit.t, &last);
+        TrianglePack room;
+        const PackHit met = sweep_to_triangles(tree.pack(pack(i), room), way, hit.t, &last);
         work.spend(met.looks * work.sweep_look());
         if (met.found()) {
             hit.t = met.t;

@@ -67,8 +67,9 @@ inline PackOffset nearer(const PackOffset& p, const PackOffset& q) {
 // too, and so the plane is never called farther than the edges, however badly the normal of a sliver is
 // known. Where rounding calls a point inside that is not, the error is on the near, safe side. Below
 // `flat_area` (the sine of the sharpest angle) the normal's direction is rounding: such a triangle is its
-// edges.
-inline PackOffset offset_from_triangles(const TrianglePack& t, const LanesVec3& point) {
+// edges. Searches do little else: a call would hand over eighteen vectors by memory.
+[[gnu::always_inline]] inline PackOffset offset_from_triangles(const TrianglePack& t,
+                                                               const LanesVec3& point) {
     using namespace pack_detail;
     const LanesVec3 ab = t.b - t.a;
     const LanesVec3 ac = t.c - t.a;

@@ -83,7 +83,8 @@ std::uint32_t TriangleTree::pack_down_nearest_boxes(const Vec3& point, WorkBudge
 
 double TriangleTree::distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const {
     work.spend(cost::pack_look);
-    return std::sqrt(smallest(offset_from_triangles(packs_[pack], splat(point)).squared));
+    TrianglePack room;
+    return std::sqrt(smallest(offset_from_triangles(packs_.at(pack, room), splat(point)).squared));
 }
 
 double TriangleTree::least_distance(const Vec3& point, WorkBudget& work) const {
@@ -134,7 +135,8 @@ Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) co
     const float left_out = visit_best_first(
         bound, work, [&](std::uint32_t node) { return earliest_meeting(nodes_[node], turned_[node], boxes); },
         [&](std::uint32_t pack, float) {
-            const PackHit met = sweep_to_triangles(packs_[pack], way, hit.t);
+            TrianglePack room;
+            const PackHit met = sweep_to_triangles(packs_.at(pack, room), way, hit.t);
             work.spend(met.looks * work.sweep_look());
             if (met.found()) {
                 hit.t = met.t;

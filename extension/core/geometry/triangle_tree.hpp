@@ -111,6 +111,8 @@ public:
     Winding winding(const Vec3& point, WorkBudget& work) const;
 
     TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
+    // Without a copy: in `room` where it is kept in single precision.
+    const TrianglePack& pack(std::uint32_t index, TrianglePack& room) const { return packs_.at(index, room); }
     void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
     TriangleCorners corners(std::uint32_t slot) const {

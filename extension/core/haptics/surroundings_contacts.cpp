@@ -181,7 +181,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         last_id = Hit::no_triangle;
         others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
             work_.spend(cost::contact_look);
-            const PackOffset offset = offset_from_triangles(tree.pack(pack), center);
+            TrianglePack room;
+            const PackOffset offset = offset_from_triangles(tree.pack(pack, room), center);
             take(pack, bound_from(offset, center), lane_bits(offset.is_face));
         });
     }
