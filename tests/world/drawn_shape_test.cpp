@@ -8,17 +8,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "shared/mesh_volume.hpp"
+
 namespace tactus {
 namespace {
 
-// Six times the volume, positive where all triangles run counter-clockwise seen from outside.
-double volume(const TriangleMesh& mesh) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        sum += glm::dot(mesh.vertices[a], glm::cross(mesh.vertices[b], mesh.vertices[c]));
-    }
-    return sum / 6.0;
-}
+using shared::volume;
 
 TEST(DrawnShape, SolidsHaveTheirVolumeAndAreSeenFromOutside) {
     const double pi = std::numbers::pi;

@@ -53,6 +53,11 @@ struct Wanderer {
         const Vec3 way = random.below(4) == 0 ? any + down : aside + random.between(-0.15, 0.15) * down;
         return way * random.magnitude(1e-6, longest);
     }
+    SphereWay next_way() {
+        const Vec3 next = motion();
+        remember(glm::length(next));
+        return {center, next, radius, slack};
+    }
     void go(const Vec3& way) {
         center += way;
         odometer += glm::length(way);
@@ -68,18 +73,17 @@ TEST(PackMemory, ASweepEndsWhereThatOfTheTreeDoes) {
     for (const TriangleMesh& mesh : meshes()) {
         Wanderer sphere(mesh, Vec3(0.3, 1.2, 0.2), 5);
         for (int step = 0; step < 40'000; ++step) {
-            const Vec3 motion = sphere.motion();
-            sphere.remember(glm::length(motion));
-            const SphereWay way{sphere.center, motion, radius, slack};
+            const SphereWay way = sphere.next_way();
             const double limit =
-                std::min(1.0, sphere.memory.covered_share(sphere.center, motion, radius + slack));
+                std::min(1.0, sphere.memory.covered_share(sphere.center, way.motion, radius + slack));
             const Hit known = sphere.memory.sweep(sphere.tree, way, limit, sphere.odometer, sphere.work);
             const Hit hit = sphere.tree.sweep(way, limit, sphere.work);
             ASSERT_TRUE(known.complete && hit.complete) << step;
-            ASSERT_NEAR(known.t * glm::length(motion), hit.t * glm::length(motion), 2.0 * slack) << step;
+            const double length = glm::length(way.motion);
+            ASSERT_NEAR(known.t * length, hit.t * length, 2.0 * slack) << step;
             ++seen;
             stops += hit.found;
-            sphere.go(motion * known.t);
+            sphere.go(way.motion * known.t);
         }
     }
     EXPECT_GT(stops, seen / 20);
@@ -91,10 +95,8 @@ TEST(PackMemory, WhatIsNotVisitedIsFartherThanSaid) {
     for (const TriangleMesh& mesh : meshes()) {
         Wanderer sphere(mesh, Vec3(0.3, 1.2, 0.2), 9);
         for (int step = 0; step < 1'000; ++step) {
-            const Vec3 motion = sphere.motion();
-            sphere.remember(glm::length(motion));
-            const SphereWay way{sphere.center, motion, radius, slack};
-            sphere.go(motion * sphere.tree.sweep(way, 1.0, sphere.work).t);
+            const SphereWay way = sphere.next_way();
+            sphere.go(way.motion * sphere.tree.sweep(way, 1.0, sphere.work).t);
             sphere.remember(0.0);
             const double limit = radius + sphere.random.magnitude(1e-8, 1e-2);
             std::vector<bool> visited(sphere.tree.pack_count());

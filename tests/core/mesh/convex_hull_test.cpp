@@ -7,8 +7,12 @@
 #include <map>
 #include <random>
 
+#include "shared/mesh_volume.hpp"
+
 namespace tactus {
 namespace {
+
+using shared::volume;
 
 std::vector<Vec3> cube_corners(double half) {
     std::vector<Vec3> corners;
@@ -40,14 +44,6 @@ void expect_around(const TriangleMesh& hull, const std::vector<Vec3>& points, do
             EXPECT_LE(glm::dot(normal, point - origin), slack);
         }
     }
-}
-
-double volume(const TriangleMesh& hull) {
-    double six = 0.0;
-    for (const auto& [a, b, c] : hull.triangles) {
-        six += glm::dot(hull.vertices[a], glm::cross(hull.vertices[b], hull.vertices[c]));
-    }
-    return six / 6.0;
 }
 
 TEST(ConvexHull, CubeHasTwelveTrianglesAndItsVolume) {

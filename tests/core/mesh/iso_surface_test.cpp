@@ -11,6 +11,7 @@
 #include "core/mesh/mesh_check.hpp"
 #include "shared/fields.hpp"
 #include "shared/judge_tree.hpp"
+#include "shared/mesh_volume.hpp"
 #include "shared/random_values.hpp"
 
 namespace tactus {
@@ -19,6 +20,7 @@ namespace {
 using shared::OwnField;
 using shared::RandomValues;
 using shared::sampled;
+using shared::volume;
 
 using Size = std::array<std::uint32_t, 3>;
 
@@ -27,14 +29,6 @@ TriangleMesh surface_of(const OwnField& field) {
     EXPECT_EQ(surface.error, "");
     EXPECT_EQ(check_mesh(surface.mesh), "");
     return std::move(surface.mesh);
-}
-
-double volume(const TriangleMesh& mesh) {
-    double sum = 0.0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        sum += glm::dot(mesh.vertices[a], glm::cross(mesh.vertices[b], mesh.vertices[c])) / 6.0;
-    }
-    return sum;
 }
 
 std::size_t index(const Size& size, std::uint32_t x, std::uint32_t y, std::uint32_t z) {
