@@ -15,6 +15,8 @@ namespace {
 
 static_assert(ContactList::capacity <= max_halfspaces);
 
+constexpr double least_bent_share = 1e-3;  // of a bent step, where contacts stand in its way
+
 // The contacts that count, as the solver takes them.
 struct HalfSpaces {
     std::array<HalfSpace, ContactList::capacity> planes;
@@ -148,13 +150,25 @@ bool ends_in_front(const Vec3& motion, const Contact& contact, double tolerance)
     return glm::dot(contact.normal, motion) >= -contact.gap - tolerance;
 }
 
-}  // namespace
-
-bool stays_in_front(const Vec3& motion, const ContactList& contacts, double tolerance) {
-    return std::ranges::all_of(contacts.all(), [&](const Contact& contact) {
-        return contact.state == ContactState::covered || ends_in_front(motion, contact, tolerance);
-    });
+// Whether a straight way is free of the contact, as far as that is known. A face is its plane. Beside an edge
+// or corner there is room: a sphere's centre is on a sphere around the point that it touches, which falls
+// away from the plane by x^2 / 2r after x. The way begins at the gap g, and is above that sphere by g - f t +
+// h t^2 after the share t of itself, with f what it leads down and h = length^2 / 2r. An edge falls away less
+// along itself, so a way may be called free that is not: the sweep tells.
+bool leads_past(const Vec3& motion, const Contact& contact, double radius, double tolerance) {
+    if (contact.state == ContactState::covered || ends_in_front(motion, contact, tolerance)) {
+        return true;
+    }
+    if (contact.state == ContactState::face || contact.state == ContactState::solid) {
+        return false;
+    }
+    const double fall = -glm::dot(contact.normal, motion);
+    const double height = 0.5 * glm::dot(motion, motion) / radius;
+    const double lowest = std::min(1.0, 0.5 * fall / height);
+    return contact.gap - (fall - height * lowest) * lowest >= -tolerance;
 }
+
+}  // namespace
 
 bool stays_in_front_of_all(const Vec3& motion, const ContactList& contacts, double tolerance) {
     return std::ranges::all_of(
@@ -184,7 +198,8 @@ ConstrainedStep flat_step(const Vec3& pull, const ContactList& contacts, double 
 }
 
 void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& contacts,
-               std::span<const Curvature> curvatures, double tolerance, double trust) {
+               std::span<const Curvature> curvatures, const BendLimits& limits, WorkBudget& work) {
+    const double tolerance = limits.tolerance;
     if (curvatures.empty() || std::ranges::all_of(curvatures, &Curvature::is_flat)) {
         return;
     }
@@ -196,9 +211,11 @@ void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& conta
                                               step.pressure[i], &curvature};
     }
     const Contact& p = pressing(contacts, step, 0);
-    Vec3 curved;
+    Vec3 base;
+    Vec3 along;
     if (step.pressing_count == 1) {
-        curved = -p.normal * p.gap + step_on_surface(pull, bends[0], tolerance, trust);
+        base = -p.normal * p.gap;
+        along = step_on_surface(pull, bends[0], tolerance, limits.trust);
     } else {
         const Contact& q = pressing(contacts, step, 1);
         const Vec3 across = glm::cross(p.normal, q.normal);
@@ -207,13 +224,21 @@ void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& conta
             return;
         }
         const double cosine = glm::dot(p.normal, q.normal);
-        const Vec3 base =
-            -(p.normal * (p.gap - cosine * q.gap) + q.normal * (q.gap - cosine * p.gap)) / squared_sine;
-        curved = base + step_on_line(pull, bends, across / std::sqrt(squared_sine), base, tolerance, trust);
+        base = -(p.normal * (p.gap - cosine * q.gap) + q.normal * (q.gap - cosine * p.gap)) / squared_sine;
+        along = step_on_line(pull, bends, across / std::sqrt(squared_sine), base, tolerance, limits.trust);
     }
-    if (stays_in_front(curved, contacts, tolerance)) {
-        step.motion = curved;
-        step.bent = true;
+    // What stands in its way leaves half of it, or a quarter, as long as that is more than the flat step.
+    const double least = glm::length(step.slide) / std::max(glm::length(along), 1e-300);
+    for (double share = 1.0; share == 1.0 || share > std::max(least, least_bent_share); share *= 0.5) {
+        work.spend(1 + contacts.count / 8);
+        const Vec3 motion = base + along * share;
+        if (std::ranges::all_of(contacts.all(), [&](const Contact& contact) {
+                return leads_past(motion, contact, limits.radius, tolerance);
+            })) {
+            step.motion = motion;
+            step.bent = true;
+            return;
+        }
     }
 }
 

@@ -28,13 +28,19 @@ ConstrainedStep flat_step(const Vec3& pull, const ContactList& contacts, double 
 
 // Takes in the curvature of the pressing contacts, in their order (a Newton step on the Lagrangian), as far
 // as the curved piece of the surface goes. That makes a resting place on an edge or in a groove of edges
-// exact in a few steps instead of many, and leads around an edge in one. Newton's step is right near its end;
-// from afar it may overshoot, so nothing beyond the flat step goes farther than `trust` (unit: meters).
+// exact in a few steps instead of many, and leads around an edge in one. It ends before what stands in its
+// way, as far as the contacts tell.
+struct BendLimits {
+    double radius;     // of the sphere (unit: meters)
+    double tolerance;  // (unit: meters)
+    // Newton's step is right near its end; from afar it may overshoot, so nothing beyond the flat step goes
+    // farther (unit: meters).
+    double trust;
+};
 void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& contacts,
-               std::span<const Curvature> curvatures, double tolerance, double trust);
+               std::span<const Curvature> curvatures, const BendLimits& limits, WorkBudget& work);
 
-// Whether the way ends in front of the planes of all contacts that count; of all contacts.
-bool stays_in_front(const Vec3& motion, const ContactList& contacts, double tolerance);
+// Whether the way ends in front of the planes of all contacts.
 bool stays_in_front_of_all(const Vec3& motion, const ContactList& contacts, double tolerance);
 
 // The shortest way to where no contact is below rest; zero where there is none.

@@ -144,6 +144,7 @@ private:
         bool recalls = false;       // the next step goes by what is in mind: see look_around
         bool grips = false;         // friction has a say in the last step
         bool is_stuck = false;      // what stops it at once is a contact already
+        bool is_dense = false;      // there were many contacts when all were found last: see look_around
         bool is_cut_short = false;  // the last plan, by its share of the work
         double slope = 0.0;         // by which steps rise from what is touched: see step_over_crowd
     };

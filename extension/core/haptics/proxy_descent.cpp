@@ -19,6 +19,11 @@ constexpr double least_progress = 1e-3;
 constexpr double least_progress_of_tick = 1e-2;
 // What stands for a crowd is looked for up to here above rest (of the radius).
 constexpr double crowd_reach = 1e-2;
+// Where a step of this tick was stopped by what was no contact, the few nearest ones up to that much farther
+// (of the radius) are contacts as well: the next steps are planned with them instead of ending there.
+constexpr double look_ahead = 1e-3;
+// Not where there are more contacts than that: to tell those ahead apart takes more than the stops they save.
+constexpr int max_sparse = 16;
 // A crowd whose boxes are thinner than t is behind a step of slope s from the angle s off the touching place
 // on, where the sphere is s^2 r / 2 above it: 0.2 leaves out what is rough up to 2 % of the radius. The third
 // step over one that is rougher, or all around, goes nearly straight up.
@@ -73,14 +78,16 @@ std::int64_t Proxy::question_share() const {
 // the end of the way is asked of all, and what a step over some does not know of stops its sweep.
 bool Proxy::look_around(Descent& descent) {
     WorkBudget& work = surroundings_.work();
+    const double ahead = descent.stops > 0 && !descent.is_dense ? look_ahead * settings_.radius : 0.0;
     if (descent.recalls) {
-        surroundings_.recall_contacts(position_, contacts_, descent.beyond);
+        surroundings_.recall_contacts(position_, contacts_, descent.beyond + ahead);
         return false;
     }
     if (descent.slope == 0.0) {
         const WorkShare share(work, question_share());
-        surroundings_.find_contacts(position_, contacts_, descent.beyond);
+        surroundings_.find_contacts(position_, contacts_, descent.beyond, ahead);
         descent.slope = share.is_too_small() ? least_slope : 0.0;
+        descent.is_dense = contacts_.count > max_sparse;
     }
     if (descent.slope > 0.0) {
         surroundings_.find_nearest_contacts(

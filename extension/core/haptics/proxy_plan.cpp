@@ -57,7 +57,7 @@ ConstrainedStep Proxy::plan(const Vec3& pull, Descent& descent) {
     };
     const Curvature curvatures[] = {curvature(0), curvature(1)};
     bend_step(step, pull, contacts_, {curvatures, static_cast<std::size_t>(step.pressing_count)},
-              tolerances().same, std::min(descent.trust, descent.foreseen));
+              {settings_.radius, tolerances().same, std::min(descent.trust, descent.foreseen)}, work);
     return step;
 }
 

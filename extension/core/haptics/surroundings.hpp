@@ -41,8 +41,8 @@ public:
     bool is_clear(double length) const;
 
     // Contacts around the centre: those within reach of rest, or of the nearest surface where that is up to
-    // `beyond` above rest.
-    void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0);
+    // `beyond` above rest, and the few nearest of what is up to `ahead` farther.
+    void find_contacts(const Vec3& center, ContactList& out, double beyond = 0.0, double ahead = 0.0);
     // The same of what is in mind alone.
     void recall_contacts(const Vec3& center, ContactList& out, double beyond);
 
@@ -129,11 +129,11 @@ private:
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
     void leave_out(std::uint32_t part);
     void drop_beyond(double max_gap, ContactList& out);
-    void find_tree_contacts(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
-    void find_solid_contact(std::uint32_t part, const Vec3& local, double& limit, ContactGathering& out);
+    void find_tree_contacts(std::uint32_t part, const Vec3& local, double ahead, ContactGathering& out);
+    void find_solid_contact(std::uint32_t part, const Vec3& local, ContactGathering& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);
     void add_insisted(const Vec3& center, ContactList& out);
-    void add_seen(const Contact& contact, double& limit, ContactGathering& out);
+    void add_seen(const Contact& contact, ContactGathering& out);
 
     const TouchScene* scene_ = nullptr;
     double radius_ = 0.0;

@@ -16,38 +16,32 @@ namespace {
 constexpr std::int64_t search_in_crowd = 750;
 constexpr double nothing_seen = -std::numeric_limits<double>::infinity();
 
-// What is within reach of the nearest surface, or of rest where that is higher.
-double limit_from(double nearest, double rest, double reach, double limit) {
-    return std::min(limit, std::max(rest, nearest) + reach);
-}
-
 }  // namespace
 
-void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond) {
+void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond, double ahead) {
     out.clear();
-    ContactGathering gathering(out);
-    broad_phase_.bring_near(2.0 * tolerances().reach + beyond, center, work_);
+    ContactGathering gathering(out, rest(), tolerances(), beyond, ahead);
+    broad_phase_.bring_near(2.0 * tolerances().reach + beyond + ahead, center, work_);
     seen_gap_ = broad_phase_.far_clearance();
-    double limit = rest() + tolerances().reach + beyond;
     for (const std::uint32_t part : broad_phase_.near()) {
-        if (!counts(part, beyond, -1)) {
+        if (!counts(part, beyond + ahead, -1)) {
             leave_out(part);
             continue;
         }
         const ScenePart& placed = scene_->parts()[part];
         const Vec3 local = to_local(placed.pose, center);
         if (placed.part->tree()) {
-            find_tree_contacts(part, local, limit, gathering);
+            find_tree_contacts(part, local, ahead, gathering);
         } else {
-            find_solid_contact(part, local, limit, gathering);
+            find_solid_contact(part, local, gathering);
         }
     }
     // The limit of a full list is just below its farthest.
     if (out.is_full()) {
-        seen_gap_ = std::min(seen_gap_, std::max(0.0, limit - rest()));
+        seen_gap_ = std::min(seen_gap_, std::max(0.0, gathering.limit() - rest()));
     }
-    drop_beyond(limit - rest() + 2.0 * tolerances().same, out);
-    add_in_mind(center, tolerances().reach + beyond, out);
+    drop_beyond(gathering.limit() - rest() + 2.0 * tolerances().same, out);
+    add_in_mind(center, tolerances().reach + beyond + ahead, out);
     add_insisted(center, out);
 }
 
@@ -116,24 +110,23 @@ void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, Con
     add_insisted(center, out);
 }
 
-void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, double& limit,
-                                      ContactGathering& out) {
+void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
     const SolidDistance at = distance_to_solid(placed.part->solid(), local);
     work_.spend(cost::solid_look);
     broad_phase_.set_clear(index, at.distance - rest() - tolerances().reach);
-    if (at.distance <= limit) {
+    if (at.distance <= out.limit()) {
         out.add({direction_to_parent(placed.pose, at.normal),
                  at.distance - rest(),
                  {index},
                  ContactState::solid});
-        limit = limit_from(at.distance, rest(), tolerances().reach, limit);
+        out.heed(at.distance);
     } else {
         seen_gap_ = std::min(seen_gap_, at.distance - rest());
     }
 }
 
-void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double& limit,
+void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, double ahead,
                                       ContactGathering& out) {
     const ScenePart& placed = scene_->parts()[index];
     const TriangleTree& tree = tree_of(index);
@@ -146,8 +139,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     const auto take = [&](std::uint32_t pack, const PackBound& tangents, unsigned faces) {
         const Lanes distances = least_distances(tangents, center);
         nearest = lanes_min(nearest, distances);
-        limit = limit_from(smallest(distances), rest(), tolerances().reach, limit);
-        const LaneMask within = distances <= splat(limit);
+        out.heed(smallest(distances));
+        const LaneMask within = distances <= splat(out.limit());
         passed_by = lanes_min(passed_by, select(within, none, distances));
         for (unsigned bits = lane_bits(within); bits != 0; bits &= bits - 1) {
             const int k = std::countr_zero(bits);
@@ -160,26 +153,27 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
             const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
             const FeatureId feature{index, slot_in_whole(index, tree, slot)};
             const auto state = faces & 1u << k ? ContactState::face : ContactState::seen;
-            add_seen({normal, distances[k] - rest(), feature, state}, limit, out);
+            add_seen({normal, distances[k] - rest(), feature, state}, out);
         }
     };
     double others = 0.0;
     bool is_known = false;
     // Above a surface a ball around the sphere ends before the surface begins.
-    if (PackMemory* const memory = memory_around(index, tree, local, 0.0)) {
-        const double known = memory->visit_near(tree, local, limit, broad_phase_.reading(index), work_, take);
+    if (PackMemory* const memory = memory_around(index, tree, local, ahead)) {
+        const double known =
+            memory->visit_near(tree, local, out.limit(), broad_phase_.reading(index), work_, take);
         // What is remembered ends somewhere: in free space before the surface begins.
         const double covered = memory->covered_around(local);
         others = std::min(known, smallest(nearest)) > covered
                      ? std::max(covered, tree.least_distance(local, work_))
                      : std::min(known, covered);
-        is_known = limit <= others;
+        is_known = out.limit() <= others;
     }
     if (!is_known) {
         out.shorten(first_count);
         passed_by = none;
         last_id = Hit::no_triangle;
-        others = tree.visit_near(local, limit, work_, [&](std::uint32_t pack) {
+        others = tree.visit_near(local, out.limit(), work_, [&](std::uint32_t pack) {
             work_.spend(cost::contact_look);
             TrianglePack room;
             const PackOffset offset = offset_from_triangles(tree.pack(pack, room), center);
@@ -190,9 +184,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     broad_phase_.set_clear(index, std::min(smallest(nearest), others) - rest() - tolerances().reach);
 }
 
-// An edge or corner is found once with every triangle that shares it: the first stands for all. Once the list
-// is full, only what is nearer by more than rounding is let in: each time the list is looked through.
-void Surroundings::add_seen(const Contact& contact, double& limit, ContactGathering& out) {
+// An edge or corner is found once with every triangle that shares it: the first stands for all.
+void Surroundings::add_seen(const Contact& contact, ContactGathering& out) {
     work_.spend(1 + out.list().count / 32);
     Contact added = contact;
     const double same = tolerances().same;
@@ -203,9 +196,6 @@ void Surroundings::add_seen(const Contact& contact, double& limit, ContactGather
         }
     });
     out.add(added);
-    if (out.is_full()) {
-        limit = std::min(limit, out.max_gap() + rest() - same);
-    }
 }
 
 void Surroundings::keep_in_mind(const FeatureId& feature) {

@@ -13,6 +13,8 @@ namespace {
 
 using shared::RandomValues;
 
+constexpr double sphere_radius = 0.1;
+
 struct Sample {
     Contact contact;
     Curvature curvature;
@@ -38,7 +40,8 @@ ConstrainedStep step_over(const Vec3& pull, std::span<const Sample> samples,
         pressing[i] = samples[static_cast<std::size_t>(step.pressing[i])].curvature;
     }
     if (step.pressing_count < 3) {
-        bend_step(step, pull, list, {pressing, static_cast<std::size_t>(step.pressing_count)}, 1e-12, trust);
+        bend_step(step, pull, list, {pressing, static_cast<std::size_t>(step.pressing_count)},
+                  {sphere_radius, 1e-12, trust}, work);
     }
     return step;
 }
@@ -119,6 +122,52 @@ TEST(ConstrainedStep, CurvatureMakesTheStepOntoAnEdgeSecondOrderAcrossAndExactAl
     const Vec3 reached = radius * normal + step.motion;
     EXPECT_NEAR(reached.z, 0.03, 1e-12);
     EXPECT_LT(std::abs(reached.x), radius * 2.0 * angle * angle);
+}
+
+// Rolls over an edge along x, three radii above the hand, with something 1e-4 ahead whose plane ends the way
+// after 0.01.
+ConstrainedStep step_beside(ContactState state) {
+    Sample edge = flat({0.0, 1.0, 0.0});
+    edge.contact.state = ContactState::edge;
+    edge.curvature.u = Vec3(1.0, 0.0, 0.0);
+    edge.curvature.bend_u = 1.0 / sphere_radius;
+    Sample ahead = flat(glm::normalize(Vec3(-0.01, 1.0, 0.0)), 1e-4);
+    ahead.contact.state = state;
+    const Sample contacts[] = {edge, ahead};
+    return step_over({1e-3, -3.0 * sphere_radius, 0.0}, contacts, 0.03);
+}
+
+TEST(ConstrainedStep, WhatFallsAwayBesideItEndsNoBentStep) {
+    for (const ContactState state : {ContactState::seen, ContactState::edge, ContactState::corner}) {
+        const ConstrainedStep step = step_beside(state);
+        EXPECT_TRUE(step.bent);
+        EXPECT_NEAR(step.motion.x, 0.03, 1e-9);
+    }
+}
+
+TEST(ConstrainedStep, AFaceInItsWayLeavesHalvesOfABentStep) {
+    for (const ContactState state : {ContactState::face, ContactState::solid}) {
+        const ConstrainedStep step = step_beside(state);
+        EXPECT_TRUE(step.bent);
+        EXPECT_LE(step.motion.x, 0.01 * (1.0 + 1e-4));
+        EXPECT_GE(step.motion.x, 0.005);
+    }
+}
+
+// What it is about to run into is met on a way that falls away from it later.
+TEST(ConstrainedStep, WhatIsMetOnTheWayEndsABentStep) {
+    Sample edge = flat({0.0, 1.0, 0.0});
+    edge.contact.state = ContactState::edge;
+    edge.curvature.u = Vec3(1.0, 0.0, 0.0);
+    edge.curvature.bend_u = 1.0 / sphere_radius;
+    Sample ahead = flat(glm::normalize(Vec3(-0.1, 1.0, 0.0)), 1e-6);
+    ahead.contact.state = ContactState::corner;
+    const Sample contacts[] = {edge, ahead};
+    const Vec3 motion = step_over({1e-6, -3.0 * sphere_radius, 0.0}, contacts, 0.05).motion;
+    const Vec3 corner = -ahead.contact.normal * (sphere_radius + ahead.contact.gap);
+    for (int i = 0; i <= 1'000; ++i) {
+        EXPECT_GE(glm::distance(1e-3 * i * motion, corner), sphere_radius * (1.0 - 1e-9));
+    }
 }
 
 // Around an edge that the hand is behind, a step leads to where the edge ends and not beyond.

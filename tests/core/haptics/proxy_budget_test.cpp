@@ -164,6 +164,29 @@ TEST(ProxyBudget, WhatAStoppedStepPromisedIsNotHeldAgainstTheNext) {
     EXPECT_LE(unfinished, 2);
 }
 
+// Over bumps finer than the sphere what stops a step is mostly less than a thousandth of the radius ahead
+// where the step is planned, and most edges that a bent step leads beside fall away from it.
+TEST(ProxyBudget, OverFineBumpsStepsAreNotStoppedOneByOne) {
+    int steps = 0, long_ticks = 0, touching = 0;
+    for (const double share : {0.1, 0.3}) {
+        for (const double depth : {0.2, 0.5}) {
+            TouchRig rig(0.1);
+            rig.add(rough_sphere(6, 0.5, share));
+            const double hand = 0.5 * (1.0 - depth);
+            rig.draw({0.7, 0.0, 0.0}, {hand, 0.0, 0.0}, 200);
+            for (int i = 1; i <= 400; ++i) {
+                const ProxyTick tick = rig.tick(hand * Vec3(std::cos(0.02 * i), std::sin(0.02 * i), 0.0));
+                steps += tick.steps;
+                long_ticks += tick.steps > 16;
+                touching += (tick.status & proxy_touching) != 0;
+            }
+        }
+    }
+    EXPECT_EQ(touching, 1'600);
+    EXPECT_LE(steps, 6'700);
+    EXPECT_LE(long_ticks, 25);
+}
+
 // More than a list of contacts holds are exactly as near.
 TEST(ProxyBudget, OnATipOfAThousandTrianglesItIsHeld) {
     TouchRig rig(0.1);
