@@ -41,7 +41,7 @@ struct Counts {
 };
 
 void expect_only_contacts_near(const TriangleMesh& mesh, const TouchShape& shape,
-                               std::span<const Vec3> places, double radius, Counts& counts) {
+                               std::span<const Vec3> places, double radius, double ahead, Counts& counts) {
     const TriangleTree& tree = *shape.parts.front().tree();
     TouchScene scene(4, 4);
     scene.add(shape, {}, {}, 1);
@@ -49,7 +49,7 @@ void expect_only_contacts_near(const TriangleMesh& mesh, const TouchShape& shape
         Surroundings surroundings(4);
         surroundings.begin_tick(scene, center, radius, 0xffff'ffffu, WorkBudget(10'000'000));
         ContactList list;
-        surroundings.find_contacts(center, list, 1e-3);
+        surroundings.find_contacts(center, list, 1e-3, ahead);
         std::set<std::uint32_t> found;
         for (const Contact& contact : list.all()) {
             found.insert(tree.triangle_at(contact.feature.triangle));
@@ -79,19 +79,21 @@ TEST(Surroundings, NothingButContactsIsNearerThanTheUnseenGap) {
             const Vec3 rest = resting_place(shape, 0.9 * random.direction(), radius);
             place = rest * (1.0 + random.magnitude(1e-10, 1e-3));
         }
-        expect_only_contacts_near(mesh, *shape, places, radius, over_rough);
+        for (const double ahead : {0.0, 1e-3 * radius, 1e-2 * radius}) {
+            expect_only_contacts_near(mesh, *shape, places, radius, ahead, over_rough);
+        }
     }
     std::vector<Vec3> places(20);
     for (Vec3& place : places) {
         place = random.between(1e-4, 4e-4) * random.direction();
     }
     const TriangleMesh ball = shared::icosphere(6, 1.006 * radius);
-    expect_only_contacts_near(ball, *shape_of(ball), places, radius, in_a_crowd);
+    expect_only_contacts_near(ball, *shape_of(ball), places, radius, 1e-3 * radius, in_a_crowd);
     for (Vec3& place : places) {
         place = Vec3(0.0, radius, 0.0) + 1e-6 * random.direction();
     }
     const TriangleMesh tip = shared::cone(200, 1.0);
-    expect_only_contacts_near(tip, *shape_of(tip), places, radius, at_a_tip);
+    expect_only_contacts_near(tip, *shape_of(tip), places, radius, 0.0, at_a_tip);
     EXPECT_GT(over_rough.contacts, 50u);
     EXPECT_GT(in_a_crowd.contacts, 300u);
     EXPECT_GT(at_a_tip.long_lists, 0u);
