@@ -26,10 +26,6 @@ struct ConstrainedStep {
 // Solves min |motion - pull|^2 over the contact planes.
 ConstrainedStep flat_step(const Vec3& pull, const ContactList& contacts, double tolerance, WorkBudget& work);
 
-// Takes in the curvature of the pressing contacts, in their order (a Newton step on the Lagrangian), as far
-// as the curved piece of the surface goes. That makes a resting place on an edge or in a groove of edges
-// exact in a few steps instead of many, and leads around an edge in one. It ends before what stands in its
-// way, as far as the contacts tell.
 struct BendLimits {
     double radius;     // of the sphere (unit: meters)
     double tolerance;  // (unit: meters)
@@ -37,6 +33,11 @@ struct BendLimits {
     // farther (unit: meters).
     double trust;
 };
+
+// Takes in the curvature of the pressing contacts, in their order (a Newton step on the Lagrangian), as far
+// as the curved piece of the surface goes. That makes a resting place on an edge or in a groove of edges
+// exact in a few steps instead of many, and leads around an edge in one. It ends before what stands in its
+// way, as far as the contacts tell.
 void bend_step(ConstrainedStep& step, const Vec3& pull, const ContactList& contacts,
                std::span<const Curvature> curvatures, const BendLimits& limits, WorkBudget& work);
 

@@ -26,7 +26,9 @@ public:
           same_(tolerances.same),
           ahead_(ahead),
           within_(rest + tolerances.reach + beyond),
-          limit_(within_ + ahead) {}
+          limit_(within_ + ahead) {
+        nearest_ahead_.fill(std::numeric_limits<double>::infinity());
+    }
 
     const ContactList& list() const { return list_; }
     bool is_full() const { return list_.is_full(); }
@@ -43,7 +45,7 @@ public:
             set_gap(i, std::numeric_limits<double>::infinity());
         }
         list_.count = count;
-        few_count_ = 0;
+        nearest_ahead_.fill(std::numeric_limits<double>::infinity());
     }
     // Where there is no room the farthest goes. Sweeps still see it, and name it if it stops them. Once the
     // list is full, only what is nearer by more than rounding is let in: each time it is looked through.
@@ -86,20 +88,10 @@ private:
         }
         return -smallest(least);
     }
-    // The nearest ones in order; what is farther than all of them has no room.
     void add_ahead(double distance) {
-        std::size_t place = few_count_ < few ? few_count_++ : few;
-        for (; place > 0 && nearest_ahead_[place - 1] > distance; --place) {
-            if (place < few) {
-                nearest_ahead_[place] = nearest_ahead_[place - 1];
-            }
-        }
-        if (place < few) {
-            nearest_ahead_[place] = distance;
-        }
-        if (few_count_ == few) {
-            limit_ = std::min(limit_, std::max(within_, nearest_ahead_.back()));
-        }
+        nearest_ahead_.back() = std::min(nearest_ahead_.back(), distance);
+        std::ranges::sort(nearest_ahead_);
+        limit_ = std::min(limit_, std::max(within_, nearest_ahead_.back()));
     }
     static constexpr std::size_t block_of(int index) { return static_cast<std::size_t>(index / lane_count); }
     void set_gap(int index, double gap) { gaps_[block_of(index)][index % lane_count] = gap; }
@@ -123,8 +115,7 @@ private:
     double ahead_;
     double within_;
     double limit_;
-    std::array<double, few> nearest_ahead_{};
-    std::size_t few_count_ = 0;
+    std::array<double, few> nearest_ahead_;  // from the centre, in order; infinite where there are fewer
     std::array<Lanes, ContactList::capacity / lane_count>
         gaps_;  // infinite beyond the list, in a block begun
 };

@@ -124,16 +124,20 @@ TEST(ConstrainedStep, CurvatureMakesTheStepOntoAnEdgeSecondOrderAcrossAndExactAl
     EXPECT_LT(std::abs(reached.x), radius * 2.0 * angle * angle);
 }
 
-// Rolls over an edge along x, three radii above the hand, with something 1e-4 ahead whose plane ends the way
-// after 0.01.
-ConstrainedStep step_beside(ContactState state) {
+// Below a sphere that rolls over it along x.
+Sample edge_below() {
     Sample edge = flat({0.0, 1.0, 0.0});
     edge.contact.state = ContactState::edge;
     edge.curvature.u = Vec3(1.0, 0.0, 0.0);
     edge.curvature.bend_u = 1.0 / sphere_radius;
+    return edge;
+}
+
+// Over an edge, three radii above the hand, with something 1e-4 ahead whose plane ends the way after 0.01.
+ConstrainedStep step_beside(ContactState state) {
     Sample ahead = flat(glm::normalize(Vec3(-0.01, 1.0, 0.0)), 1e-4);
     ahead.contact.state = state;
-    const Sample contacts[] = {edge, ahead};
+    const Sample contacts[] = {edge_below(), ahead};
     return step_over({1e-3, -3.0 * sphere_radius, 0.0}, contacts, 0.03);
 }
 
@@ -156,13 +160,9 @@ TEST(ConstrainedStep, AFaceInItsWayLeavesHalvesOfABentStep) {
 
 // What it is about to run into is met on a way that falls away from it later.
 TEST(ConstrainedStep, WhatIsMetOnTheWayEndsABentStep) {
-    Sample edge = flat({0.0, 1.0, 0.0});
-    edge.contact.state = ContactState::edge;
-    edge.curvature.u = Vec3(1.0, 0.0, 0.0);
-    edge.curvature.bend_u = 1.0 / sphere_radius;
     Sample ahead = flat(glm::normalize(Vec3(-0.1, 1.0, 0.0)), 1e-6);
     ahead.contact.state = ContactState::corner;
-    const Sample contacts[] = {edge, ahead};
+    const Sample contacts[] = {edge_below(), ahead};
     const Vec3 motion = step_over({1e-6, -3.0 * sphere_radius, 0.0}, contacts, 0.05).motion;
     const Vec3 corner = -ahead.contact.normal * (sphere_radius + ahead.contact.gap);
     for (int i = 0; i <= 1'000; ++i) {
