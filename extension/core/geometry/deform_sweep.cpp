@@ -61,12 +61,14 @@ Vec3 weights_of(const Vec3& point, const TriangleCorners& t) {
     return {1.0 - v - w, v, w};
 }
 
-TrianglePack DeformSweep::pack_at(std::uint32_t index, double t) const {
-    const TrianglePack was = from_.pack(index);
-    const TrianglePack is = to_.pack(index);
+DeformSweep::MovingPack DeformSweep::pack_at(std::uint32_t index, double t) const {
+    TrianglePack room_was, room_is;
+    const TrianglePack& was = from_.pack(index, room_was);
+    const TrianglePack& is = to_.pack(index, room_is);
+    const TrianglePack motion{is.a - was.a, is.b - was.b, is.c - was.c};
     const Lanes share = splat(t);
-    return {along(was.a, is.a - was.a, share), along(was.b, is.b - was.b, share),
-            along(was.c, is.c - was.c, share)};
+    return {{along(was.a, motion.a, share), along(was.b, motion.b, share), along(was.c, motion.c, share)},
+            motion};
 }
 
 Vec3 DeformSweep::motion_of(const Seen& seen, double t, const Vec3& point) const {
@@ -99,13 +101,13 @@ double DeformSweep::free_until(double t, const Vec3& point, const Vec3& motion, 
         },
         [&](std::uint32_t pack, float key) {
             work.spend(2 * cost::pack_look);
-            const TrianglePack was = from_.pack(pack);
-            const TrianglePack is = to_.pack(pack);
-            const PackOffset seen = offset_from_triangles(pack_at(pack, t), exact);
+            const MovingPack moving = pack_at(pack, t);
+            const PackOffset seen = offset_from_triangles(moving.at, exact);
             for (int i = 0; i < lane_count; ++i) {
                 const double gap = std::sqrt(seen.squared[i]) - room;
-                const double speed = std::max({longest(is.a - was.a - way, i), longest(is.b - was.b - way, i),
-                                               longest(is.c - was.c - way, i)});
+                const double speed =
+                    std::max({longest(moving.motion.a - way, i), longest(moving.motion.b - way, i),
+                              longest(moving.motion.c - way, i)});
                 const double meets = gap <= 0.0 ? t : gap < speed * (until - t) ? t + gap / speed : until;
                 until = std::min(until, std::max(static_cast<float>(meets), key));
             }

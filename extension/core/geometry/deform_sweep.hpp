@@ -52,7 +52,10 @@ private:
     double slack_at(const Vec3& relative) const {
         return 4.0 * std::max(from_.float_slack(relative), to_.float_slack(relative));
     }
-    TrianglePack pack_at(std::uint32_t index, double t) const;
+    struct MovingPack {
+        TrianglePack at, motion;  // at a time, and from t = 0 to 1 (unit: meters)
+    };
+    MovingPack pack_at(std::uint32_t index, double t) const;
 
     const TriangleTree& from_;
     const TriangleTree& to_;
@@ -75,7 +78,7 @@ void DeformSweep::visit_near(double t, const Vec3& point, const double& limit, W
         },
         [&](std::uint32_t pack, float) {
             work.spend(2 * cost::pack_look);
-            const PackOffset seen = offset_from_triangles(pack_at(pack, t), exact);
+            const PackOffset seen = offset_from_triangles(pack_at(pack, t).at, exact);
             for (int i = 0; i < lane_count; ++i) {
                 const double distance = std::sqrt(seen.squared[i]);
                 if (distance <= limit) {

@@ -1,7 +1,6 @@
 #include "core/geometry/empty_ball.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -75,9 +74,8 @@ bool EmptyBall::find_inside(const Vec3& center, Vec3& point) const {
     if (!(nearest.distance < far)) {
         return false;
     }
-    const PackOffset offset = offset_from_triangles(tree_.pack(nearest.pack), splat(center));
-    const unsigned least = lane_bits(offset.squared <= splat(smallest(offset.squared)));
-    point = center - lane(offset.offset, std::countr_zero(least));
+    const PackOffset offset = tree_.offset_from_pack(nearest.pack, splat(center));
+    point = center - lane(offset.offset, lane_of_smallest(offset.squared));
     return true;
 }
 

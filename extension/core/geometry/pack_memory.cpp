@@ -89,8 +89,7 @@ const PackMemory::Seen& PackMemory::look_at(std::size_t index, const TriangleTre
     Seen& last = seen(index);
     PackSet& looked_at = gatherings_[now_].looked_at;
     if (last.at != odometer || (looked_at >> index & 1) == 0) {
-        TrianglePack room;
-        const PackOffset offset = offset_from_triangles(tree.pack(pack(index), room), point);
+        const PackOffset offset = tree.offset_from_pack(pack(index), point);
         last.tangents = bound_from(offset, point);
         last.at = odometer;
         last.faces = lane_bits(offset.is_face);

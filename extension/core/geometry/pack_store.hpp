@@ -30,10 +30,7 @@ public:
         }
     }
 
-    TrianglePack operator[](std::size_t index) const {
-        return single_ ? widened(single_[index]) : copied(exact_[index]);
-    }
-    // As it stands there, or widened into `room`: without a copy, a fortieth of the time of late ticks.
+    // As it stands there, or widened into `room`: to copy it was a fortieth of the time of late ticks.
     const TrianglePack& at(std::size_t index, TrianglePack& room) const {
         if (single_) {
             room = widened(single_[index]);
@@ -70,11 +67,6 @@ private:
         SingleCorner a, b, c;
     };
 
-    // By lanes: copied as a whole it went byte by byte (`rep movs`), a seventh of the time of a sweep.
-    static LanesVec3 copied(const LanesVec3& corner) { return {corner.x, corner.y, corner.z}; }
-    static TrianglePack copied(const TrianglePack& pack) {
-        return {copied(pack.a), copied(pack.b), copied(pack.c)};
-    }
     static LanesVec3 widened(const SingleCorner& corner) {
         return {__builtin_convertvector(corner.x, Lanes), __builtin_convertvector(corner.y, Lanes),
                 __builtin_convertvector(corner.z, Lanes)};

@@ -22,11 +22,8 @@ SurfaceHit nearest_in(const TouchPart& part, const Vec3& point, double max_dista
     if (!(nearest.distance < max_distance)) {
         return {.complete = nearest.complete};
     }
-    const PackOffset offset = offset_from_triangles(part.tree()->pack(nearest.pack), splat(point));
-    int best = 0;
-    for (int i = 1; i < lane_count; ++i) {
-        best = offset.squared[i] < offset.squared[best] ? i : best;
-    }
+    const PackOffset offset = part.tree()->offset_from_pack(nearest.pack, splat(point));
+    const int best = lane_of_smallest(offset.squared);
     const Vec3 away = lane(offset.offset, best);
     const double distance = std::sqrt(offset.squared[best]);
     return {true, nearest.complete, point - away, distance > 0.0 ? away / distance : Vec3(0.0, 1.0, 0.0),

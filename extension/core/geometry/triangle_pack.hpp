@@ -7,7 +7,6 @@
 // pieces can leak.
 #pragma once
 
-#include <bit>
 #include <limits>
 
 #include "core/geometry/hit.hpp"
@@ -206,7 +205,7 @@ inline PackHit sweep_to_triangles(const TrianglePack& triangles, const SphereWay
     if (!(earliest <= limit)) {
         return {0.0, -1, looks};
     }
-    return {earliest, std::countr_zero(lane_bits(hit == splat(earliest))), looks};
+    return {earliest, lane_of_smallest(hit), looks};
 }
 
 }  // namespace tactus

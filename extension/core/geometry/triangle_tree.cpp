@@ -83,8 +83,7 @@ std::uint32_t TriangleTree::pack_down_nearest_boxes(const Vec3& point, WorkBudge
 
 double TriangleTree::distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const {
     work.spend(cost::pack_look);
-    TrianglePack room;
-    return std::sqrt(smallest(offset_from_triangles(packs_.at(pack, room), splat(point)).squared));
+    return std::sqrt(smallest(offset_from_pack(pack, splat(point)).squared));
 }
 
 double TriangleTree::least_distance(const Vec3& point, WorkBudget& work) const {

@@ -110,9 +110,13 @@ public:
     // what a ray costs; nothing is allocated. Where `work` is used up, nothing is known.
     Winding winding(const Vec3& point, WorkBudget& work) const;
 
-    TrianglePack pack(std::uint32_t index) const { return packs_[index]; }
-    // Without a copy: in `room` where it is kept in single precision.
+    // In `room` only where it is kept in single precision.
     const TrianglePack& pack(std::uint32_t index, TrianglePack& room) const { return packs_.at(index, room); }
+    // From the triangles of a pack to one point, or to one for each. See offset_from_triangles.
+    [[gnu::always_inline]] PackOffset offset_from_pack(std::uint32_t index, const LanesVec3& point) const {
+        TrianglePack room;
+        return offset_from_triangles(packs_.at(index, room), point);
+    }
     void fetch_pack(std::uint32_t index) const { packs_.fetch(index); }
     // A triangle is known by its slot in the tree: pack * lane_count + lane.
     TriangleCorners corners(std::uint32_t slot) const {

@@ -128,7 +128,8 @@ TriangleTree::Extremes TriangleTree::fit_leaves(std::size_t first_node, std::siz
             if (child == BoxNode::unused || !(child & BoxNode::leaf_bit)) {
                 continue;
             }
-            const TrianglePack triangles = packs_[child & ~BoxNode::leaf_bit];
+            TrianglePack room;
+            const TrianglePack& triangles = packs_.at(child & ~BoxNode::leaf_bit, room);
             Bounds bounds;
             grow(bounds, triangles.a);
             grow(bounds, triangles.b);

@@ -125,9 +125,10 @@ std::size_t TriangleTree::packs_below(std::uint32_t child, std::span<std::uint32
 // plane fits the packs.
 void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& middle, float unit,
                                   std::span<const std::uint32_t> packs) const {
+    TrianglePack room;
     Vec3 area(0.0);
     for (const std::uint32_t p : packs) {
-        area += area_of(pack(p));
+        area += area_of(pack(p, room));
     }
     if (const double size = glm::length(area); !(size > 0.0 && std::isfinite(size))) {
         return;
@@ -135,7 +136,7 @@ void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& midd
     const Vec3 normal = glm::normalize(area);
     Spread spread(normal, middle);
     for (const std::uint32_t p : packs) {
-        spread.take(pack(p));
+        spread.take(pack(p, room));
     }
     set_axes(turned, slot, normal, spread.longest());
     const TurnedAxes axes = axes_of(turned);
@@ -145,7 +146,7 @@ void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& midd
     box.along = lane(axes.along, slot);
     box.third = lane(axes.third, slot);
     for (const std::uint32_t p : packs) {
-        box.take(pack(p));
+        box.take(pack(p, room));
     }
     box.put(turned, slot, unit);
 }

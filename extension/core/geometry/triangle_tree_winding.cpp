@@ -105,7 +105,8 @@ bool TriangleTree::crossings(const Vec3& point, int axis, double sign, WorkBudge
     number = 0;
     const auto count_in = [&](std::uint32_t index) {
         work.spend(cost::pack_look);
-        const TrianglePack triangles = pack(index);
+        TrianglePack room;
+        const TrianglePack& triangles = pack(index, room);
         const Lanes turns = turns_around(triangles, exact, axes);
         if (!any(turns != splat(0.0))) {
             return;

@@ -42,7 +42,9 @@ bool BroadPhase::begin_tick(const TouchScene& scene, const Vec3& center, double 
     odometer_at_tick_ = odometer_;
     last_way_ = center - center_at_tick_;
     center_at_tick_ = center;
-    follow_moved_bodies();
+    for (const int body : scene.moved_bodies()) {
+        follow_moved(scene.body(body));
+    }
     retire_distant_parts();
     check_theorem(center);
     return has_forgotten_ || !scene.moved_bodies().empty();
@@ -95,19 +97,16 @@ bool BroadPhase::needs_other_tolerances(double magnitude) {
 }
 
 // What moves comes nearer by as much. A far part has been given some way to move before that matters.
-void BroadPhase::follow_moved_bodies() {
-    for (const int index : scene_->moved_bodies()) {
-        const TouchBody& body = scene_->body(index);
-        for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
-            const auto part = static_cast<std::uint32_t>(body.first_part + i);
-            Record& record = records_[part];
-            if (record.place == Place::absent) {
-                continue;
-            }
-            record.own_way += body.moved_by;
-            if (record.place == Place::far && record.own_way > record.own_way_until) {
-                make_near(part);
-            }
+void BroadPhase::follow_moved(const TouchBody& body) {
+    for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
+        const auto part = static_cast<std::uint32_t>(body.first_part + i);
+        Record& record = records_[part];
+        if (record.place == Place::absent) {
+            continue;
+        }
+        record.own_way += body.moved_by;
+        if (record.place == Place::far && record.own_way > record.own_way_until) {
+            make_near(part);
         }
     }
 }

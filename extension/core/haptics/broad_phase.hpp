@@ -90,7 +90,7 @@ private:
     bool needs_other_tolerances(double magnitude);
     void forget_all(const Vec3& center);
     void forget(std::uint32_t part, const Vec3& center);
-    void follow_moved_bodies();
+    void follow_moved(const TouchBody& body);
     void retire_distant_parts();
     void make_near(std::uint32_t part);
     void leave_near(std::uint32_t part);

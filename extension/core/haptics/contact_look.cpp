@@ -148,7 +148,8 @@ bool ContactLook::is_covered_by_any(const Contact& contact) const {
     bool covered = false;
     tree.visit_near(candidate.point, on_it, work_, [&](std::uint32_t pack) {
         work_.spend(2 * cost::pack_look);
-        const TrianglePack& triangles = tree.pack(pack);
+        TrianglePack room;
+        const TrianglePack& triangles = tree.pack(pack, room);
         const LaneMask containing = offset_from_triangles(triangles, point).squared <= splat(on_it * on_it);
         const LaneMask is_nearer = offset_from_triangles(triangles, center).squared < splat(nearer * nearer);
         covered = covered || any(containing & is_nearer);

@@ -29,10 +29,11 @@ struct Overlap {
     bool known = true;    // false: the work ran out before that of a mesh was clear
 };
 
-// `pose`: of the body, in the world. Only the distance is looked for where `closed_meshes` is false, or where
-// only meshes that are touched from one side count and it is not one of them.
+// What is asked whether the centre is inside of it, beside how far it is: solids tell anyway; of closed
+// meshes all, none, or those that are touched from one side.
 enum class Insides { of_solids, of_one_sided, of_all };
-// Where a surface is nearer than `enough`, no nearer one is looked for (unit: meters).
+// `pose`: of the body, in the world. Where a surface is nearer than `enough`, no nearer one is looked for
+// (unit: meters).
 Overlap overlap_with(const TouchShape& shape, const Pose& pose, const Vec3& center, double far, double enough,
                      Insides insides, WorkBudget& work);
 

@@ -120,7 +120,6 @@ void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& 
     }
     if (fly(hand)) {
         touching_.clear();
-        believed_ = 0.0;
     } else {
         descend(hand, given_way, tick);
     }
@@ -149,13 +148,8 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand, double se
                                                   WorkBudget(settings_.max_work, settings_.max_work / 8));
     contacts_hold_ = contacts_hold_ && !changed && surroundings_.saw_all();
     const bool was_present = present_;
-    const Vec3 before = position_;
     tick.jumped = take_in_jumps();
-    if (present_) {
-        surroundings_.make_sure(position_);
-        ride_along(tick);
-    }
-    const double ridden = glm::distance(position_, before);
+    const double ridden = present_ && !scene.is_still() ? ride_along(tick) : 0.0;
     tick.jumped = tick.jumped || ridden > std::max(max_ride, settings_.radius);
     const double given_way = glm::distance(hand_, hand_before) + ridden;
     if (was_present && !present_) {
@@ -168,8 +162,7 @@ ProxyTick Proxy::move(const TouchScene& scene, const Vec3& given_hand, double se
         follow(hand_, given_way, changed, tick);
     }
     // The work may have ended before it was lifted out of what it begins too deep in: it begins later, then.
-    const bool is_deep = contacts_.min_gap() < -tolerances().skin || !surroundings_.saw_all();
-    if (appears && contacts_hold_ && is_deep) {
+    if (appears && contacts_hold_ && (contacts_.min_gap() < -tolerances().skin || !surroundings_.saw_all())) {
         restart();
         put(hand_);
         tick = {};

@@ -57,7 +57,6 @@ struct ProxyMemory {
     TouchList touching;
     double slide_speed = 0.0;  // (unit: meters per second)
     double crowd_slope = 0.0;
-    double believed = 0.0;  // (unit: meters)
 };
 
 // A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
@@ -86,8 +85,7 @@ public:
     void go_along(const Vec3& offset, int body);
     // The proxy as it was, to move it again from there.
     ProxyMemory memory() const {
-        return {position_, present_,     sliding_,     overlaps_, hand_,
-                touching_, slide_speed_, crowd_slope_, believed_};
+        return {position_, present_, sliding_, overlaps_, hand_, touching_, slide_speed_, crowd_slope_};
     }
     void recall(const ProxyMemory& memory) {
         put(memory.position);
@@ -98,7 +96,6 @@ public:
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
         crowd_slope_ = memory.crowd_slope;
-        believed_ = memory.believed;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -155,7 +152,8 @@ private:
     TouchingSphere sphere() const { return {position_, settings_.radius, settings_.mask, touching()}; }
     bool take_in_jumps();
     void let_go(bool every);
-    void ride_along(ProxyTick& tick);
+    double ride_along(ProxyTick& tick);
+    void ride_bodies(ProxyTick& tick);
     void ride_deformations(ProxyTick& tick);
     bool ride_deformation(int body);
     Hit advance(const Vec3& motion, FeatureId& stopped_by, int except = -1);
@@ -194,7 +192,6 @@ private:
     double seconds_ = 0.001;    // of this tick
     double slide_speed_ = 0.0;  // that friction goes by, see friction.hpp (unit: meters per second)
     double crowd_slope_ = 0.0;  // the next tick's first, where a crowd has held it in the last: see Descent
-    double believed_ = 0.0;     // of what the last tick has left to go, see descend (unit: meters)
     Vec3 hand_{0.0};            // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_

@@ -163,13 +163,12 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     return hit;
 }
 
-// A bent step is believed in at first as far as a proxy follows its hand, and in what the last tick has left
-// as far as that tick has come to believe in one.
+// A bent step is believed in at first as far as a proxy follows its hand.
 void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
     const Vec3 start = position_;
     Descent descent;
     descent.slope = crowd_slope_;
-    descent.trust = std::max(max_sensitivity * given_way + believed_, least_trust * settings_.radius);
+    descent.trust = std::max(max_sensitivity * given_way, least_trust * settings_.radius);
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
     for (tick.steps = 0; tick.steps < settings_.max_steps && !descent.is_stuck; ++tick.steps) {
@@ -216,7 +215,6 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
         }
     }
     conclude(start, step, descent, tick);
-    believed_ = std::min(tick.residual, descent.trust);
 }
 
 // What the tick leaves to the next one, and says.

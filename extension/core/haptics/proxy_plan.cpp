@@ -12,7 +12,7 @@ namespace tactus {
 
 namespace {
 
-constexpr int few_contacts = 4;  // are told apart as soon one by one
+constexpr int few_contacts = 16;  // are told apart as soon one by one
 // On shorter ways (of the radius), and in fewer steps, it is the single facet that bends the step.
 constexpr double least_whole = 1e-3;
 constexpr int least_planned = 4;

@@ -180,11 +180,7 @@ void Proxy::ride_deformations(ProxyTick& tick) {
 
 // A proxy that rests on a moving body moves with it; one that a moving body runs into is pushed. Neither way
 // leads through anything but the body that causes it, which stands at its new place already.
-void Proxy::ride_along(ProxyTick& tick) {
-    ride_deformations(tick);
-    if (scene_->moved_bodies().empty()) {
-        return;
-    }
+void Proxy::ride_bodies(ProxyTick& tick) {
     bool free = true;
     FeatureId stopped_by;
     const int carried_by = carrier();
@@ -206,6 +202,17 @@ void Proxy::ride_along(ProxyTick& tick) {
         let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work()));
         tick.jumped = tick.jumped || surroundings_.passed().count() != before;
     }
+}
+
+// With all that has moved since the last tick. Returns how far that has led (unit: meters).
+double Proxy::ride_along(ProxyTick& tick) {
+    const Vec3 before = position_;
+    surroundings_.make_sure(position_);
+    ride_deformations(tick);
+    if (!scene_->moved_bodies().empty()) {
+        ride_bodies(tick);
+    }
+    return glm::distance(position_, before);
 }
 
 }  // namespace tactus

@@ -35,7 +35,9 @@ bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, doubl
     if (changed || passes) {
         insisted_count_ = 0;
     }
-    passed_.update(scene, center, rest(), work_);
+    if (passes) {
+        passed_.update(scene, center, rest(), work_);
+    }
     return changed || passes;
 }
 

@@ -97,10 +97,9 @@ void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, Con
             if (nearest.distance >= far) {
                 continue;
             }
-            const Lanes squared = offset_from_triangles(tree.pack(nearest.pack), splat(local)).squared;
-            const unsigned lanes = lane_bits(squared <= splat(smallest(squared)));
-            feature.triangle = slot_in_whole(
-                part, tree, nearest.pack * lane_count + static_cast<std::uint32_t>(std::countr_zero(lanes)));
+            const int lane = lane_of_smallest(tree.offset_from_pack(nearest.pack, splat(local)).squared);
+            feature.triangle =
+                slot_in_whole(part, tree, nearest.pack * lane_count + static_cast<std::uint32_t>(lane));
         }
         if (const Contact contact = look.exact_contact(feature); contact.gap <= max_gap) {
             out.add(contact);
@@ -175,8 +174,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         last_id = Hit::no_triangle;
         others = tree.visit_near(local, out.limit(), work_, [&](std::uint32_t pack) {
             work_.spend(cost::contact_look);
-            TrianglePack room;
-            const PackOffset offset = offset_from_triangles(tree.pack(pack, room), center);
+            const PackOffset offset = tree.offset_from_pack(pack, center);
             take(pack, bound_from(offset, center), lane_bits(offset.is_face));
         });
     }

@@ -77,6 +77,8 @@ public:
     std::span<const ScenePart> parts() const { return parts_; }
     std::span<const int> moved_bodies() const { return moved_; }
     std::span<const int> deformed_bodies() const { return deformed_; }
+    // Nothing has moved or deformed since the last tick.
+    bool is_still() const { return moved_.empty() && deformed_.empty(); }
     std::uint64_t ticks() const { return ticks_; }  // begun so far
 
     // Parts of a body that was added, removed, teleported, deformed, narrowed or changed its layer: what a

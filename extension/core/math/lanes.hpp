@@ -6,6 +6,7 @@
 #include <immintrin.h>
 #endif
 
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -86,6 +87,11 @@ inline double smallest(Lanes a) {
     const double low = a[0] < a[1] ? a[0] : a[1];
     const double high = a[2] < a[3] ? a[2] : a[3];
     return low < high ? low : high;
+}
+
+// The first that is so; none may be NaN.
+inline int lane_of_smallest(Lanes a) {
+    return std::countr_zero(lane_bits(a == splat(smallest(a))));
 }
 
 struct LanesVec3 {

@@ -68,7 +68,7 @@ void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> 
         }
         const double unseen = tree->visit_near(local, limit, work, [&](std::uint32_t pack) {
             work.spend(cost::pack_look);
-            const PackOffset offset = offset_from_triangles(tree->pack(pack), splat(local));
+            const PackOffset offset = tree->offset_from_pack(pack, splat(local));
             for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
                 const bool repeats = lane > 0 && tree->triangle_at(pack * lane_count + lane) ==
                                                      tree->triangle_at(pack * lane_count + lane - 1);

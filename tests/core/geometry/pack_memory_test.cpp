@@ -23,7 +23,7 @@ constexpr double longest = 0.02;  // of a step
 constexpr double margin = 0.05;   // around the sphere, when it is gathered anew
 
 double distance_to_pack(const TriangleTree& tree, std::uint32_t pack, const Vec3& point) {
-    return std::sqrt(smallest(offset_from_triangles(tree.pack(pack), splat(point)).squared));
+    return std::sqrt(smallest(tree.offset_from_pack(pack, splat(point)).squared));
 }
 
 // A sphere that wanders over a mesh, its memory and its odometer.

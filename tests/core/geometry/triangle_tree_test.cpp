@@ -260,7 +260,7 @@ TEST(TriangleTree, OneThatIsNearlyTheNearestEndsTheSearch) {
         ASSERT_GE(found.distance, nearest);
         ASSERT_LE(found.distance, nearest / 0.99);
         ASSERT_EQ(found.distance,
-                  std::sqrt(smallest(offset_from_triangles(tree.pack(found.pack), splat(point)).squared)));
+                  std::sqrt(smallest(tree.offset_from_pack(found.pack, splat(point)).squared)));
     }
 }
 
