@@ -1,4 +1,5 @@
-"""build/bench/proxy.json as CSV and as a chart: time and error over the size of the mesh, and Jolt and Bullet beside."""
+"""build/bench/proxy.json as CSV and as charts, of what was measured: time and error over the size of a sphere, with Jolt
+and Bullet beside, and the late ticks of rough meshes."""
 
 import re
 import sys
@@ -8,7 +9,16 @@ from bench_plots import cases
 from plots import style
 
 SPHERE = re.compile(r"sphere_(\d+)_r([\d.]+)$")
+ROUGH = re.compile(r"rough_(\w+?)_(\d+)_r([\d.]+)_(\w+)$")
 MARKS = {"0.05": "-o", "0.01": "--s"}
+WORST = 12
+WANTED = {"p99_us": 60.0, "max_us": 300.0}
+SHARES = {
+    "mean_us": ("mean", "o", style.QUIET),
+    "p95_us": ("p95", "^", style.INK),
+    "p99_us": ("p99", "D", style.MEASURED),
+    "max_us": ("longest", "s", style.REFERENCE),
+}
 
 
 def spheres(table: dict[str, dict[str, float]]) -> dict[str, list[tuple[int, dict[str, float]]]]:
@@ -25,7 +35,7 @@ def line(axes, rows, metric, mark, colour, label):
         axes.plot(*zip(*points), mark, color=colour, label=label, markersize=4)
 
 
-def draw(table: dict[str, dict[str, float]], path: Path) -> None:
+def draw_spheres(table: dict[str, dict[str, float]], path: Path) -> None:
     drawn, ((times, errors, beside),) = style.figure(1, 3, 15.0, 5.4)
     for radius, rows in spheres(table).items():
         mark = MARKS.get(radius, "-")
@@ -47,11 +57,45 @@ def draw(table: dict[str, dict[str, float]], path: Path) -> None:
     style.save(drawn, path)
 
 
+def rough(table: dict[str, dict[str, float]]) -> list[tuple[str, dict[str, float]]]:
+    """Cases by the time that all but a hundredth of their ticks take, longest first."""
+    found = []
+    for name, case in table.items():
+        if (match := ROUGH.match(name)) and "p99_us" in case:
+            found.append((f"{match[1]}, {int(match[2]):,}, r {float(match[3]):g}, {match[4]}", case))
+    return sorted(found, key=lambda one: -one[1]["p99_us"])
+
+
+def draw_rough(found: list[tuple[str, dict[str, float]]], path: Path) -> None:
+    worst = found[:WORST]
+    drawn, ((everywhere, late),) = style.figure(1, 2, 13.0, 5.4, width_ratios=(1, 1))
+    for metric, (label, mark, colour) in SHARES.items():
+        times = [case[metric] for _, case in found]
+        everywhere.plot(range(1, len(found) + 1), times, ".", color=colour, label=label, markersize=4)
+        late.plot(times[:WORST], range(len(worst)), mark, color=colour, label=label, markersize=5, linestyle="")
+    for metric, limit in WANTED.items():
+        label, _, colour = SHARES[metric]
+        everywhere.axhline(limit, color=colour, linewidth=1.0, linestyle=":", label=f"{label}, wanted")
+        late.axvline(limit, color=colour, linewidth=1.0, linestyle=":")
+    everywhere.set(title=f"{len(found)} cases of rough meshes", yscale="log", xlabel="cases, by their p99", ylabel="time (µs)")
+    everywhere.legend(fontsize=8)
+    late.set(title=f"The {len(worst)} latest", xscale="log", xlabel="time (µs)", yticks=range(len(worst)))
+    late.set_yticklabels([name for name, _ in worst], fontsize=8)
+    late.invert_yaxis()
+    style.save(drawn, path)
+
+
 def main(result: Path) -> None:
     table = cases.read(result)
-    cases.write_csv(table, result.with_suffix(".csv"))
-    draw(table, result.with_suffix(".png"))
-    print(f"   {result.with_suffix('.csv').name}, {result.with_suffix('.png').name} beside it")
+    made = [result.with_suffix(".csv")]
+    cases.write_csv(table, made[0])
+    if spheres(table):
+        made.append(result.with_suffix(".png"))
+        draw_spheres(table, made[-1])
+    if found := rough(table):
+        made.append(result.with_name("proxy_rough.png"))
+        draw_rough(found, made[-1])
+    print(f"   {', '.join(path.name for path in made)} beside it")
 
 
 if __name__ == "__main__":
