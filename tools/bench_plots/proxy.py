@@ -35,9 +35,9 @@ def line(axes, rows, metric, mark, colour, label):
         axes.plot(*zip(*points), mark, color=colour, label=label, markersize=4)
 
 
-def draw_spheres(table: dict[str, dict[str, float]], path: Path) -> None:
+def draw_spheres(found: dict[str, list[tuple[int, dict[str, float]]]], path: Path) -> None:
     drawn, ((times, errors, beside),) = style.figure(1, 3, 15.0, 5.4)
-    for radius, rows in spheres(table).items():
+    for radius, rows in found.items():
         mark = MARKS.get(radius, "-")
         line(times, rows, "contact_median_us", mark, style.MEASURED, f"median, radius {radius}")
         line(times, rows, "contact_p99_us", mark, style.REFERENCE, f"p99, radius {radius}")
@@ -61,14 +61,14 @@ def rough(table: dict[str, dict[str, float]]) -> list[tuple[str, dict[str, float
     """Cases by the time that all but a hundredth of their ticks take, longest first."""
     found = []
     for name, case in table.items():
-        if (match := ROUGH.match(name)) and "p99_us" in case:
+        if match := ROUGH.match(name):
             found.append((f"{match[1]}, {int(match[2]):,}, r {float(match[3]):g}, {match[4]}", case))
     return sorted(found, key=lambda one: -one[1]["p99_us"])
 
 
 def draw_rough(found: list[tuple[str, dict[str, float]]], path: Path) -> None:
     worst = found[:WORST]
-    drawn, ((everywhere, late),) = style.figure(1, 2, 13.0, 5.4, width_ratios=(1, 1))
+    drawn, ((everywhere, late),) = style.figure(1, 2, 13.0, 5.4)
     for metric, (label, mark, colour) in SHARES.items():
         times = [case[metric] for _, case in found]
         everywhere.plot(range(1, len(found) + 1), times, ".", color=colour, label=label, markersize=4)
@@ -89,12 +89,12 @@ def main(result: Path) -> None:
     table = cases.read(result)
     made = [result.with_suffix(".csv")]
     cases.write_csv(table, made[0])
-    if spheres(table):
+    if found := spheres(table):
         made.append(result.with_suffix(".png"))
-        draw_spheres(table, made[-1])
-    if found := rough(table):
+        draw_spheres(found, made[-1])
+    if late := rough(table):
         made.append(result.with_name("proxy_rough.png"))
-        draw_rough(found, made[-1])
+        draw_rough(late, made[-1])
     print(f"   {', '.join(path.name for path in made)} beside it")
 
 

@@ -54,9 +54,6 @@ Wall under_pad(const Wall& surface, double pad_stiffness) {
 HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching, const Vec3& slide,
                         const Vec3& hand_velocity, double seconds, const SafeWalls& safe) {
     HandForce force;
-    if (touching.empty()) {
-        return force;
-    }
     double all_pressure = 0.0;
     Vec3 stretch = slide;
     for (const Touch& contact : touching) {
