@@ -43,8 +43,13 @@ public:
 
     std::size_t count() const { return count_; }  // of bodies set aside
     bool holds(const JPH::Body& body) const;
-    JPH::Vec3 linear_velocity(const JPH::Body& body) const { return kept(body).linear; }
-    JPH::Vec3 angular_velocity(const JPH::Body& body) const { return kept(body).angular; }
+    // Of a body kept here or not.
+    JPH::Vec3 linear_velocity(const JPH::Body& body) const {
+        return holds(body) ? kept(body).linear : body.GetLinearVelocity();
+    }
+    JPH::Vec3 angular_velocity(const JPH::Body& body) const {
+        return holds(body) ? kept(body).angular : body.GetAngularVelocity();
+    }
 
     // While bodies are exchanged, waking and falling asleep mean nothing to anybody else.
     bool exchanging() const { return exchanging_; }

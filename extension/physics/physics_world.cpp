@@ -411,6 +411,13 @@ Pose PhysicsWorld::pose(BodyId id) const {
     return body != nullptr ? pose_of(*body) : Pose{};
 }
 
+BodyMotion PhysicsWorld::state(BodyId id) const {
+    const JPH::Body* body = impl_->find(id);
+    return body != nullptr ? BodyMotion{pose_of(*body), units::vector(impl_->far.linear_velocity(*body)),
+                                        units::plain(impl_->far.angular_velocity(*body))}
+                           : BodyMotion{};
+}
+
 Vec3 PhysicsWorld::center_of_mass(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
     return body != nullptr ? units::position(body->GetCenterOfMassPosition()) : Vec3(0.0);
@@ -418,18 +425,12 @@ Vec3 PhysicsWorld::center_of_mass(BodyId id) const {
 
 Vec3 PhysicsWorld::linear_velocity(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
-    if (body == nullptr)
-        return Vec3(0.0);
-    return units::vector(impl_->far.holds(*body) ? impl_->far.linear_velocity(*body)
-                                                 : body->GetLinearVelocity());
+    return body != nullptr ? units::vector(impl_->far.linear_velocity(*body)) : Vec3(0.0);
 }
 
 Vec3 PhysicsWorld::angular_velocity(BodyId id) const {
     const JPH::Body* body = impl_->find(id);
-    if (body == nullptr)
-        return Vec3(0.0);
-    return units::plain(impl_->far.holds(*body) ? impl_->far.angular_velocity(*body)
-                                                : body->GetAngularVelocity());
+    return body != nullptr ? units::plain(impl_->far.angular_velocity(*body)) : Vec3(0.0);
 }
 
 Vec3 PhysicsWorld::velocity_at(BodyId id, const Vec3& world_point) const {

@@ -13,7 +13,7 @@
 #include <memory>
 #include <span>
 
-#include "core/math/pose.hpp"
+#include "core/math/body_motion.hpp"
 #include "physics/body_description.hpp"
 #include "physics/joint.hpp"
 #include "physics/prepared_body.hpp"
@@ -184,6 +184,7 @@ public:
 
     // --- looking at it
 
+    BodyMotion state(BodyId id) const;
     Pose pose(BodyId id) const;
     Vec3 center_of_mass(BodyId id) const;    // in the world (unit: meters)
     Vec3 linear_velocity(BodyId id) const;   // of the centre of mass (unit: meters per second)

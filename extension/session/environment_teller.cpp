@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "network/plausibility.hpp"
 
 namespace tactus {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 

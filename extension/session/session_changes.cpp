@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "realtime/thread_role.hpp"
 #include "session/session_loop.hpp"
 
@@ -113,11 +113,9 @@ void SessionLoop::go_on_from(const command::AddBody& added) {
 
 // From the next snapshot on, the body is among those that can move.
 void SessionLoop::show_state(SessionHandle handle) {
-    const BodyId id = bodies_[handle].id;
     state_of_[handle] = static_cast<std::uint32_t>(states_.size());
-    states_.push_back(
-        {handle, physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id), tick_});
-    note_change(state_of_[handle]);
+    states_.emplace_back();
+    note_state(handle, motion(handle));
     states_changed_at_ = tick_ + 1;
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "physics/limits.hpp"
 #include "realtime/thread_role.hpp"
 #include "session/input_recorder.hpp"

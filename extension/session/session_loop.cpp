@@ -9,7 +9,7 @@
 #include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_spring.hpp"
 #include "core/math/bit_hash.hpp"
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "realtime/thread_role.hpp"
 
 namespace tactus {
@@ -117,15 +117,22 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
 }
 
 void SessionLoop::place(SessionHandle handle, const Pose& pose, bool teleport) {
-    const Body& placed = bodies_[handle];
-    scene_.set_pose(placed.slot, pose, teleport);
+    BodyMotion now = motion(handle);
+    now.pose = pose;
+    place(handle, now, teleport);
+}
+
+void SessionLoop::place(SessionHandle handle, const BodyMotion& now, bool teleport) {
+    scene_.set_pose(bodies_[handle].slot, now.pose, teleport);
     if (state_of_[handle] != no_handle) {
-        BodyState& state = states_[state_of_[handle]];
-        state.pose = pose;
-        state.linear_velocity = physics_.linear_velocity(placed.id);
-        state.angular_velocity = physics_.angular_velocity(placed.id);
-        note_change(state_of_[handle]);
+        note_state(handle, now);
     }
+}
+
+void SessionLoop::note_state(SessionHandle handle, const BodyMotion& now) {
+    const std::uint32_t state = state_of_[handle];
+    states_[state] = {handle, now.pose, now.linear_velocity, now.angular_velocity};
+    note_change(state);
 }
 
 void SessionLoop::note_change(std::uint32_t state) {
@@ -137,7 +144,7 @@ void SessionLoop::follow_physics() {
     for (const BodyId id : physics_.moved()) {
         const SessionHandle handle = handle_of_id_[id.index()];
         if (handle != no_handle && bodies_[handle].id == id) {
-            place(handle, physics_.pose(id), false);
+            place(handle, physics_.state(id), false);
         }
     }
 }

@@ -247,8 +247,10 @@ private:
     void travel();
     void follow_physics();
     void place(SessionHandle handle, const Pose& pose, bool teleport);
+    void place(SessionHandle handle, const BodyMotion& now, bool teleport);
     void show_state(SessionHandle handle);
     void go_on_from(const command::AddBody& added);
+    void note_state(SessionHandle handle, const BodyMotion& now);
     void note_change(std::uint32_t state);
     void read_devices(Nanoseconds now);
     void place_hand(DeviceSlot& slot) const;

@@ -11,8 +11,7 @@ DeviceSample SessionLoop::device_sample(SessionHandle device) const {
 }
 
 BodyMotion SessionLoop::motion(SessionHandle handle) {
-    const BodyId id = bodies_[handle].id;
-    return {physics_.pose(id), physics_.linear_velocity(id), physics_.angular_velocity(id)};
+    return physics_.state(bodies_[handle].id);
 }
 
 bool SessionLoop::asleep(SessionHandle handle) {
@@ -124,11 +123,8 @@ void SessionLoop::put_right(SessionHandle handle, const BodyMotion& to, bool wit
     if (state_of_[handle] == no_handle) {
         show_state(handle);
     }
-    BodyState& state = states_[state_of_[handle]];
-    state.pose = to.pose;
-    state.linear_velocity = physics_.linear_velocity(corrected->id);
-    state.angular_velocity = physics_.angular_velocity(corrected->id);
-    note_change(state_of_[handle]);
+    note_state(handle,
+               {to.pose, physics_.linear_velocity(corrected->id), physics_.angular_velocity(corrected->id)});
 }
 
 void SessionLoop::begin_replay_tick() {
@@ -137,7 +133,7 @@ void SessionLoop::begin_replay_tick() {
     take_forms();
     if (std::exchange(follows_all_, false)) {
         for (const BodyState& state : states_) {
-            place(state.handle, physics_.pose(bodies_[state.handle].id), false);
+            place(state.handle, motion(state.handle), false);
         }
     } else {
         follow_physics();

@@ -5,7 +5,7 @@
 
 #include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_way.hpp"
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "session/session_loop.hpp"
 
 namespace tactus {

@@ -8,8 +8,8 @@
 
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/surface_effects.hpp"
+#include "core/math/body_motion.hpp"
 #include "core/safety/force_exit.hpp"
-#include "core/teleop/body_motion.hpp"
 #include "session/session_types.hpp"
 
 namespace tactus {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "network/messages.hpp"
 #include "session/session_types.hpp"
 

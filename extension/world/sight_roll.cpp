@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/math/body_motion.hpp"
 #include "core/math/least_turn.hpp"
-#include "core/teleop/body_motion.hpp"
 
 namespace tactus {
 

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 

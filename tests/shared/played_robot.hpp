@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "core/teleop/robot_drive.hpp"
 #include "session/session.hpp"
 

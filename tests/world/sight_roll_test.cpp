@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 namespace {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/math/body_motion.hpp"
 #include "core/math/shortened.hpp"
-#include "core/teleop/body_motion.hpp"
 
 namespace tactus {
 

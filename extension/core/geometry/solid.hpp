@@ -26,6 +26,8 @@ struct SolidDistance {
     double bend_v = 0.0;               // (unit: 1/meter)
     std::array<SurfaceEnd, 3> ends{};  // where an edge or corner ends and the bends with it
     int end_count = 0;
+
+    bool is_flat() const { return bend_u == 0.0 && bend_v == 0.0; }
 };
 
 SolidDistance distance_to_solid(const Solid& solid, const Vec3& point);

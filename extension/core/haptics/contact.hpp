@@ -23,10 +23,10 @@ struct FeatureId {
 
 enum class ContactState : std::uint8_t {
     seen,     // as the search found it: good enough to tell which contacts hold the sphere back
-    face,     // of a triangle, which a search tells as well as a close look
+    face,     // flat: of a triangle or a shape in closed form, which a search tells as well as a close look
     edge,     // looked at closely: of a triangle
     corner,   // likewise
-    solid,    // a shape in closed form
+    solid,    // of a shape in closed form, where it bends
     covered,  // an edge or corner for which a nearer or earlier contact stands
 };
 

@@ -26,6 +26,13 @@ Vec3 edge_direction(const TriangleCorners& t, int edge) {
 
 }  // namespace
 
+Contact solid_contact(std::uint32_t part, const Pose& pose, const SolidDistance& at, double rest) {
+    return {direction_to_parent(pose, at.normal),
+            at.distance - rest,
+            {part},
+            at.is_flat() ? ContactState::face : ContactState::solid};
+}
+
 SurfacePoint ContactLook::at(const FeatureId& feature) const {
     work_.spend(cost::closest_point);
     const ScenePart& part = placed(feature);
@@ -33,9 +40,15 @@ SurfacePoint ContactLook::at(const FeatureId& feature) const {
 }
 
 Contact ContactLook::exact_contact(const FeatureId& feature) const {
+    const ScenePart& part = placed(feature);
+    if (!part.part->tree()) {
+        work_.spend(cost::solid_look);
+        const SolidDistance at = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
+        return solid_contact(feature.part, part.pose, at, rest_);
+    }
     const SurfacePoint nearest = at(feature);
-    return {direction_to_parent(placed(feature).pose, nearest.normal), nearest.distance - rest_, feature,
-            placed(feature).part->tree() ? state_of(nearest.kind) : ContactState::solid, nearest.edge};
+    return {direction_to_parent(part.pose, nearest.normal), nearest.distance - rest_, feature,
+            state_of(nearest.kind), nearest.edge};
 }
 
 bool ContactLook::look_closely(ContactList& contacts, int index, double step) const {

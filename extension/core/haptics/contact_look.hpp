@@ -12,6 +12,9 @@ namespace tactus {
 // nearest point is found twice, with different rounding.
 constexpr double same_point = 16.0;
 
+// With a part in closed form, `at` from the sphere's centre.
+Contact solid_contact(std::uint32_t part, const Pose& pose, const SolidDistance& at, double rest);
+
 class ContactLook {
 public:
     // `rest` is the distance at which the sphere's centre rests; distances that differ by at most `same` are

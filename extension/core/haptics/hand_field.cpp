@@ -64,6 +64,9 @@ Wall HandField::begin_tick(Nanoseconds now) {
 }
 
 Vec3 HandField::force(const HandMotion& hand, const Wall& safe) {
+    if (over_ == 0) {
+        return Vec3(0.0);
+    }
     stiff_share_ = safe_share(steepest_.stiffness, safe.stiffness);
     damped_share_ = safe_share(steepest_.damping, safe.damping);
     return felt(hand);

@@ -149,10 +149,27 @@ void find_multipliers(const Vec3& goal, std::span<const HalfSpace> halfspaces, N
     }
 }
 
+// One alone needs no order.
+NearestInHalfSpaces nearest_in_one(const Vec3& goal, const HalfSpace& h, double tolerance) {
+    NearestInHalfSpaces best;
+    best.point = goal;
+    if (violates(h, goal, tolerance)) {
+        best.multiplier[0] = h.offset - glm::dot(h.normal, goal);
+        best.point = goal + h.normal * best.multiplier[0];
+        best.active[0] = 0;
+        best.active_count = 1;
+    }
+    return best;
+}
+
 }  // namespace
 
 NearestInHalfSpaces nearest_in_halfspaces(const Vec3& goal, std::span<const HalfSpace> halfspaces,
                                           double tolerance, WorkBudget& work) {
+    if (halfspaces.size() == 1) {
+        work.spend(cost::half_space);
+        return nearest_in_one(goal, halfspaces[0], tolerance);
+    }
     NearestInHalfSpaces best;
     best.point = goal;
     const int count = static_cast<int>(std::min<std::size_t>(halfspaces.size(), max_halfspaces));

@@ -115,10 +115,7 @@ void Surroundings::find_solid_contact(std::uint32_t index, const Vec3& local, Co
     work_.spend(cost::solid_look);
     broad_phase_.set_clear(index, at.distance - rest() - tolerances().reach);
     if (at.distance <= out.limit()) {
-        out.add({direction_to_parent(placed.pose, at.normal),
-                 at.distance - rest(),
-                 {index},
-                 ContactState::solid});
+        out.add(solid_contact(index, placed.pose, at, rest()));
         out.heed(at.distance);
     } else {
         seen_gap_ = std::min(seen_gap_, at.distance - rest());

@@ -7,7 +7,7 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 

@@ -1,7 +1,7 @@
 // What need not be sent, because the far side would guess it: it goes on with the last sample's velocity.
 #pragma once
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 

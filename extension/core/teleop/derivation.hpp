@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 

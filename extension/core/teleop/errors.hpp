@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "core/teleop/stealth.hpp"
 
 namespace tactus {

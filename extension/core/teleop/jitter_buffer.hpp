@@ -30,8 +30,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "core/math/body_motion.hpp"
 #include "core/math/types.hpp"
-#include "core/teleop/body_motion.hpp"
 #include "core/teleop/playing.hpp"
 #include "core/teleop/playout_lag.hpp"
 #include "core/teleop/sample_ring.hpp"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 

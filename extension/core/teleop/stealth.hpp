@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 namespace tactus {
 

@@ -4,7 +4,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/haptics/surface_way.hpp"
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "core/tool/tool_pair.hpp"
 #include "core/tool/tool_proxy.hpp"
 #include "core/tool/tool_steps.hpp"

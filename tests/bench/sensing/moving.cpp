@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "sensing/sensing_figures.hpp"
 #include "shared/random_values.hpp"
 

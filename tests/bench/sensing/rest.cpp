@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 #include "sensing/sensing_figures.hpp"
 #include "shared/random_values.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/teleop/body_motion.hpp"
+#include "core/math/body_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
