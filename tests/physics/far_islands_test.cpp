@@ -101,6 +101,8 @@ TEST(FarIslands, WhatIsSlowedFallsAsFarInTheSameTime) {
         const double late = 16e-3 * 9.81 * 0.48;
         EXPECT_NEAR(field.place(i).y, exact, 1.6 * late) << i;
         EXPECT_NEAR(field.world.linear_velocity(field.ids[i]).y, -9.81 * 0.48, 9.81 * 17e-3) << i;
+        EXPECT_EQ(field.world.state(field.ids[i]).linear_velocity, field.world.linear_velocity(field.ids[i]));
+        EXPECT_EQ(field.world.state(field.ids[i]).pose.position, field.place(i));
     }
 }
 

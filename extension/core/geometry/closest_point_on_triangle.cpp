@@ -8,6 +8,28 @@ namespace tactus {
 
 namespace {
 
+constexpr double plain_area = 0.1;  // as flat_area
+
+// Of the triangle and of what it makes with the point above each side, as the normal sees them.
+struct Areas {
+    Vec3 normal;  // twice as long as the triangle's area
+    double squared_normal;
+    double squared_sides;
+    bool inside;
+
+    bool exceed(double area) const { return squared_normal > squared_sides * (area * area); }
+};
+
+Areas areas_of(const Vec3& ap, const Vec3& ab, const Vec3& ac) {
+    const Vec3 normal = glm::cross(ab, ac);
+    const double squared_normal = glm::dot(normal, normal);
+    const double area_ab = glm::dot(normal, glm::cross(ab, ap));
+    const double area_ca = glm::dot(normal, glm::cross(ap, ac));
+    const double area_bc = squared_normal - area_ab - area_ca;
+    return {normal, squared_normal, glm::dot(ab, ab) * glm::dot(ac, ac),
+            area_ab >= 0.0 && area_ca >= 0.0 && area_bc >= 0.0};
+}
+
 struct OnSegment {
     Vec3 point;
     double share;    // of the way from the start to the end, beyond [0, 1] where an end is nearest
@@ -29,20 +51,12 @@ OnSegment closest_on_segment(const Vec3& point, const Vec3& start, const Vec3& e
 // does not depend on where in its plane it is measured from.
 TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                                const Vec3& c) {
-    constexpr double plain_area = 0.1;
-    const Vec3 ab = b - a;
-    const Vec3 ac = c - a;
     const Vec3 ap = point - a;
-    const Vec3 normal = glm::cross(ab, ac);
-    const double squared_normal = glm::dot(normal, normal);
-    const double squared_sides = glm::dot(ab, ab) * glm::dot(ac, ac);
-    const double area_ab = glm::dot(normal, glm::cross(ab, ap));
-    const double area_ca = glm::dot(normal, glm::cross(ap, ac));
-    const double area_bc = squared_normal - area_ab - area_ca;
-    const bool inside = area_ab >= 0.0 && area_ca >= 0.0 && area_bc >= 0.0 &&
-                        squared_normal > squared_sides * (flat_area * flat_area);
-    if (inside && squared_normal > squared_sides * (plain_area * plain_area)) {
-        return {point - normal * (glm::dot(normal, ap) / squared_normal), TriangleFeature::face};
+    const Areas areas = areas_of(ap, b - a, c - a);
+    const bool inside = areas.inside && areas.exceed(flat_area);
+    if (inside && areas.exceed(plain_area)) {
+        return {point - areas.normal * (glm::dot(areas.normal, ap) / areas.squared_normal),
+                TriangleFeature::face};
     }
     const OnSegment edges[3] = {closest_on_segment(point, a, b), closest_on_segment(point, b, c),
                                 closest_on_segment(point, c, a)};
@@ -50,11 +64,16 @@ TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a,
     nearest = edges[2].squared < edges[nearest].squared ? 2 : nearest;
     const OnSegment& best = edges[nearest];
     if (inside) {
-        const double height = glm::dot(normal, point - best.point) / squared_normal;
-        return {point - normal * height, TriangleFeature::face};
+        const double height = glm::dot(areas.normal, point - best.point) / areas.squared_normal;
+        return {point - areas.normal * height, TriangleFeature::face};
     }
     const bool is_corner = best.share <= 0.0 || best.share >= 1.0;
     return {best.point, is_corner ? TriangleFeature::corner : TriangleFeature::edge, nearest};
+}
+
+bool is_above_face(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Areas areas = areas_of(point - a, b - a, c - a);
+    return areas.inside && areas.exceed(plain_area);
 }
 
 }  // namespace tactus

@@ -20,4 +20,7 @@ struct TriangleClosestPoint {
 TriangleClosestPoint closest_point_on_triangle(const Vec3& point, const Vec3& a, const Vec3& b,
                                                const Vec3& c);
 
+// Whether it is inside the triangle, where that is plain: never for one that is slim.
+bool is_above_face(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
+
 }  // namespace tactus

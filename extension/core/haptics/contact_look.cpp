@@ -51,6 +51,19 @@ Contact ContactLook::exact_contact(const FeatureId& feature) const {
             state_of(nearest.kind), nearest.edge};
 }
 
+bool ContactLook::is_above_face(const Contact& contact) const {
+    const ScenePart& part = placed(contact.feature);
+    const Vec3 local = to_local(part.pose, center_);
+    if (!part.part->tree()) {
+        work_.spend(cost::solid_look);
+        const SolidDistance at = distance_to_solid(part.part->solid(), local);
+        return at.is_flat() && direction_to_parent(part.pose, at.normal) == contact.normal;
+    }
+    work_.spend(cost::closest_point);
+    const TriangleCorners t = part.part->tree()->corners(contact.feature.triangle);
+    return tactus::is_above_face(local, t.a, t.b, t.c);
+}
+
 bool ContactLook::look_closely(ContactList& contacts, int index, double step) const {
     Contact& contact = contacts[index];
     const SurfacePoint nearest = at(contact.feature);

@@ -34,6 +34,8 @@ public:
     // clear of whatever stays before that plane, and covered.
     void cover_behind_nearest(ContactList& contacts) const;
     Contact exact_contact(const FeatureId& feature) const;
+    // Whether the sphere, gone along the plane of a face, is still above it.
+    bool is_above_face(const Contact& contact) const;
     // The same asked of the tree, for a contact whose neighbours may not be among the triangles at hand.
     bool is_covered_by_any(const Contact& contact) const;
     // Of a contact that has been looked at closely.

@@ -163,7 +163,10 @@ private:
     void descend(const Vec3& hand, double given_way, ProxyTick& tick);
     Hit take(ConstrainedStep& step, const Vec3& pull, Descent& descent);
     void conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
-    bool rests_on_planes(ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
+    bool stays_on_planes(ConstrainedStep& step);
+    bool drops_onto_one(ConstrainedStep& step, const Vec3& hand);
+    bool has_come_to_rest(ConstrainedStep& step, const Vec3& hand, bool all_seen, const Descent& descent,
+                          ProxyTick& tick);
     bool is_end(const ConstrainedStep& step) const;
     ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);
     ConstrainedStep plan(const Vec3& pull, Descent& descent);

@@ -1,6 +1,5 @@
 // The steps of one tick: look around, plan, go, until nothing is left to go or to spend.
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/haptics/proxy.hpp"
@@ -164,43 +163,6 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     return hit;
 }
 
-// Whether a free way over planes has ended where the hand lets it rest. What pressed at its beginning was
-// enough to hold it there, by forces that the way does not change; so it is at its end, where the same planes
-// are as near: a place that is free of everything and nearest to the hand for some of it is so for all.
-// Nothing has to be looked for. Edges and corners would have to be, and to be planned with: they turn.
-bool Proxy::rests_on_planes(ConstrainedStep& step, const Descent& descent, ProxyTick& tick) {
-    if (step.pressing_count == 0 || step.bent || descent.slope > 0.0) {
-        return false;
-    }
-    const ContactLook look = surroundings_.look_from(position_);
-    double residual = 0.0;
-    for (int i = 0; i < step.pressing_count; ++i) {
-        Contact& held = contacts_[step.pressing[i]];
-        if (held.state != ContactState::face) {
-            return false;
-        }
-        const Contact now = look.exact_contact(held.feature);
-        residual += std::abs(now.gap) + step.pressure[i] * glm::distance(now.normal, held.normal);
-        if (now.state != held.state || residual > tolerances().step) {
-            return false;
-        }
-        held = now;
-    }
-    step.slide -= step.motion - step.drop;
-    step.motion = step.slide;
-    step.drop = Vec3(0.0);
-    if (descent.grips) {
-        brake(step, descent.dropped);
-        residual += glm::length(step.motion);
-    }
-    if (residual > tolerances().step) {
-        return false;
-    }
-    keep_touching(step);
-    tick.residual = residual;
-    return true;
-}
-
 // A bent step is believed in at first as far as a proxy follows its hand.
 void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
     const Vec3 start = position_;
@@ -244,6 +206,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
         if (tick.residual <= tolerances().step || descent.is_last) {
             break;
         }
+        const bool all_seen = contacts_hold_;
         const Hit hit = take(step, pull, descent);
         if (hit.is_free() && step.pressing_count == 0) {
             position_ = hand;
@@ -251,7 +214,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
             tick.residual = 0.0;
             break;
         }
-        if (hit.is_free() && rests_on_planes(step, descent, tick)) {
+        if (hit.is_free() && has_come_to_rest(step, hand, all_seen, descent, tick)) {
             ++tick.steps;
             break;
         }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
+
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
 
@@ -68,6 +70,27 @@ TEST(ClosestPointOnTriangle, AgreesWithSlowReferenceOnThinTriangles) {
                     1e-14)
             << "case " << i;
     }
+}
+
+TEST(ClosestPointOnTriangle, AboveAFaceIsWhereTheClosestPointIsInside) {
+    RandomValues random(37);
+    int above = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const Vec3 a = random.in_ball(1.0);
+        const Vec3 b = random.in_ball(1.0);
+        const Vec3 c = i % 2 == 0
+                           ? random.in_ball(1.0)
+                           : a + (b - a) * random.unit() + random.in_ball(random.magnitude(1e-6, 1e-2));
+        const Vec3 p = random.in_ball(2.0);
+        const bool is_face = closest_point_on_triangle(p, a, b, c).feature == TriangleFeature::face;
+        const bool is_above = is_above_face(p, a, b, c);
+        ASSERT_TRUE(is_face || !is_above) << "case " << i;
+        const Vec3 normal = glm::cross(b - a, c - a);
+        const bool is_slim = glm::length(normal) < 0.11 * glm::length(b - a) * glm::length(c - a);
+        ASSERT_TRUE(is_above == is_face || is_slim) << "case " << i;
+        above += is_above;
+    }
+    EXPECT_GT(above, 300);
 }
 
 TEST(ClosestPointOnTriangle, FarFromTheOriginIsAsGoodAsTheCoordinates) {

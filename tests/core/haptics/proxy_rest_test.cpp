@@ -1,6 +1,7 @@
 // Where the proxy comes to rest: the constrained minimum, whatever it rests on.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
@@ -74,6 +75,52 @@ TEST(ProxyRest, OnACornerWhereTheCornersSphereFacesTheHand) {
     const Vec3 hand = corner + Vec3(0.012, 0.006, 0.017);
     const Vec3 p = rest(rig, corner + Vec3(0.2, 0.1, 0.25), hand);
     EXPECT_LT(glm::length(p - (corner + radius * glm::normalize(hand - corner))), 2.0 * tolerance);
+}
+
+// What is planes stays planes: the step that leads to rest is known to be the last one.
+TEST(ProxyRest, AWayOverAFlatSideIsOneStep) {
+    for (const bool closed_form : {false, true}) {
+        TouchRig rig(radius);
+        closed_form ? rig.add(BoxShape{Vec3(1.0)}, {Vec3(0.0, -1.0, 0.0), Quat(1.0, 0.0, 0.0, 0.0)})
+                    : rig.add(square(1.0));
+        rig.draw({-0.6, 0.1, -0.1}, {-0.6, -0.03, -0.1}, 20);
+        for (int i = 1; i <= 100; ++i) {
+            const Vec3 hand(-0.6 + 0.012 * i, -0.03 - 1e-4 * i, -0.1);
+            const ProxyTick tick = rig.tick(hand);
+            ASSERT_EQ(tick.steps, 1) << closed_form << ' ' << i;
+            ASSERT_EQ(tick.status, static_cast<std::uint32_t>(proxy_touching));
+            ASSERT_LT(glm::distance(tick.position, Vec3(hand.x, radius, hand.z)), tolerance);
+            ASSERT_NEAR(rig.proxy.touching()[0].pressure, radius - hand.y, tolerance);
+            ASSERT_LT(glm::distance(rig.proxy.touching()[0].point, Vec3(hand.x, 0.0, hand.z)), tolerance);
+        }
+    }
+}
+
+// A step around an edge or a ball ends exactly above the place of rest, and what is left is to drop.
+TEST(ProxyRest, AWayAroundWhatIsRoundIsOneStep) {
+    const Vec3 start(1.15, 0.15, 0.3);
+    for (const bool closed_form : {false, true}) {
+        TouchRig rig(radius);
+        closed_form ? rig.add(SphereShape{0.2}, {Vec3(1.0, 0.0, 0.3), Quat(1.0, 0.0, 0.0, 0.0)})
+                    : rig.add(square(1.0));
+        const double rest = radius + (closed_form ? 0.2 : 0.0);
+        const Vec3 axis(1.0, 0.0, 0.3);
+        rig.draw(axis + Vec3(0.3, 0.3, 0.0), axis + 0.7 * rest * glm::normalize(Vec3(1.0)), 20);
+        for (int i = 0; i < 5; ++i) {
+            rig.tick(axis + 0.7 * rest * glm::normalize(Vec3(1.0, 1.0, 0.0)));
+        }
+        for (int i = 1; i <= 40; ++i) {
+            const double angle = 0.25 * std::numbers::pi + 0.01 * i;
+            const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
+            const Vec3 hand = axis + 0.7 * rest * out;
+            const ProxyTick tick = rig.tick(hand);
+            ASSERT_EQ(tick.steps, 1) << closed_form << ' ' << i;
+            ASSERT_LT(glm::distance(tick.position, axis + rest * out), 2.0 * tolerance);
+            ASSERT_EQ(rig.proxy.touching().size(), 1u);
+            ASSERT_LT(glm::distance(rig.proxy.touching()[0].normal, out), 1e-7);
+            ASSERT_NEAR(rig.proxy.touching()[0].pressure, 0.3 * rest, 2.0 * tolerance);
+        }
+    }
 }
 
 class ProxyGroove : public ::testing::TestWithParam<double> {};
