@@ -15,7 +15,8 @@ constexpr double least_trust = 1e-6;
 constexpr std::int64_t least_question_share = 1'000;
 // A sweep that takes its whole share and leads less far than that is held by a crowd (of the radius).
 constexpr double least_progress = 1e-3;
-// A tick in a crowd that leads less far than that leaves the next one in it (of the radius).
+// A tick in a crowd that leads less far than that leaves the next one in it, to rise more steeply (of the
+// radius).
 constexpr double least_progress_of_tick = 1e-2;
 // What stands for a crowd is looked for up to here above rest (of the radius).
 constexpr double crowd_reach = 1e-2;
@@ -227,7 +228,8 @@ void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Desce
                      ProxyTick& tick) {
     const bool is_unfinished = tick.residual > tolerances().step;
     const double way = glm::distance(position_, start);
-    crowd_slope_ = is_unfinished && way < least_progress_of_tick * settings_.radius ? descent.slope : 0.0;
+    const bool is_held = is_unfinished && way < least_progress_of_tick * settings_.radius;
+    crowd_slope_ = is_held ? std::min(max_slope, steeper * descent.slope) : 0.0;
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
