@@ -226,6 +226,19 @@ void ContactLook::add_ends(const ContactList& contacts, const Contact& contact, 
     }
 }
 
+double ContactLook::max_bend(const Contact& contact) const {
+    if (contact.state == ContactState::face) {
+        return 0.0;
+    }
+    if (contact.state != ContactState::solid) {
+        return 1.0 / (contact.gap + rest_);
+    }
+    const ScenePart& part = placed(contact.feature);
+    work_.spend(cost::solid_look);
+    const SolidDistance at = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
+    return std::max(at.bend_u, at.bend_v);
+}
+
 Curvature ContactLook::curvature_of(const ContactList& contacts, int index) const {
     const Contact& contact = contacts[index];
     const ScenePart& part = placed(contact.feature);

@@ -38,7 +38,9 @@ public:
     bool is_above_face(const Contact& contact) const;
     // The same asked of the tree, for a contact whose neighbours may not be among the triangles at hand.
     bool is_covered_by_any(const Contact& contact) const;
-    // Of a contact that has been looked at closely.
+    // Of a contact that has been looked at closely: how much the distance bends at most (unit: 1/meter).
+    double max_bend(const Contact& contact) const;
+    // Likewise, and in which directions.
     Curvature curvature_of(const ContactList& contacts, int index) const;
     Touch touch_of(const Contact& contact, double pressure) const;
 

@@ -165,7 +165,8 @@ private:
     void conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
     bool stays_on_planes(ConstrainedStep& step);
     bool drops_onto_one(ConstrainedStep& step, const Vec3& hand);
-    bool has_come_to_rest(ConstrainedStep& step, const Vec3& hand, bool all_seen, const Descent& descent,
+    bool leads_clear_of_others(const Vec3& way, const ConstrainedStep& step);
+    bool has_come_to_rest(ConstrainedStep& step, const Vec3& from, const Vec3& hand, const Descent& descent,
                           ProxyTick& tick);
     bool is_end(const ConstrainedStep& step) const;
     ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "core/haptics/proxy.hpp"
 
@@ -24,17 +25,21 @@ bool Proxy::stays_on_planes(ConstrainedStep& step) {
 }
 
 // After a free way over one bent surface, which ends above it: where nothing is left to slide, to drop onto
-// it is all.
+// it is all. A slide s over a surface that bends by b is off by s / (1 - pressure b): the length of Newton's
+// step.
 bool Proxy::drops_onto_one(ConstrainedStep& step, const Vec3& hand) {
     if (step.pressing_count != 1) {
         return false;
     }
     Contact& held = contacts_[step.pressing[0]];
-    const Contact now = surroundings_.look_from(position_).exact_contact(held.feature);
+    const ContactLook look = surroundings_.look_from(position_);
+    const Contact now = look.exact_contact(held.feature);
     const Vec3 pull = hand - position_;
     const double pressure = -glm::dot(now.normal, pull) - now.gap;
     step.slide = step.motion = pull - now.normal * glm::dot(now.normal, pull);
-    if (pressure <= 0.0 || glm::length(step.slide) > tolerances().step) {
+    const double slide = glm::length(step.slide);
+    if (pressure <= 0.0 || slide > tolerances().step ||
+        slide > tolerances().step * (1.0 - pressure * look.max_bend(now))) {
         return false;
     }
     FeatureId stopped_by;
@@ -47,13 +52,33 @@ bool Proxy::drops_onto_one(ConstrainedStep& step, const Vec3& hand) {
     return true;
 }
 
-// Whether a free way has ended where the hand lets the sphere rest. A place that is clear of everything, and
-// as near to the hand as some surfaces let it be, is so for all: nothing has to be looked for then.
-bool Proxy::has_come_to_rest(ConstrainedStep& step, const Vec3& hand, bool all_seen, const Descent& descent,
-                             ProxyTick& tick) {
-    const bool is_squeezed = contacts_.min_gap() < -tolerances().reach;
-    if (step.pressing_count == 0 || is_squeezed || descent.slope > 0.0 ||
-        !(step.bent ? all_seen && drops_onto_one(step, hand) : stays_on_planes(step))) {
+// Whether none of the other contacts is below rest after a way: each lies behind its plane, or is looked at.
+bool Proxy::leads_clear_of_others(const Vec3& way, const ConstrainedStep& step) {
+    const ContactLook look = surroundings_.look_from(position_);
+    const std::span<const int> pressing(step.pressing, static_cast<std::size_t>(step.pressing_count));
+    surroundings_.work().spend(1 + contacts_.count / 8);
+    for (int i = 0; i < contacts_.count; ++i) {
+        const Contact& other = contacts_[i];
+        if (std::ranges::find(pressing, i) == pressing.end() &&
+            other.gap + glm::dot(other.normal, way) < -tolerances().same &&
+            look.exact_contact(other.feature).gap < -tolerances().same) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether a free way from a place where all contacts were found has ended where the hand lets the sphere
+// rest. A place that is clear of everything, and as near to the hand as some surfaces let it be, is so for
+// all: nothing has to be looked for then. What is no contact was farther away than the way is long. That a
+// sweep was free would say less: it lets the sphere come nearer by half a skin, and where two surfaces are
+// all but parallel that is far along them.
+bool Proxy::has_come_to_rest(ConstrainedStep& step, const Vec3& from, const Vec3& hand,
+                             const Descent& descent, ProxyTick& tick) {
+    const double seen = surroundings_.unseen_gap();
+    if (step.pressing_count == 0 || descent.slope > 0.0 || glm::distance(position_, from) > seen ||
+        !(step.bent ? drops_onto_one(step, hand) : stays_on_planes(step)) ||
+        glm::distance(position_, from) > seen || !leads_clear_of_others(position_ - from, step)) {
         return false;
     }
     step.drop = Vec3(0.0);

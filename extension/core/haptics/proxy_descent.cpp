@@ -208,6 +208,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
             break;
         }
         const bool all_seen = contacts_hold_;
+        const Vec3 from = position_;
         const Hit hit = take(step, pull, descent);
         if (hit.is_free() && step.pressing_count == 0) {
             position_ = hand;
@@ -215,7 +216,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
             tick.residual = 0.0;
             break;
         }
-        if (hit.is_free() && has_come_to_rest(step, hand, all_seen, descent, tick)) {
+        if (hit.is_free() && all_seen && has_come_to_rest(step, from, hand, descent, tick)) {
             ++tick.steps;
             break;
         }
