@@ -123,6 +123,21 @@ TEST(ProxyRest, AWayAroundWhatIsRoundIsOneStep) {
     }
 }
 
+// A sweep lets the sphere come nearer to the other side than it rests, by half a skin: over the slope, 2e-6
+// too far along the valley's floor. The end of a way is more than that.
+TEST(ProxyRest, InAValleyThatIsAllButFlat) {
+    constexpr double slope = 1e-4;
+    TouchRig rig(radius);
+    rig.add(TriangleMesh{{Vec3(-1.0, 0.0, -1.0), Vec3(0.0, 0.0, -1.0), Vec3(1.0, slope, -1.0),
+                          Vec3(-1.0, 0.0, 1.0), Vec3(0.0, 0.0, 1.0), Vec3(1.0, slope, 1.0)},
+                         {{0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}}});
+    rest(rig, {-0.02, 0.2, 0.1}, {-0.02, -0.03, 0.1});
+    const double bottom = -radius * std::tan(0.5 * std::atan(slope));
+    const ProxyTick tick = rig.tick({bottom + 2e-6, -0.03, 0.1});
+    EXPECT_EQ(tick.status, static_cast<std::uint32_t>(proxy_touching));
+    EXPECT_LT(glm::distance(tick.position, Vec3(bottom, radius, 0.1)), 2e-8);
+}
+
 class ProxyGroove : public ::testing::TestWithParam<double> {};
 
 TEST_P(ProxyGroove, RestsOnBothWallsWithTheRightPressure) {
