@@ -19,6 +19,11 @@ ContactState state_of(TriangleFeature feature) {
     return states[static_cast<std::size_t>(feature)];
 }
 
+SolidDistance look_at_solid(const ScenePart& part, const Vec3& center, WorkBudget& work) {
+    work.spend(cost::solid_look);
+    return distance_to_solid(part.part->solid(), to_local(part.pose, center));
+}
+
 Vec3 edge_direction(const TriangleCorners& t, int edge) {
     const Vec3 way = edge == 0 ? t.b - t.a : edge == 1 ? t.c - t.b : t.a - t.c;
     return glm::normalize(way);
@@ -42,9 +47,7 @@ SurfacePoint ContactLook::at(const FeatureId& feature) const {
 Contact ContactLook::exact_contact(const FeatureId& feature) const {
     const ScenePart& part = placed(feature);
     if (!part.part->tree()) {
-        work_.spend(cost::solid_look);
-        const SolidDistance at = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
-        return solid_contact(feature.part, part.pose, at, rest_);
+        return solid_contact(feature.part, part.pose, look_at_solid(part, center_, work_), rest_);
     }
     const SurfacePoint nearest = at(feature);
     return {direction_to_parent(part.pose, nearest.normal), nearest.distance - rest_, feature,
@@ -53,15 +56,14 @@ Contact ContactLook::exact_contact(const FeatureId& feature) const {
 
 bool ContactLook::is_above_face(const Contact& contact) const {
     const ScenePart& part = placed(contact.feature);
-    const Vec3 local = to_local(part.pose, center_);
     if (!part.part->tree()) {
-        work_.spend(cost::solid_look);
-        const SolidDistance at = distance_to_solid(part.part->solid(), local);
-        return at.is_flat() && direction_to_parent(part.pose, at.normal) == contact.normal;
+        // Of the same side the normal is the same to the bit.
+        const Contact now = exact_contact(contact.feature);
+        return now.state == ContactState::face && now.normal == contact.normal;
     }
     work_.spend(cost::closest_point);
     const TriangleCorners t = part.part->tree()->corners(contact.feature.triangle);
-    return tactus::is_above_face(local, t.a, t.b, t.c);
+    return tactus::is_above_face(to_local(part.pose, center_), t.a, t.b, t.c);
 }
 
 bool ContactLook::look_closely(ContactList& contacts, int index, double step) const {
@@ -233,9 +235,7 @@ double ContactLook::max_bend(const Contact& contact) const {
     if (contact.state != ContactState::solid) {
         return 1.0 / (contact.gap + rest_);
     }
-    const ScenePart& part = placed(contact.feature);
-    work_.spend(cost::solid_look);
-    const SolidDistance at = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
+    const SolidDistance at = look_at_solid(placed(contact.feature), center_, work_);
     return std::max(at.bend_u, at.bend_v);
 }
 
@@ -244,8 +244,7 @@ Curvature ContactLook::curvature_of(const ContactList& contacts, int index) cons
     const ScenePart& part = placed(contact.feature);
     Curvature result;
     if (contact.state == ContactState::solid) {
-        work_.spend(cost::solid_look);
-        const SolidDistance solid = distance_to_solid(part.part->solid(), to_local(part.pose, center_));
+        const SolidDistance solid = look_at_solid(part, center_, work_);
         result.u = direction_to_parent(part.pose, solid.u);
         result.bend_u = solid.bend_u;
         result.bend_v = solid.bend_v;

@@ -35,8 +35,9 @@ bool Proxy::drops_onto_one(ConstrainedStep& step, const Vec3& hand) {
     const ContactLook look = surroundings_.look_from(position_);
     const Contact now = look.exact_contact(held.feature);
     const Vec3 pull = hand - position_;
-    const double pressure = -glm::dot(now.normal, pull) - now.gap;
-    step.slide = step.motion = pull - now.normal * glm::dot(now.normal, pull);
+    const double across = glm::dot(now.normal, pull);
+    const double pressure = -across - now.gap;
+    step.slide = step.motion = pull - now.normal * across;
     const double slide = glm::length(step.slide);
     if (pressure <= 0.0 || slide > tolerances().step ||
         slide > tolerances().step * (1.0 - pressure * look.max_bend(now))) {
@@ -75,10 +76,14 @@ bool Proxy::leads_clear_of_others(const Vec3& way, const ConstrainedStep& step) 
 // all but parallel that is far along them.
 bool Proxy::has_come_to_rest(ConstrainedStep& step, const Vec3& from, const Vec3& hand,
                              const Descent& descent, ProxyTick& tick) {
-    const double seen = surroundings_.unseen_gap();
-    if (step.pressing_count == 0 || descent.slope > 0.0 || glm::distance(position_, from) > seen ||
-        !(step.bent ? drops_onto_one(step, hand) : stays_on_planes(step)) ||
-        glm::distance(position_, from) > seen || !leads_clear_of_others(position_ - from, step)) {
+    const auto is_within_seen = [&] { return glm::distance(position_, from) <= surroundings_.unseen_gap(); };
+    if (step.pressing_count == 0 || descent.slope > 0.0 || !is_within_seen()) {
+        return false;
+    }
+    // To drop leads on, so that it is asked again how far it is.
+    const bool has_settled =
+        step.bent ? drops_onto_one(step, hand) && is_within_seen() : stays_on_planes(step);
+    if (!has_settled || !leads_clear_of_others(position_ - from, step)) {
         return false;
     }
     step.drop = Vec3(0.0);

@@ -98,7 +98,6 @@ TEST(ProxyRest, AWayOverAFlatSideIsOneStep) {
 
 // A step around an edge or a ball ends exactly above the place of rest, and what is left is to drop.
 TEST(ProxyRest, AWayAroundWhatIsRoundIsOneStep) {
-    const Vec3 start(1.15, 0.15, 0.3);
     for (const bool closed_form : {false, true}) {
         TouchRig rig(radius);
         closed_form ? rig.add(SphereShape{0.2}, {Vec3(1.0, 0.0, 0.3), Quat(1.0, 0.0, 0.0, 0.0)})
