@@ -152,9 +152,12 @@ func test_energy_is_plotted() -> void:
 	check(await until(plotted, SOON), "the energy is not plotted: %s" % [energy._values])
 
 
+## Before its first frame the overlay has drawn nothing.
 func _lines(scene: Node) -> int:
-	var picture: MeshInstance3D = _drawings(scene)[0]
-	var mesh := picture.mesh as ImmediateMesh
+	var pictures := _drawings(scene)
+	if pictures.is_empty():
+		return 0
+	var mesh := (pictures[0] as MeshInstance3D).mesh as ImmediateMesh
 	return 0 if mesh.get_surface_count() == 0 else mesh.surface_get_arrays(0)[Mesh.ARRAY_VERTEX].size()
 
 

@@ -90,6 +90,10 @@ void Report::set(const std::string& key, double value) {
 }
 
 bool Report::write_json(const std::filesystem::path& path) const {
+    if (values_.empty()) {
+        std::fprintf(stderr, "nothing of that name is measured; %s stays as it was\n", path.string().c_str());
+        return false;
+    }
     std::error_code failed;
     std::filesystem::create_directories(path.parent_path(), failed);
     std::FILE* const file = std::fopen(path.string().c_str(), "w");

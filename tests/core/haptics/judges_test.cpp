@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "shared/bench_kit.hpp"
 #include "shared/free_way.hpp"
@@ -190,6 +191,18 @@ bool has_two_sides_at_every_edge(const TriangleMesh& mesh) {
     std::ranges::sort(forth);
     std::ranges::sort(back);
     return forth == back;
+}
+
+TEST(Bench, OfNothingLeavesTheLastFigures) {
+    const std::filesystem::path file =
+        std::filesystem::path(::testing::TempDir()) / "tactus_figures_of_nothing.json";
+    shared::Report figures;
+    figures.set("case.tick_p99_us", 2.5);
+    ASSERT_TRUE(figures.write_json(file));
+    const auto size = std::filesystem::file_size(file);
+    EXPECT_FALSE(shared::Report().write_json(file));
+    EXPECT_EQ(std::filesystem::file_size(file), size);
+    std::filesystem::remove(file);
 }
 
 TEST(RoughMeshes, AreWhatTheySay) {
