@@ -64,6 +64,7 @@ Report report_of(const StressCounts& counts) {
         report.set(figure.name, static_cast<double>(counts.*figure.count));
     }
     report.set("error_over_radius_max", counts.error_max);
+    report.set("thrown_over_radius_max", counts.thrown_max);
     report.set("longest_tick_us", counts.longest_tick_us);
     report.set("longest_tick_seed", static_cast<double>(counts.longest_tick_seed));
     return report;
@@ -100,8 +101,8 @@ bool write_chunk(const std::filesystem::path& path, const StressCounts& counts) 
     for (const Figure& figure : figures) {
         std::fprintf(file, "%llu\n", static_cast<unsigned long long>(counts.*figure.count));
     }
-    std::fprintf(file, "%.17g\n%.17g\n%llu\n", counts.error_max, counts.longest_tick_us,
-                 static_cast<unsigned long long>(counts.longest_tick_seed));
+    std::fprintf(file, "%.17g\n%.17g\n%.17g\n%llu\n", counts.error_max, counts.thrown_max,
+                 counts.longest_tick_us, static_cast<unsigned long long>(counts.longest_tick_seed));
     for (const std::string& failure : counts.failures) {
         std::fprintf(file, "%s\n", failure.c_str());
     }
@@ -116,7 +117,8 @@ bool read_chunk(const std::filesystem::path& path, StressCounts& counts) {
     for (const Figure& figure : figures) {
         file >> counts.*figure.count;
     }
-    file >> counts.error_max >> counts.longest_tick_us >> counts.longest_tick_seed >> std::ws;
+    file >> counts.error_max >> counts.thrown_max >> counts.longest_tick_us >> counts.longest_tick_seed >>
+        std::ws;
     const bool whole = file.good() || file.eof();
     for (std::string line; std::getline(file, line);) {
         counts.failures.push_back(line);
@@ -191,9 +193,9 @@ void print(const StressCounts& counts) {
     for (const Figure& figure : figures) {
         std::printf("%-18s %14llu\n", figure.name, static_cast<unsigned long long>(counts.*figure.count));
     }
-    std::printf("%-18s %14.2e\n%-18s %14.1f us of processor time (seed %llu)\n", "error / radius",
-                counts.error_max, "longest tick", counts.longest_tick_us,
-                static_cast<unsigned long long>(counts.longest_tick_seed));
+    std::printf("%-18s %14.2e\n%-18s %14.2e\n%-18s %14.1f us of processor time (seed %llu)\n",
+                "error / radius", counts.error_max, "thrown / radius", counts.thrown_max, "longest tick",
+                counts.longest_tick_us, static_cast<unsigned long long>(counts.longest_tick_seed));
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "shared/random_values.hpp"
 
@@ -172,6 +174,32 @@ TriangleMesh bore(int count, double radius, double half_length) {
         const std::uint32_t next = (i + 2) % corners;
         mesh.triangles.push_back({i, i + 1, next});
         mesh.triangles.push_back({next, i + 1, next + 1});
+    }
+    return mesh;
+}
+
+TriangleMesh funnel(int count, double unevenness) {
+    std::mt19937 random(static_cast<unsigned>(count));
+    std::uniform_real_distribution<double> spread(-0.5, 0.5);
+    std::vector<double> angles;
+    for (int i = 0; i < count; ++i) {
+        angles.push_back(2.0 * std::numbers::pi * (i + unevenness * spread(random)) / count);
+    }
+    TriangleMesh mesh;
+    for (const auto& [radius, height] : {std::pair(0.5, 0.5), {0.05, -0.1}, {0.0499, -0.5}}) {
+        for (const double angle : angles) {
+            mesh.vertices.push_back({radius * std::cos(angle), height + 1e-3 * unevenness * spread(random),
+                                     radius * std::sin(angle)});
+        }
+    }
+    const auto side = static_cast<std::uint32_t>(count);
+    for (std::uint32_t ring = 0; ring < 2 * side; ring += side) {
+        for (std::uint32_t i = 0; i < side; ++i) {
+            const std::uint32_t a = ring + i;
+            const std::uint32_t b = ring + (i + 1) % side;
+            mesh.triangles.push_back({a, b, a + side});
+            mesh.triangles.push_back({b, b + side, a + side});
+        }
     }
     return mesh;
 }

@@ -32,6 +32,11 @@ TriangleMesh cone(std::uint32_t sides, double height);
 // The wall of a bore around the y axis, open at both ends: `count` facets of two triangles.
 TriangleMesh bore(int count, double radius, double half_length);
 
+// A funnel around the y axis, open at both ends: `count` facets of two triangles from a rim of radius 0.5 at
+// y = 0.5 to a throat of 0.05 at -0.1, as many down to -0.5. With `unevenness` up to 1 some facets are twice
+// as wide as they would be, and the corners go up and down by a two thousandth of that.
+TriangleMesh funnel(int count, double unevenness);
+
 // count triangles with corners in a ball of the given radius.
 TriangleMesh soup(int count, double radius, unsigned seed);
 

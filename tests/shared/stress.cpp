@@ -306,6 +306,10 @@ void StressCase::judge(int tick, const Vec3& hand, const Vec3& before, const Pro
         side_.excuse();
         return;
     }
+    if (!kind_.may_excuse() && tick > 0) {
+        const double thrown = (glm::distance(p, hand) - glm::distance(before, hand)) / radius();
+        counts.thrown_max = std::max(counts.thrown_max, thrown);
+    }
     counts.contact_ticks += (at.status & proxy_touching) != 0;
     const bool excused = (at.status & (proxy_squeezed | proxy_letting_out)) != 0;
     if (excused && !kind_.may_excuse()) {
@@ -427,6 +431,7 @@ void StressCounts::add(const StressCounts& other) {
         this->*figure += other.*figure;
     }
     error_max = std::max(error_max, other.error_max);
+    thrown_max = std::max(thrown_max, other.thrown_max);
     if (other.longest_tick_us > longest_tick_us) {
         longest_tick_us = other.longest_tick_us;
         longest_tick_seed = other.longest_tick_seed;

@@ -37,6 +37,9 @@ struct StressCounts {
     std::uint64_t deformations = 0, appearances = 0, squeezes = 0;
     double error_max =
         0.0;  // over the checked and finished ticks that do not balance, over the radius (dimensionless)
+    // How far a tick of a case in which only the hand moves has led away from it, over the radius
+    // (dimensionless).
+    double thrown_max = 0.0;
     double longest_tick_us = 0.0;  // of processor time, 0 where not timed (unit: microseconds)
     std::uint64_t longest_tick_seed = 0;
     std::vector<std::string> failures;  // the first few, each with its seed, tick and numbers

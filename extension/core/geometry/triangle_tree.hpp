@@ -189,9 +189,9 @@ private:
 };
 
 // Opens nodes in the order of their keys, so that whatever the budget leaves over lies beyond everything that
-// was seen. Packs are visited as soon as their node is open: they lower the limit before any other node is.
-// Those that are looked at are asked for early, and visited least key first. Returns a lower bound of the
-// keys of all packs that were not visited.
+// was seen. Packs that are looked at are asked for early, and take their turn with the nodes: of thousands
+// that are met late none is looked at before all that could be met earlier, so that a search that ends early
+// knows how far nothing is met. Returns a lower bound of the keys of all packs that were not visited.
 template <TriangleTree::PackUse use, class Keys, class Visit>
 float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const {
     VisitQueue queue;
@@ -203,6 +203,10 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
         if (!(entry.key <= limit) || work.is_gone()) {
             left_out = std::min(left_out, entry.key);
             break;
+        }
+        if (entry.node & BoxNode::leaf_bit) {
+            visit(entry.node & ~BoxNode::leaf_bit, entry.key);
+            continue;
         }
         work.spend(cost::box_node);
         const BoxNode& node = nodes_[entry.node];
@@ -232,10 +236,12 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
             }
         }
         for (int i = 0; i < count; ++i) {
-            if (packs[i].key <= limit) {
-                visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key);
-            } else {
+            if (!(packs[i].key <= limit)) {
                 left_out = std::min(left_out, packs[i].key);
+            } else if (use == PackUse::look && queue.can_wait(packs[i].key)) {
+                queue.push(packs[i]);
+            } else {
+                visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key);
             }
         }
     }

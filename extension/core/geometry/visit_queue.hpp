@@ -16,6 +16,8 @@ public:
     };
 
     bool is_empty() const { return count_ == 0; }
+    // Whether something comes before that key, and there is room to wait for it besides the nodes.
+    bool can_wait(float key) const { return count_ > 0 && entries_[0].key < key && count_ < capacity / 2; }
     // False where there is no room.
     bool push(const Entry& entry) {
         if (count_ == capacity) {
@@ -45,7 +47,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t capacity = 512;
+    static constexpr std::size_t capacity = 1024;
     std::array<Entry, capacity> entries_;
     std::size_t count_ = 0;
 };

@@ -47,6 +47,14 @@ struct ProxyTick {
     bool jumped = false;
 };
 
+// Where a crowd has held the proxy last, and how: see proxy_crowd.cpp.
+struct CrowdHold {
+    double slope = 0.0;  // by which the next step rises
+    Vec3 place{0.0};
+    Vec3 step{0.0};           // that it was to go; asked for again, it takes all of the work
+    bool is_in_vain = false;  // it has taken it: it is not asked for again
+};
+
 // Everything of a proxy that its next move depends on, besides the scene.
 struct ProxyMemory {
     Vec3 position{0.0};  // in the world (unit: meters)
@@ -56,7 +64,7 @@ struct ProxyMemory {
     Vec3 hand{0.0};  // in the world (unit: meters)
     TouchList touching;
     double slide_speed = 0.0;  // (unit: meters per second)
-    double crowd_slope = 0.0;
+    CrowdHold crowd;
 };
 
 // A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
@@ -85,7 +93,7 @@ public:
     void go_along(const Vec3& offset, int body);
     // The proxy as it was, to move it again from there.
     ProxyMemory memory() const {
-        return {position_, present_, sliding_, overlaps_, hand_, touching_, slide_speed_, crowd_slope_};
+        return {position_, present_, sliding_, overlaps_, hand_, touching_, slide_speed_, crowd_};
     }
     void recall(const ProxyMemory& memory) {
         put(memory.position);
@@ -95,7 +103,7 @@ public:
         hand_ = memory.hand;
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
-        crowd_slope_ = memory.crowd_slope;
+        crowd_ = memory.crowd;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -143,7 +151,9 @@ private:
         bool is_stuck = false;      // what stops it at once is a contact already
         bool is_dense = false;      // there were many contacts when all were found last: see look_around
         bool is_cut_short = false;  // the last plan, by its share of the work
-        double slope = 0.0;         // by which steps rise from what is touched: see step_over_crowd
+        Vec3 start{0.0};            // where the tick began,
+        double distance = 0.0;      // and how far that was from the hand (unit: meters)
+        CrowdHold crowd;            // its slope above 0: in a crowd
     };
 
     void put(const Vec3& place);
@@ -169,16 +179,20 @@ private:
     bool has_come_to_rest(ConstrainedStep& step, const Vec3& from, const Vec3& hand, const Descent& descent,
                           ProxyTick& tick);
     bool is_end(const ConstrainedStep& step) const;
-    ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);
     ConstrainedStep plan(const Vec3& pull, Descent& descent);
     void doubt(const ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     void follow_whole(ConstrainedStep& step, const Vec3& pull, Descent& descent) const;
     void follow_hollow(ConstrainedStep& step, double newton, double bend, const Vec3& normal, double way,
                        double trust) const;
     void follow_hill(ConstrainedStep& step, double newton, double way, Descent& descent) const;
-    std::int64_t question_share() const;
     bool look_around(Descent& descent);
-    void step_over_crowd(ConstrainedStep& step, const Vec3& pull, double slope) const;
+    std::int64_t question_share() const;
+    void enter_crowd(Descent& descent) const;
+    ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);
+    void step_over_crowd(ConstrainedStep& step, const Vec3& pull, const Descent& descent);
+    bool is_asked_again(const ConstrainedStep& step, const CrowdHold& crowd) const;
+    Hit sweep_in_share(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by);
+    void keep_crowd(const Descent& descent, double way, bool is_unfinished);
     bool lift(bool strays);
     bool strays(double length) const;
     bool brake(ConstrainedStep& step, double dropped);
@@ -196,8 +210,8 @@ private:
     bool sliding_ = false;
     double seconds_ = 0.001;    // of this tick
     double slide_speed_ = 0.0;  // that friction goes by, see friction.hpp (unit: meters per second)
-    double crowd_slope_ = 0.0;  // the next tick's first, where a crowd has held it in the last: see Descent
-    Vec3 hand_{0.0};            // the last that was a place
+    CrowdHold crowd_;
+    Vec3 hand_{0.0};  // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     bool overlaps_ = false;       // a surface, since the last move

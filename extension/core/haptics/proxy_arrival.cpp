@@ -77,7 +77,7 @@ bool Proxy::leads_clear_of_others(const Vec3& way, const ConstrainedStep& step) 
 bool Proxy::has_come_to_rest(ConstrainedStep& step, const Vec3& from, const Vec3& hand,
                              const Descent& descent, ProxyTick& tick) {
     const auto is_within_seen = [&] { return glm::distance(position_, from) <= surroundings_.unseen_gap(); };
-    if (step.pressing_count == 0 || descent.slope > 0.0 || !is_within_seen()) {
+    if (step.pressing_count == 0 || descent.crowd.slope > 0.0 || !is_within_seen()) {
         return false;
     }
     // To drop leads on, so that it is asked again how far it is.

@@ -10,14 +10,6 @@ namespace {
 
 // Of the radius. Where the hand rests, bent steps are still of use.
 constexpr double least_trust = 1e-6;
-// No question of the surroundings takes more than a quarter of a tick's work, or than three usual ones take:
-// one that would is asked in another way (see step_over_crowd).
-constexpr std::int64_t least_question_share = 1'000;
-// A sweep that takes its whole share and leads less far than that is held by a crowd (of the radius).
-constexpr double least_progress = 1e-3;
-// A tick in a crowd that leads less far than that leaves the next one in it, to rise more steeply (of the
-// radius).
-constexpr double least_progress_of_tick = 1e-2;
 // What stands for a crowd is looked for up to here above rest (of the radius).
 constexpr double crowd_reach = 1e-2;
 // Where a step of this tick was stopped by what was no contact, the few nearest ones up to that much farther
@@ -25,13 +17,6 @@ constexpr double crowd_reach = 1e-2;
 constexpr double look_ahead = 1e-3;
 // Not where there are more contacts than that: to tell those ahead apart takes more than the stops they save.
 constexpr int max_sparse = 16;
-// A crowd whose boxes are thinner than t is behind a step of slope s from the angle s off the touching place
-// on, where the sphere is s^2 r / 2 above it: 0.2 leaves out what is rough up to 2 % of the radius. The third
-// step over one that is rougher, or all around, goes nearly straight up.
-constexpr double least_slope = 0.2;
-constexpr double max_slope = 5.0;
-constexpr double steeper = 5.0;
-
 }  // namespace
 
 // Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.
@@ -69,10 +54,6 @@ double Proxy::drop_after(double length, double slope) const {
     return std::min(length * length / settings_.radius + slope * length, 0.1 * settings_.radius);
 }
 
-std::int64_t Proxy::question_share() const {
-    return std::max(settings_.max_work / 4, least_question_share);
-}
-
 // What a step is planned over. False where that is not all there is: the work has ended before, or it is only
 // what is in mind. That does for most steps over fine facets, which the next one stops: the contacts that
 // pressed and the one that stopped it. Where nothing is left to go over them, nothing is over all of them; so
@@ -84,37 +65,25 @@ bool Proxy::look_around(Descent& descent) {
         surroundings_.recall_contacts(position_, contacts_, descent.beyond + ahead);
         return false;
     }
-    if (descent.slope == 0.0) {
+    if (descent.crowd.slope == 0.0) {
         const WorkShare share(work, question_share());
         surroundings_.find_contacts(position_, contacts_, descent.beyond, ahead);
-        descent.slope = share.is_too_small() ? least_slope : 0.0;
+        if (share.is_too_small()) {
+            enter_crowd(descent);
+        }
         descent.is_dense = contacts_.count > max_sparse;
     }
-    if (descent.slope > 0.0) {
+    if (descent.crowd.slope > 0.0) {
         surroundings_.find_nearest_contacts(
             position_, std::max(descent.beyond, crowd_reach * settings_.radius), contacts_);
     }
     return descent.is_last || !work.is_gone();
 }
 
-// Where it takes more than a question's share to tell which contacts hold it back, they are a crowd as well.
-ConstrainedStep Proxy::plan_in_share(const Vec3& pull, Descent& descent) {
-    const WorkShare share(surroundings_.work(), question_share());
-    const ConstrainedStep step = plan(pull, descent);
-    descent.is_cut_short = share.is_too_small();
-    if (descent.is_cut_short) {
-        descent.slope = std::max(descent.slope, least_slope);
-    }
-    return step;
-}
-
-// As far as that, by no more than a question's share of the work. Where that leads nowhere it is a crowd that
-// stands in the way: the next step rises, and more steeply each time. Nothing is asked where the contacts
-// tell already: a straight way that stays in front of their planes meets none of them, and one no longer than
-// what is left out by them is above rest meets nothing else. Covered ones are asked as well: what stands for
-// them does so at this place.
+// Nothing is asked where the contacts tell already: a straight way that stays in front of their planes meets
+// none of them, and one no longer than what is left out by them is above rest meets nothing else. Covered
+// ones are asked as well: what stands for them does so at this place.
 Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
-    const Vec3 before = position_;
     const double length = glm::length(step.motion);
     if (contacts_hold_ && length <= surroundings_.unseen_gap() &&
         stays_in_front_of_all(step.motion, contacts_, tolerances().same)) {
@@ -122,37 +91,30 @@ Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& sto
         surroundings_.travelled(length);
         return {};
     }
-    const WorkShare share(surroundings_.work(), question_share());
-    const Hit hit = advance(step.motion, stopped_by);
-    if (share.is_too_small() && !hit.complete &&
-        glm::distance(before, position_) < least_progress * settings_.radius) {
-        descent.slope = std::clamp(steeper * descent.slope, least_slope, max_slope);
-    }
-    return hit;
+    return sweep_in_share(step, descent, stopped_by);
 }
 
 // Goes where the step leads, and keeps what that shows for the next one.
 Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     const bool holds = step.pressing_count > 0;
     descent.slid = descent.slid || (holds && step.motion != step.drop);
-    step_over_crowd(step, pull, descent.slope);
     const Vec3 before = position_;
-    const double slope = descent.slope;
+    const double slope = descent.crowd.slope;
     FeatureId stopped_by;
     const Hit hit = advance(step, descent, stopped_by);
     const double length = glm::distance(before, position_);
     // Where the work has ended before it moved, they are still those at its place.
     const bool is_stopper_known = hit.found || hit.triangle != Hit::no_triangle;
-    contacts_hold_ = length == 0.0 && !is_stopper_known && slope == descent.slope && !descent.recalls;
+    contacts_hold_ = length == 0.0 && !is_stopper_known && slope == descent.crowd.slope && !descent.recalls;
     const bool stopped_at_once = hit.found && length == 0.0;
     // How hard each contact presses, which friction goes by, only all of them tell.
-    descent.recalls = hit.found && length > 0.0 && holds && !descent.grips && descent.slope == 0.0;
+    descent.recalls = hit.found && length > 0.0 && holds && !descent.grips && descent.crowd.slope == 0.0;
     descent.strays = stopped_at_once && strays(glm::length(step.motion));
     descent.was_stopped = hit.found;
     descent.stops += hit.found;
     if (is_stopper_known) {
         surroundings_.keep_in_mind(stopped_by);
-    } else {
+    } else if (descent.crowd.slope == 0.0) {
         surroundings_.clear_mind();
     }
     descent.beyond = drop_after(length, slope);
@@ -168,7 +130,14 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
 void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
     const Vec3 start = position_;
     Descent descent;
-    descent.slope = crowd_slope_;
+    descent.crowd = crowd_;
+    descent.start = start;
+    descent.distance = glm::distance(hand, start);
+    if (!contacts_hold_) {  // what held it then may be what a search in a crowd does not find
+        for (const Touch& touch : touching()) {
+            surroundings_.keep_in_mind(touch.feature);
+        }
+    }
     descent.trust = std::max(max_sensitivity * given_way, least_trust * settings_.radius);
     ConstrainedStep step;
     WorkBudget& work = surroundings_.work();
@@ -207,6 +176,10 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
         if (tick.residual <= tolerances().step || descent.is_last) {
             break;
         }
+        step_over_crowd(step, pull, descent);
+        if (descent.crowd.is_in_vain && is_asked_again(step, descent.crowd)) {
+            break;
+        }
         const bool all_seen = contacts_hold_;
         const Vec3 from = position_;
         const Hit hit = take(step, pull, descent);
@@ -229,8 +202,7 @@ void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Desce
                      ProxyTick& tick) {
     const bool is_unfinished = tick.residual > tolerances().step;
     const double way = glm::distance(position_, start);
-    const bool is_held = is_unfinished && way < least_progress_of_tick * settings_.radius;
-    crowd_slope_ = is_held ? std::min(max_slope, steeper * descent.slope) : 0.0;
+    keep_crowd(descent, way, is_unfinished);
     sliding_ = sliding_ && descent.slid;
     heed_speed(step, position_ - start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
@@ -238,7 +210,7 @@ void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Desce
     // ago, where it is not far from there or steps over a crowd.
     const bool unseen = descent.is_last && is_unfinished;
     const bool is_near = way <= 0.01 * settings_.radius;
-    if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near || descent.slope > 0.0))) {
+    if (step.pressing_count == 0 && !(unseen && (descent.touched || is_near || descent.crowd.slope > 0.0))) {
         touching_.clear();
     }
     tick.slide = step.pressing_count > 0 ? step.slide : Vec3(0.0);

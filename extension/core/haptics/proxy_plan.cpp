@@ -138,21 +138,6 @@ void Proxy::follow_hill(ConstrainedStep& step, double newton, double way, Descen
     }
 }
 
-// Where a question takes more than its share of a tick, thousands of triangles are about as near as the one
-// that is touched, and to slide along them each has to be looked at. A sphere that is clear of everything is
-// clear of all that lies behind it wherever it goes: where it rises on its way, the crowd below is behind. It
-// drops in a later step.
-void Proxy::step_over_crowd(ConstrainedStep& step, const Vec3& pull, double slope) const {
-    if (slope <= 0.0) {
-        return;
-    }
-    const Vec3 push = step.drop + step.slide - pull;
-    const double pressure = glm::length(push);
-    if (pressure > 0.0) {
-        step.motion += push * (slope * glm::length(step.motion - step.drop) / pressure);
-    }
-}
-
 // Coulomb: contacts hold the proxy along the surface with at most friction times what they hold it back
 // across (unit: meters, as all forces over the stiffness). Every wall of a groove counts. What the proxy is
 // still above does not hold it, unless it has only just slid off it: a surface that bends away is `dropped`

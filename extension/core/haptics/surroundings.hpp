@@ -132,6 +132,7 @@ private:
     void find_tree_contacts(std::uint32_t part, const Vec3& local, double ahead, ContactGathering& out);
     void find_solid_contact(std::uint32_t part, const Vec3& local, ContactGathering& out);
     void add_in_mind(const Vec3& center, double max_gap, ContactList& out);
+    void make_room(ContactList& out);
     void add_insisted(const Vec3& center, ContactList& out);
     void add_seen(const Contact& contact, ContactGathering& out);
 

@@ -41,6 +41,7 @@ void Surroundings::find_contacts(const Vec3& center, ContactList& out, double be
         seen_gap_ = std::min(seen_gap_, std::max(0.0, gathering.limit() - rest()));
     }
     drop_beyond(gathering.limit() - rest() + 2.0 * tolerances().same, out);
+    make_room(out);
     add_in_mind(center, tolerances().reach + beyond + ahead, out);
     add_insisted(center, out);
 }
@@ -242,10 +243,17 @@ void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
         if (same != end) {
             *same = contact;
         } else {
-            seen_gap_ = out.is_full() ? std::min(seen_gap_, 0.0) : seen_gap_;
-            out.count = std::min(out.count, ContactList::capacity - 1);
             out.add(contact);
         }
+    }
+}
+
+// For what is known: of a crowd about as near, a full list holds any, but not what has been seen to stand in
+// the way.
+void Surroundings::make_room(ContactList& out) {
+    if (out.is_full()) {
+        seen_gap_ = std::min(seen_gap_, 0.0);
+        out.count -= static_cast<int>(in_mind_count_ + insisted_count_);
     }
 }
 

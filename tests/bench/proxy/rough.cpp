@@ -43,6 +43,7 @@ struct Verdict {
     int checked = 0, unsettled = 0, other_replays = 0;
     double error_rms = 0.0, error_max = 0.0;  // of finished ticks, of the size
     double unfinished_error_max = 0.0;        // how far off unfinished ticks are, of the size
+    double thrown_max = 0.0;                  // how far a tick leads away from its hand (unit: radii)
     double mean = 0.0, p95 = 0.0, p99 = 0.0;  // of the ticks in contact (unit: microseconds)
     double max = 0.0;                         // of all ticks (unit: microseconds)
     int slowest_tick = -1;
@@ -101,7 +102,7 @@ void judge_times(const std::vector<Played>& ticks, Verdict& verdict) {
     }
 }
 
-// Clearance of every tick, and that a free way leads from each to the next.
+// Clearance of every tick, that a free way leads from each to the next, and not away from the hand.
 void judge_places(const std::vector<Played>& ticks, const JudgeTree& tree, double radius, Verdict& verdict) {
     double known = -1.0;  // distance from the mesh at `known_at`
     Vec3 known_at(0.0);
@@ -121,6 +122,10 @@ void judge_places(const std::vector<Played>& ticks, const JudgeTree& tree, doubl
                 const shared::Corners t = shared::corners_of(tree.mesh(), nearest.triangle);
                 verdict.penetrations += shared::slow_distance(p, t) < radius - rounding;
             }
+        }
+        if (before) {
+            const double thrown = glm::distance(p, tick.hand) - glm::distance(before->position, tick.hand);
+            verdict.thrown_max = std::max(verdict.thrown_max, thrown / radius);
         }
         if (before && !is_straight_way_free(tree, before->position, p, radius)) {
             const double reach = glm::distance(before->position, tick.hand) + 0.01 * radius;
@@ -199,14 +204,15 @@ void tell(const std::string& name, const Verdict& v, int ticks, shared::Report& 
     report.set(name + ".frozen_ticks", v.frozen);
     report.set(name + ".unfinished_ticks", v.unfinished);
     report.set(name + ".unfinished_error_max", v.unfinished_error_max);
+    report.set(name + ".thrown_max_radii", v.thrown_max);
     report.set(name + ".error_rms", v.error_rms);
     report.set(name + ".error_max", v.error_max);
     report.set(name + ".checked_ticks", v.checked);
     report.set(name + ".reference_unsettled", v.unsettled);
-    std::printf("%-32s %7d %8.2f %8.2f %8.2f %9.2f %6d %5d %5d %5d %7d %7d %9.1e %9.1e %9.1e\n",
+    std::printf("%-32s %7d %8.2f %8.2f %8.2f %9.2f %6d %5d %5d %5d %7d %7d %9.1e %9.1e %9.1e %7.1e\n",
                 name.c_str() + 6, v.contact_ticks, v.mean, v.p95, v.p99, v.max, v.slowest_tick,
                 v.penetrations, v.passes, v.unjudged, v.frozen, v.unfinished, v.error_rms, v.error_max,
-                v.unfinished_error_max);
+                v.unfinished_error_max, v.thrown_max);
     std::fflush(stdout);
 }
 
@@ -225,8 +231,8 @@ struct Total {
             sum.*figure += v.*figure;
         }
         for (double Verdict::* const figure :
-             {&Verdict::error_rms, &Verdict::error_max, &Verdict::unfinished_error_max, &Verdict::mean,
-              &Verdict::p95, &Verdict::p99, &Verdict::max}) {
+             {&Verdict::error_rms, &Verdict::error_max, &Verdict::unfinished_error_max, &Verdict::thrown_max,
+              &Verdict::mean, &Verdict::p95, &Verdict::p99, &Verdict::max}) {
             sum.*figure = std::max(sum.*figure, v.*figure);
         }
     }
@@ -243,6 +249,7 @@ void tell_total(const Total& total, shared::Report& report) {
     report.set("rough.frozen_ticks", v.frozen);
     report.set("rough.unfinished_share", v.unfinished / std::max(1.0, total.ticks));
     report.set("rough.unfinished_error_max", v.unfinished_error_max);
+    report.set("rough.thrown_max_radii", v.thrown_max);
     report.set("rough.error_rms_max", v.error_rms);
     report.set("rough.error_max", v.error_max);
     report.set("rough.checked_ticks", v.checked);
@@ -254,11 +261,12 @@ void tell_total(const Total& total, shared::Report& report) {
     report.set("rough.worst_max_us", v.max);
     std::printf(
         "%d rough cases, %.0f ticks: %d penetrations, %d passes (%d ways too long to judge), %d "
-        "frozen, %.2e unfinished (off by %.1e at most), error rms %.1e max %.1e, worst mean %.2f "
+        "frozen, %.2e unfinished (off by %.1e at most), thrown by %.1e radii at most, error rms %.1e max "
+        "%.1e, worst mean %.2f "
         "p95 %.2f p99 %.2f max %.2f us, %d ticks different in a replay\n",
         total.cases, total.ticks, v.penetrations, v.passes, v.unjudged, v.frozen,
-        v.unfinished / std::max(1.0, total.ticks), v.unfinished_error_max, v.error_rms, v.error_max, v.mean,
-        v.p95, v.p99, v.max, v.other_replays);
+        v.unfinished / std::max(1.0, total.ticks), v.unfinished_error_max, v.thrown_max, v.error_rms,
+        v.error_max, v.mean, v.p95, v.p99, v.max, v.other_replays);
 }
 
 // A mesh as spheres of each radius touch it in a world.
@@ -332,7 +340,7 @@ void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings
         if (total.cases == 0) {
             std::printf("%-32s %7s %8s %8s %8s %9s %6s %5s %5s %5s %7s %7s %9s %9s %9s\n", "rough case",
                         "contact", "mean us", "p95 us", "p99 us", "max us", "at", "penet", "pass", "?",
-                        "frozen", "unfin.", "err rms", "err max", "unf. err");
+                        "frozen", "unfin.", "err rms", "err max", "unf. err", "thrown");
         }
         const JudgeTree tree(*mesh);
         const PlacedShape placed{MeshShape{mesh}, {}};

@@ -51,6 +51,10 @@ TEST(ProxyStress, NoTickIsStuck) {
     EXPECT_EQ(counts().stuck_ticks, 0u);
 }
 
+TEST(ProxyStress, NoTickLeadsAwayFromItsHand) {
+    EXPECT_LT(counts().thrown_max, 0.11);
+}
+
 TEST(ProxyStress, WhatIsFinishedIsThere) {
     EXPECT_EQ(counts().false_ends, 0u) << failures();
     EXPECT_LT(counts().error_max, 1e-3);
