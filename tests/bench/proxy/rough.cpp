@@ -338,7 +338,7 @@ void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings
             continue;
         }
         if (total.cases == 0) {
-            std::printf("%-32s %7s %8s %8s %8s %9s %6s %5s %5s %5s %7s %7s %9s %9s %9s\n", "rough case",
+            std::printf("%-32s %7s %8s %8s %8s %9s %6s %5s %5s %5s %7s %7s %9s %9s %9s %7s\n", "rough case",
                         "contact", "mean us", "p95 us", "p99 us", "max us", "at", "penet", "pass", "?",
                         "frozen", "unfin.", "err rms", "err max", "unf. err", "thrown");
         }
