@@ -569,7 +569,7 @@ std::span<const RoughMesh> rough_meshes() {
         {"clusters", [] { return clustered(6, 50'000); }},
         {"cavity", [] { return cavity(7); }},
         {"funnel", [] { return funnel(2'000, 0.0); }},
-        {"funnel", [] { return funnel(20'000, 1.0); }},
+        {"funnel", [] { return funnel(5'000, 1.0); }},
     };
     return all;
 }

@@ -119,10 +119,14 @@ Hit Proxy::sweep_in_share(const ConstrainedStep& step, Descent& descent, Feature
     return hit;
 }
 
-// What the next tick begins with.
+// What the next tick begins with. Where even the steepest steps lead nowhere it is asked anew: they lead
+// across to what is near on the other side, and a flatter one may lead between.
 void Proxy::keep_crowd(const Descent& descent, double way, bool is_unfinished) {
+    const bool was_steepest = crowd_.slope >= max_slope;
     crowd_ = way < least_progress_of_tick * settings_.radius ? descent.crowd : CrowdHold{};
-    if (is_unfinished) {
+    if (is_unfinished && was_steepest && !crowd_.is_in_vain) {
+        crowd_ = {};
+    } else if (is_unfinished) {
         crowd_.slope = std::min(max_slope, steeper * crowd_.slope);
     }
 }
