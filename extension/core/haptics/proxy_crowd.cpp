@@ -67,7 +67,8 @@ ConstrainedStep Proxy::plan_in_share(const Vec3& pull, Descent& descent) {
 // from the hand than the tick began, but for a little.
 void Proxy::step_over_crowd(ConstrainedStep& step, const Vec3& pull, const Descent& descent) {
     const double rise = descent.crowd.slope * glm::distance(step.motion, step.drop);
-    if (rise <= 0.0) {
+    // What nothing holds back goes to the hand, and nowhere else.
+    if (rise <= 0.0 || step.pressing_count == 0) {
         return;
     }
     // Friction and bends have led it elsewhere than the hand.

@@ -184,7 +184,7 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
         const Vec3 from = position_;
         const Hit hit = take(step, pull, descent);
         if (hit.is_free() && step.pressing_count == 0) {
-            position_ = hand;
+            position_ = hand;  // to the bit: the way has led there
             ++tick.steps;
             tick.residual = 0.0;
             break;
