@@ -470,6 +470,41 @@ TEST(ProxyBudget, InAFunnelsSeatItStays) {
     }
 }
 
+// Among hundreds of balls within reach, with a twentieth of the usual work, by a hand that jumps. A way that
+// nothing holds back leads to the hand, and the proxy is put there to the bit: it has to have gone all of it.
+TEST(ProxyBudget, WithLittleWorkAmongAHeapOfBallsItEntersNone) {
+    constexpr double radius = 0.12;
+    RandomValues random(73);
+    TriangleMesh mesh;
+    for (int i = 0; i < 500; ++i) {
+        const double size = random.magnitude(0.001, 0.16);
+        const TriangleMesh ball = shared::icosphere(random.below(4), size);
+        const Vec3 place = random.in_box(0.4);
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const Vec3& v : ball.vertices) {
+            mesh.vertices.push_back(v + place);
+        }
+        for (const auto& t : ball.triangles) {
+            mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+        }
+    }
+    const shared::JudgeTree judge(mesh);
+    TouchRig rig(radius);
+    rig.add(mesh);
+    limit_work(rig, 1'000);
+    Vec3 hand(1.0);
+    for (int i = 0; i < 800; ++i) {
+        if (i % 20 == 19) {
+            const int corner = random.below(static_cast<int>(mesh.vertices.size()));
+            hand = mesh.vertices[static_cast<std::size_t>(corner)] + random.in_ball(radius);
+        }
+        const ProxyTick tick = rig.tick(hand + random.in_ball(0.02 * radius));
+        if ((tick.status & proxy_absent) == 0) {
+            ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
+        }
+    }
+}
+
 // A proxy appears where up to a thousandth of its radius is missing, and is lifted off in the same tick: or,
 // where the work does not suffice for that, in a later one.
 TEST(ProxyBudget, ItAppearsOnlyWhereItIsNotTooDeep) {
