@@ -35,14 +35,6 @@ TriangleMesh normalised(TriangleMesh mesh) {
     return mesh;
 }
 
-void append(TriangleMesh& mesh, const TriangleMesh& more) {
-    const auto first = static_cast<Index>(mesh.vertices.size());
-    mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
-    for (const auto& [a, b, c] : more.triangles) {
-        mesh.triangles.push_back({first + a, first + b, first + c});
-    }
-}
-
 // Corners at the same place, to a billionth, become one; triangles that vanish by it are left out.
 TriangleMesh welded(const TriangleMesh& mesh) {
     std::unordered_map<std::uint64_t, Index> known;
@@ -290,6 +282,14 @@ bool is_within(const std::vector<Cap>& caps, const Vec3& direction) {
 }
 
 }  // namespace
+
+void append(TriangleMesh& mesh, const TriangleMesh& more) {
+    const auto first = static_cast<Index>(mesh.vertices.size());
+    mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
+    for (const auto& [a, b, c] : more.triangles) {
+        mesh.triangles.push_back({first + a, first + b, first + c});
+    }
+}
 
 TriangleMesh scanned(int levels) {
     RandomValues random(101);

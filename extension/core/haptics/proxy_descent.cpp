@@ -17,6 +17,7 @@ constexpr double crowd_reach = 1e-2;
 constexpr double look_ahead = 1e-3;
 // Not where there are more contacts than that: to tell those ahead apart takes more than the stops they save.
 constexpr int max_sparse = 16;
+
 }  // namespace
 
 // Out of what a moving body or the rounding of far coordinates let overlap, before anything slides along it.

@@ -403,7 +403,7 @@ TEST(ProxyBudget, InTheMouthOfABoreItGoesOn) {
     Vec3 goal = hand;
     rig.tick(hand);
     shared::ReferenceDescent reference(judge, radius);
-    int unfinished = 0, standing = 0, astray = 0;
+    int unfinished = 0, standing = 0, longest = 0, series = 0, astray = 0;
     for (int i = 0; i < 2'000; ++i) {
         if (i % 20 == 0) {
             goal = Vec3(0.0, height, 0.0) + random.in_ball(0.3);
@@ -415,6 +415,8 @@ TEST(ProxyBudget, InTheMouthOfABoreItGoesOn) {
         const bool stands = is_unfinished && glm::distance(before, tick.position) < 1e-3 * radius;
         unfinished += is_unfinished;
         standing += stands;
+        series = stands ? series + 1 : 0;
+        longest = std::max(longest, series);
         if (stands && standing % 5 == 0) {
             const shared::SlowVec3 end = reference.settle(tick.position, hand).position;
             astray += glm::distance(end, shared::SlowVec3(tick.position)) > 0.01 * radius;
@@ -422,7 +424,8 @@ TEST(ProxyBudget, InTheMouthOfABoreItGoesOn) {
         ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
     }
     EXPECT_GT(unfinished, 50);
-    EXPECT_LE(standing, 500);
+    EXPECT_LE(standing, 400);
+    EXPECT_LE(longest, 100);
     EXPECT_LE(astray, 3);  // it stands where it sits in the mouth
 }
 
@@ -478,15 +481,12 @@ TEST(ProxyBudget, WithLittleWorkAmongAHeapOfBallsItEntersNone) {
     TriangleMesh mesh;
     for (int i = 0; i < 500; ++i) {
         const double size = random.magnitude(0.001, 0.16);
-        const TriangleMesh ball = shared::icosphere(random.below(4), size);
+        TriangleMesh ball = shared::icosphere(random.below(4), size);
         const Vec3 place = random.in_box(0.4);
-        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-        for (const Vec3& v : ball.vertices) {
-            mesh.vertices.push_back(v + place);
+        for (Vec3& v : ball.vertices) {
+            v += place;
         }
-        for (const auto& t : ball.triangles) {
-            mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-        }
+        shared::append(mesh, ball);
     }
     const shared::JudgeTree judge(mesh);
     TouchRig rig(radius);
