@@ -153,9 +153,10 @@ Wrench OperatorSide::modelled_wrench(const SessionLoop& loop, Tool& tool, ToolSl
         tool.jumped = slot.jumped;
     }
     const double limit = loop.force_limit(slot);
-    tool.uncorrected.force = limited_force(
-        slot.fading.felt(tool.uncorrected.force, limit, tool.jumped && !changed, slot.step()), limit);
-    return {slot.fading.goes_on_with(slot.wrench.force, limit), slot.wrench.torque};
+    tool.uncorrected =
+        slot.fading.felt(tool.uncorrected, limit, tool.jumped && !changed, slot.step(), slot.turn());
+    tool.uncorrected.force = limited_force(tool.uncorrected.force, limit);
+    return slot.fading.goes_on_with(slot.wrench, limit);
 }
 
 Wrench OperatorSide::far_wrench(std::size_t index, ToolSlot& slot, bool& changed) {

@@ -83,7 +83,6 @@ public:
     AddResult add_body(ReadyBody&& body, const FormerBody& former = {});
     AddResult add_body(const BodyAddition& addition) { return add_body(prepare_body(addition)); }
     void remove_body(SessionHandle body);
-    // Where the body is from the next tick on, without a way there: nothing is pushed.
     // The body takes another form where it is, of as many shapes as before; what it is else stays. Where only
     // corners of its meshes have moved (see is_deformation), proxies that touch it are carried and pushed
     // along their way, however far that is; else they are let out of it. Its former touch shape is kept
@@ -92,6 +91,7 @@ public:
     // `shape`: what narrowed() makes for that radius of what the body is touched by now. Nothing is felt of
     // it but that ticks are shorter. Of a body that gives, or of another form's triangles, it is not taken.
     void narrow_touch(SessionHandle body, std::shared_ptr<const TouchShape> shape, double radius);
+    // Where the body is from the next tick on, without a way there: nothing is pushed.
     void teleport_body(SessionHandle body, const Pose& pose);
     // Moves a kinematic (or static) body there within `seconds`, pushing what is in the way.
     void move_body(SessionHandle body, const Pose& pose, double seconds);

@@ -45,6 +45,16 @@ void SessionLoop::follow(const SessionLoop& other, const Command& command) {
     }
 }
 
+// Who gives this hand a force, or where it is in the scene, is another one from the next tick on.
+void SessionLoop::note_hand_change(SessionHandle device) {
+    if (device < max_devices) {
+        devices_[device].jumped = true;
+    }
+    for (ProxySlot& slot : proxies_) {
+        slot.changed = slot.changed || slot.description.device == device;
+    }
+}
+
 SessionLoop::Body* SessionLoop::body(SessionHandle handle) {
     return handle < bodies_.size() && bodies_[handle].slot >= 0 ? &bodies_[handle] : nullptr;
 }
@@ -397,6 +407,7 @@ bool SessionLoop::carry_out(command::AddDevice& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
     devices_[c.handle].workspace = c.workspace;
+    note_hand_change(c.handle);
     return false;
 }
 
@@ -413,6 +424,7 @@ bool SessionLoop::carry_out(command::AddProxy& c, Retired&) {
     proxies_[c.handle] = {};
     proxies_[c.handle].proxy = std::move(c.proxy);
     proxies_[c.handle].description = c.description;
+    note_hand_change(c.description.device);
     return false;
 }
 
@@ -421,8 +433,11 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
     if (changed.proxy) {
         if (changed.description.device != c.description.device) {
             changed.proxy->restart();
+            changed.fading.clear();
+            note_hand_change(changed.description.device);
+            note_hand_change(c.description.device);
         }
-        changed.guide_changed = changed.guide_changed || !(changed.description.guide == c.description.guide);
+        changed.changed = changed.changed || !(changed.description.guide == c.description.guide);
         changed.description = c.description;
         changed.proxy->set_settings(c.description.settings);
     }
@@ -437,6 +452,7 @@ bool SessionLoop::carry_out(command::SetField& c, Retired&) {
 bool SessionLoop::carry_out(command::RemoveProxy& c, Retired& retired) {
     retired = {
         Retired::Kind::proxy, c.handle, {}, nullptr, std::move(proxies_[c.handle].proxy), nullptr, nullptr};
+    note_hand_change(proxies_[c.handle].description.device);
     proxies_[c.handle] = {};
     return true;
 }
@@ -460,6 +476,9 @@ bool SessionLoop::carry_out(command::EndRecording& c, Retired&) {
 
 bool SessionLoop::carry_out(command::Attach& c, Retired& retired) {
     std::swap(side_, c.side);
+    for (DeviceSlot& slot : devices_) {
+        slot.jumped = true;
+    }
     if (!c.side) {
         return false;
     }

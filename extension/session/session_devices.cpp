@@ -99,6 +99,11 @@ double SessionLoop::force_limit(SessionHandle device) const {
     return workspace.force_limit / workspace.force_scale;
 }
 
+// FadingForce::Step::fade of who is in that hand (unit: newtons of the scene).
+double SessionLoop::fade_of(SessionHandle device) const {
+    return FadingForce::max_step / (device < max_devices ? devices_[device].workspace.force_scale : 1.0);
+}
+
 RobotView SessionLoop::robot(SessionHandle device) const {
     if (device >= max_devices || !devices_[device].device) {
         return {};
@@ -125,12 +130,13 @@ void SessionLoop::write_devices(Nanoseconds now) {
             continue;
         }
         const Vec3 asked = slot.force;
+        const Vec3 asked_of_device = force_on_device(slot.workspace, asked);
         const SafetySample sample = safety_sample(slot, i);
         slot.safe =
             slot.safety.pass(settings_of(slot.capabilities, slot.workspace,
                                          side_ ? side_->limits() : local_touch, side_ && side_->drives()),
                              sample);
-        if (slot.safe.force != sample.wanted) {
+        if (slot.safe.force != asked_of_device) {
             slot.force = force_in_scene(slot.workspace, slot.safe.force);
         }
         slot.refused = asked - slot.force;
@@ -146,13 +152,30 @@ void SessionLoop::write_devices(Nanoseconds now) {
     }
 }
 
+// Of what is in that hand: one jump fades after the other.
+bool SessionLoop::touch_fades(std::size_t device) const {
+    const auto pointer_fades = [&](const ProxySlot& slot) {
+        return slot.proxy && slot.description.device == device && slot.fading.fades();
+    };
+    const auto tool_fades = [&](const std::unique_ptr<ToolSlot>& slot) {
+        return slot && slot->use.device == device && slot->fading.fades();
+    };
+    return std::ranges::any_of(proxies_, pointer_fades) || std::ranges::any_of(tools_, tool_fades);
+}
+
 // What is not pressed by a surface at rest may give energy to the hand: bodies on their way, and what a scene
 // means to add. Over a link without a model nothing is known of that, and everything is held to be passive.
-SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t index) const {
+SafetySample SessionLoop::safety_sample(DeviceSlot& slot, std::size_t index) const {
     SafetySample sample;
-    sample.wanted = force_on_device(slot.workspace, slot.force);
-    sample.torque = direction_to_local(slot.workspace.pose, slot.workspace.torque) +
-                    torque_on_device(slot.workspace, slot.torque);
+    const double pace = touch_fades(index) ? 0.0 : 1.0;
+    FadingForce::Step step, turn;
+    step.fade = pace * FadingForce::max_step;
+    turn.fade = pace * FadingWrench::max_torque_step;
+    const Wrench wanted = slot.fading.felt(
+        {force_on_device(slot.workspace, slot.force), torque_on_device(slot.workspace, slot.torque)},
+        slot.workspace.force_limit, std::exchange(slot.jumped, false), step, turn);
+    sample.wanted = wanted.force;
+    sample.torque = direction_to_local(slot.workspace.pose, slot.workspace.torque) + wanted.torque;
     sample.rotation = slot.sample.rotation;
     sample.position = slot.heard.position;
     sample.velocity = slot.heard.velocity;
@@ -160,6 +183,7 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
     sample.connected = slot.heard.connected;
     sample.enabled = !slot.workspace.clutch;
     sample.seconds = seconds_;
+    sample.source = std::max(0.0, seconds_ * glm::dot(slot.fading.force_offset(), slot.heard.velocity));
     for (const ProxySlot& proxy : proxies_) {
         if (proxy.proxy && proxy.description.device == index && (!side_ || side_->simulates())) {
             const double added = seconds_ * glm::dot(proxy.state.force - proxy.pressed, slot.hand_velocity);
@@ -183,7 +207,7 @@ SafetySample SessionLoop::safety_sample(const DeviceSlot& slot, std::size_t inde
 // Over a bend of a way the place that it leads to may jump where the hand does not.
 SessionLoop::Lead SessionLoop::lead(ProxySlot& slot, const LoopLag& lag, double damping) const {
     const HandGuide& guide = slot.description.guide;
-    Lead lead{.jumped = std::exchange(slot.guide_changed, false)};
+    Lead lead{.jumped = std::exchange(slot.changed, false)};
     if (guide.form == HandGuide::Form::none) {
         return lead;
     }
@@ -214,6 +238,7 @@ void SessionLoop::rest() {
     for (DeviceSlot& slot : devices_) {
         if (slot.device) {
             slot.force = Vec3(0.0);
+            slot.fading.clear();
             slot.safety.rest();
             slot.safe.torque = Vec3(0.0);
             slot.device->twist(Vec3(0.0));

@@ -205,6 +205,7 @@ void SessionLoop::fade_jumps() {
 
 FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
     FadingForce::Step step{slot.hand, slot.hand_velocity};
+    step.fade = fade_of(slot.description.device);
     for (const Touch& contact : slot.proxy->touching()) {
         const TouchMaterial& material = *feel_at(scene_, contact).material;
         step.stiffness = std::max(step.stiffness, spring_of(material).steepest());
@@ -263,11 +264,12 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), motion, now, seconds_, slot.effects, force);
-    if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped) {
+    if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped && !led.jumped) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
-    slot.effects.besides =
-        led.force + field_force + gradual_pull(attract(slot, false), seconds_, magnet_changes_, slot.effects);
+    const double max_change = max_pull_rate * seconds_ / device.workspace.force_scale;
+    slot.effects.besides = led.force + field_force +
+                           gradual_pull(attract(slot, false), max_change, magnet_changes_, slot.effects);
     slot.force = force.total + slot.effects.besides;
     slot.step = step_of(slot);
     slot.step.stiffness += led.stiffness + field.stiffness;

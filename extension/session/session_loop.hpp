@@ -75,10 +75,10 @@ public:
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
-        HandField field;             // that its owner computes, see Session::set_hand_field
-        bool guide_changed = false;  // since the last tick
-        TorsionList torsion;         // one each of `parts`; none where the finger is a point
-        bool rested = false;         // since the last tick
+        HandField field;       // that its owner computes, see Session::set_hand_field
+        bool changed = false;  // by its owner since the last tick: its guide, or where its hand is
+        TorsionList torsion;   // one each of `parts`; none where the finger is a point
+        bool rested = false;   // since the last tick
         ProxyState state;
 
         bool present() const { return proxy && description.enabled; }
@@ -201,6 +201,8 @@ private:
         Vec3 refused{0.0};                     // of what they wanted, by its limits (unit: newtons)
         DeviceSample heard;                    // as it came, with whatever nonsense
         DeviceCapabilities capabilities;
+        FadingWrench fading;  // from both to what its safety is asked for, as the device measures them
+        bool jumped = false;  // its owner has changed what makes the force
         HandSafety safety;
         SafeForce safe;
         // Of what is touched, the last that was not safe (unit: newtons per meter).
@@ -208,6 +210,7 @@ private:
         bool was_held = false;
     };
 
+    void note_hand_change(SessionHandle device);
     bool carry_out(command::AddBody& c, Retired& retired);
     bool carry_out(command::RemoveBody& c, Retired& retired);
     bool carry_out(command::DeformBody& c, Retired& retired);
@@ -256,6 +259,8 @@ private:
     void place_hand(DeviceSlot& slot) const;
     void touch_all(Nanoseconds now);
     double force_limit(SessionHandle device) const;
+    double fade_of(SessionHandle device) const;
+    bool touch_fades(std::size_t device) const;
     void hold_tools();
     ToolHand hand_at(const DeviceSlot& device, const ToolUse& use) const;
     bool takes_hold(ToolSlot& slot) const;
@@ -283,7 +288,7 @@ private:
     void push_bodies();
     void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
-    SafetySample safety_sample(const DeviceSlot& slot, std::size_t index) const;
+    SafetySample safety_sample(DeviceSlot& slot, std::size_t index) const;
     void step_physics();
     void take_soft_forms();
     void find_obstacles(const Body& giving);

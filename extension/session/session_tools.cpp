@@ -13,6 +13,7 @@ namespace tactus {
 bool SessionLoop::carry_out(command::AddTool& c, Retired&) {
     tools_[c.handle] = std::move(c.tool);
     ToolSlot& added = *tools_[c.handle];
+    note_hand_change(added.use.device);
     for (std::size_t i = 0; i < max_tools; ++i) {
         if (added.pairs[i] && tools_[i]) {
             added.pairs[i]->join(tools_[i]->proxy, added.proxy);
@@ -25,7 +26,10 @@ bool SessionLoop::carry_out(command::SetTool& c, Retired&) {
     if (ToolSlot* const changed = tools_[c.handle].get()) {
         if (changed->use.device != c.use.device) {
             changed->proxy.restart();
+            changed->fading.clear();
         }
+        note_hand_change(changed->use.device);
+        note_hand_change(c.use.device);
         changed->use = c.use;
         changed->settle_settings();
     }
@@ -36,6 +40,9 @@ bool SessionLoop::carry_out(command::RemoveTool& c, Retired& retired) {
     retired.kind = Retired::Kind::tool;
     retired.handle = c.handle;
     retired.tool = std::move(tools_[c.handle]);
+    if (retired.tool) {
+        note_hand_change(retired.tool->use.device);
+    }
     for (std::size_t i = 0; i < max_tools && retired.tool; ++i) {
         if (tools_[i] && tools_[i]->pairs[c.handle]) {
             retired.tool->pairs[i] = std::move(tools_[i]->pairs[c.handle]);
@@ -96,6 +103,8 @@ ToolHand SessionLoop::hand_at(const DeviceSlot& device, const ToolUse& use) cons
             spin,
             device.hand,
             safe.stiffness / use.settings.stiffness,
+            fade_of(use.device),
+            FadingWrench::max_torque_step * device.workspace.scale / device.workspace.force_scale,
             true};
 }
 
@@ -190,7 +199,8 @@ void SessionLoop::feel(ToolSlot& slot, const ToolTick& tick) {
     slot.wrench.torque = slot.hand.fixed ? Vec3(0.0)
                                          : tick.torque * slot.hand.share +
                                                glm::cross(goal.position - slot.hand.place, slot.wrench.force);
-    slot.jumped = (tick.status & (tool_absent | tool_squeezed)) != 0;
+    slot.jumped = tick.jumped;
+    slot.turned += slot.hand.spin * seconds_;
     double given = 0.0;
     for (const ToolTouch& touch : slot.proxy.touching()) {
         const Vec3 way = way_of_surface(scene_, surface_of(touch));
@@ -241,8 +251,10 @@ void SessionLoop::describe(ToolSlot& slot, const ToolTick& tick) const {
 void SessionLoop::fade_tools() {
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
         if (slot && slot->use.device < max_devices) {
-            slot->state.force = slot->fading.felt(slot->wrench.force, force_limit(slot->use.device),
-                                                  slot->jumped, slot->step());
+            const Wrench felt = slot->fading.felt(slot->wrench, force_limit(slot->use.device), slot->jumped,
+                                                  slot->step(), slot->turn());
+            slot->state.force = felt.force;
+            slot->state.torque = felt.torque;
         }
     }
 }

@@ -24,12 +24,14 @@ static_assert(max_tools <= ToolGroup::max_tools && max_tools - 1 <= ToolProxy::m
 
 // What holds a tool.
 struct ToolHand {
-    Pose goal;           // where it would have the tool, in the world
-    Vec3 velocity{0.0};  // of that place (unit: meters per second)
-    Vec3 spin{0.0};      // (unit: radians per second)
-    Vec3 place{0.0};     // of the hand itself, which torques are about (unit: meters)
-    double share = 1.0;  // of the coupling: what of it the device can render safely
-    bool holds = false;  // else it touches nothing
+    Pose goal;                            // where it would have the tool, in the world
+    Vec3 velocity{0.0};                   // of that place (unit: meters per second)
+    Vec3 spin{0.0};                       // (unit: radians per second)
+    Vec3 place{0.0};                      // of the hand itself, which torques are about (unit: meters)
+    double share = 1.0;                   // of the coupling: what of it the device can render safely
+    double fade = FadingForce::max_step;  // see FadingForce::Step (unit: newtons)
+    double turn_fade = FadingWrench::max_torque_step;  // likewise (unit: newton meters)
+    bool holds = false;                                // else it touches nothing
     bool fixed = false;  // what carries the tool at the far side cannot turn: the hand's turn means nothing
 
     Vec3 velocity_at(const Vec3& point) const { return velocity + glm::cross(spin, point - goal.position); }
@@ -49,7 +51,8 @@ struct ToolSlot {
     Wrench wrench;            // of the scene as it is, about the hand; what that is given is in `state`
     double source = 0.0;      // energy that bodies on their way give the hand in this tick (unit: joules)
     double own_change = 0.0;  // of the force, see ForceExit::leave
-    FadingForce fading;       // from wrench.force to state.force
+    FadingWrench fading;      // from `wrench` to what is in `state`
+    Vec3 turned{0.0};         // by the hand, all its turns added up (unit: radians)
     bool jumped = false;      // see ProxyTick
     bool rested = false;      // since the last tick
     bool is_fixed = false;    // hand.fixed, as the proxy's settings have it
@@ -69,7 +72,11 @@ struct ToolSlot {
 
     // What the hand's own way can have made of the force.
     FadingForce::Step step() const {
-        return {hand.goal.position, hand.velocity, use.settings.stiffness * hand.share, 0.0};
+        return {hand.goal.position, hand.velocity, use.settings.stiffness * hand.share, 0.0, hand.fade};
+    }
+    // The same of its turn and the torque.
+    FadingForce::Step turn() const {
+        return {turned, Vec3(0.0), use.settings.turning_stiffness * hand.share, 0.0, hand.turn_fade};
     }
     // L of nearest_motion.hpp (unit: meters).
     double coupling_length() const {

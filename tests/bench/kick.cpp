@@ -17,6 +17,7 @@ void report_kicks(Report& report, int seeds) {
     KickFigures all;
     const auto tell = [&](const std::string& name, const KickFigures& figures) {
         report.set("kick." + name + ".force_step_max_N", figures.force_step_max);
+        report.set("kick." + name + ".torque_step_max_Nm", figures.torque_step_max);
         report.set("kick." + name + ".force_max_N", figures.force_max);
         report.set("kick." + name + ".events", figures.events);
         report.set("kick." + name + ".let_out", figures.let_out);
@@ -24,9 +25,10 @@ void report_kicks(Report& report, int seeds) {
         report.set("kick." + name + ".imprisoned", figures.imprisoned);
         report.set("kick." + name + ".untouchable", figures.untouchable);
         std::printf(
-            "kick %-10s step %.3f N, %d events, %d let out, overlaps %d, imprisoned %d, untouchable %d\n",
-            name.c_str(), figures.force_step_max, figures.events, figures.let_out, figures.overlaps,
-            figures.imprisoned, figures.untouchable);
+            "kick %-10s step %.3f N, %.4f Nm, %d events, %d let out, overlaps %d, imprisoned %d, untouchable "
+            "%d\n",
+            name.c_str(), figures.force_step_max, figures.torque_step_max, figures.events, figures.let_out,
+            figures.overlaps, figures.imprisoned, figures.untouchable);
     };
     for (const KickCase kick : kick_cases) {
         KickFigures figures;

@@ -8,6 +8,7 @@
 
 #include "core/mesh/closed_mesh.hpp"
 #include "core/mesh/convex_hull.hpp"
+#include "core/tool/tool_shape.hpp"
 #include "session/session.hpp"
 #include "shared/deforms.hpp"
 #include "shared/meshes.hpp"
@@ -27,18 +28,32 @@ public:
         return {position, Quat(1.0, 0.0, 0.0, 0.0), velocity, 0, true};
     }
     void write(Nanoseconds, const Vec3& given) override { force = given; }
+    void twist(const Vec3& given) override { torque = given; }
+    DeviceCapabilities capabilities() const override {
+        DeviceCapabilities turned;
+        turned.max_torque = DeviceCapabilities::any;
+        return turned;
+    }
 
     Vec3 position{0.0};
     Vec3 velocity{0.0};
     Vec3 force{0.0};
+    Vec3 torque{0.0};
+};
+
+// What a hand is given, from tick to tick.
+struct Given {
+    Vec3 force{0.0};
+    Vec3 torque{0.0};
 };
 
 // A form around its origin, about as large as `size`, and how far a point is from it.
 struct Form {
     Shape shape;
-    TriangleMesh mesh;   // empty: closed form
-    bool solid = true;   // has an inside
-    bool convex = true;  // nothing to slip off, where the hand goes towards the middle
+    TriangleMesh mesh;    // empty: closed form
+    bool solid = true;    // has an inside
+    bool convex = true;   // nothing to slip off, where the hand goes towards the middle
+    bool hollow = false;  // closed, and to be touched from inside as well
 
     double distance(const Vec3& local) const {
         if (!mesh.triangles.empty()) {
@@ -57,7 +72,8 @@ struct Form {
 };
 
 Form form_of(const TriangleMesh& mesh, bool solid, bool one_sided) {
-    return {MeshShape{std::make_shared<const TriangleMesh>(mesh), 0.0, one_sided}, mesh, solid, solid};
+    return {MeshShape{std::make_shared<const TriangleMesh>(mesh), 0.0, one_sided}, mesh, solid, solid,
+            solid && !one_sided};
 }
 
 Form random_form(RandomValues& random, double size) {
@@ -99,13 +115,18 @@ public:
             rest_ = form_.mesh;
             touch_ = touch_of(rest_);
         }
-        Workspace workspace;
-        workspace.force_limit = random_.flip() ? 8.0 : 1e6;
-        const SessionHandle device = session_.add_device(hand_, workspace).handle;
-        proxy_.device = device;
+        workspace_.force_limit = random_.flip() ? 8.0 : 1e6;
+        device_ = session_.add_device(hand_, workspace_).handle;
+        other_device_ = session_.add_device(other_hand_, workspace_).handle;
+        tool_.device = proxy_.device = device_;
         proxy_.settings.radius = radius_;
         proxy_.force_law = random_.below(4) == 0 ? ForceLaw::smoothed : ForceLaw::spring;
-        proxy_handle_ = session_.add_proxy(proxy_).handle;
+        if (kick == KickCase::tool) {
+            tool_shape_ = make_tool_shape(box(Vec3(2.0, 1.2, 1.0) * radius_), {0.1 * radius_, 500}).shape;
+            tool_.settings.stiffness = stiffness_ = random_.magnitude(300.0, 2000.0);
+            tool_.settings.turning_stiffness = random_.magnitude(0.1, 2.0);
+        }
+        take_in_hand();
     }
 
     KickFigures play();
@@ -125,12 +146,47 @@ private:
         return {stiffness, 0.0, friction, 0.8 * friction};
     }
 
+    // What the case touches with.
+    void take_in_hand() {
+        if (kick_ == KickCase::tool) {
+            tool_handle_ = session_.add_tool(tool_shape_, tool_).handle;
+        } else {
+            proxy_handle_ = session_.add_proxy(proxy_).handle;
+        }
+    }
+    void put_down() {
+        if (kick_ == KickCase::tool) {
+            session_.remove_tool(tool_handle_);
+        } else {
+            session_.remove_proxy(proxy_handle_);
+        }
+    }
+    void set_in_hand() {
+        if (kick_ == KickCase::tool) {
+            session_.set_tool(tool_handle_, tool_);
+        } else {
+            session_.set_proxy(proxy_handle_, proxy_);
+        }
+    }
+    Vec3 place() const {
+        return kick_ == KickCase::tool ? session_.snapshot().tools[0].pose.position
+                                       : session_.snapshot().proxies[0].position;
+    }
+    void set_workspace(const Workspace& workspace) { session_.set_workspace(device_, workspace); }
+
     void add() { body_ = session_.add_body(body(form_, pose_, Motion::Static)).handle; }
     void tick(const Vec3& to);
+    void note(const Hand& hand, Given& before);
     void draw(const Vec3& to);
     void wait(int ticks);
     void judge(const ProxyState& state);
     void event();
+    void teleport();
+    void come_or_go();
+    void change_hands();
+    void change_workspace();
+    void change_around_tool();
+    void give_back();
     void approach();
     void squeeze();
     void leave_and_come_back();
@@ -145,16 +201,20 @@ private:
     TriangleMesh rest_;
     std::shared_ptr<const TouchShape> touch_;
     Pose pose_;
-    Hand hand_;
+    Hand hand_, other_hand_;
     Session session_{SessionSettings{}};
+    SessionHandle device_ = no_handle, other_device_ = no_handle;
+    Workspace workspace_;
     SessionHandle proxy_handle_ = no_handle;
     ProxyDescription proxy_;
+    SessionHandle tool_handle_ = no_handle;
+    std::shared_ptr<const ToolShape> tool_shape_;
+    ToolUse tool_;
     SessionHandle body_ = no_handle;
     bool judged_ = true;
     bool still_ = false;  // the hand, too: whatever changes the force is the scene
     bool had_let_out_ = false;
-    Vec3 ground_{0.0};
-    Vec3 before_{0.0};
+    Given before_, other_before_;
     Nanoseconds now_ = 0;
     KickFigures figures_;
 };
@@ -166,18 +226,26 @@ void KickPlay::tick(const Vec3& to) {
     session_.collect();
     session_.refresh();
     const ProxyState& state = session_.snapshot().proxies[0];
-    if (still_ || form_.convex) {
-        figures_.force_step_max = std::max(figures_.force_step_max, glm::distance(hand_.force, before_));
-    }
-    figures_.force_max = std::max(figures_.force_max, glm::length(hand_.force));
-    before_ = hand_.force;
+    note(hand_, before_);
+    note(other_hand_, other_before_);
     ++figures_.ticks;
     const bool letting_out = (state.status & (proxy_letting_out | proxy_absent)) != 0;
     figures_.let_out += letting_out && !had_let_out_;
     had_let_out_ = letting_out;
-    if (judged_ && !letting_out && body_ != no_handle && figures_.ticks % 7 == 0) {
+    if (judged_ && kick_ != KickCase::tool && proxy_.enabled && !letting_out && body_ != no_handle &&
+        figures_.ticks % 7 == 0) {
         judge(state);
     }
+}
+
+void KickPlay::note(const Hand& hand, Given& before) {
+    if (still_ || form_.convex) {
+        figures_.force_step_max = std::max(figures_.force_step_max, glm::distance(hand.force, before.force));
+        figures_.torque_step_max =
+            std::max(figures_.torque_step_max, glm::distance(hand.torque, before.torque));
+    }
+    figures_.force_max = std::max(figures_.force_max, glm::length(hand.force));
+    before = {hand.force, hand.torque};
 }
 
 void KickPlay::judge(const ProxyState& state) {
@@ -196,7 +264,7 @@ void KickPlay::draw(const Vec3& to) {
 
 void KickPlay::wait(int ticks) {
     const Vec3 around = hand_.position;
-    still_ = !form_.convex || random_.flip();
+    still_ = !form_.convex || kick_ >= KickCase::hands || random_.flip();
     for (int i = 0; i < ticks; ++i) {
         if (still_) {
             tick(around);
@@ -220,10 +288,97 @@ void KickPlay::approach() {
     const Vec3 target = pose_.position;
     for (int i = 0; i < 4'000 && glm::distance(hand_.position, target) > pace(); ++i) {
         tick(hand_.position + pace() * glm::normalize(target - hand_.position));
-        if (glm::distance(session_.snapshot().proxies[0].position, hand_.position) > deep) {
+        if (glm::distance(place(), hand_.position) > deep) {
             return;
         }
     }
+}
+
+void KickPlay::teleport() {
+    const bool little = random_.flip();
+    pose_ = little ? Pose{pose_.position + random_.in_ball(random_.magnitude(0.01, 3.0) * radius_),
+                          pose_.rotation}
+                   : near_hand(1.2 * size_ + radius_);
+    session_.teleport_body(body_, pose_);
+}
+
+void KickPlay::come_or_go() {
+    if (body_ != no_handle) {
+        session_.remove_body(body_);
+        body_ = no_handle;
+    } else {
+        add();
+    }
+}
+
+// What touches is removed, and another one comes; it is switched off or on; the other hand takes it, which is
+// where the first one is, or elsewhere.
+void KickPlay::change_hands() {
+    switch (random_.below(4)) {
+        case 0:
+            put_down();
+            take_in_hand();
+            break;
+        case 1:
+            proxy_.enabled = tool_.enabled = !proxy_.enabled;
+            set_in_hand();
+            break;
+        default:
+            other_hand_.position =
+                hand_.position + (random_.flip() ? Vec3(0.0) : random_.in_ball(3.0 * size_));
+            tool_.device = proxy_.device = proxy_.device == device_ ? other_device_ : device_;
+            set_in_hand();
+    }
+}
+
+// By a little, as a camera takes it along, or anywhere. A limit that is lowered holds at once, and is no
+// kick; so it is only raised.
+void KickPlay::change_workspace() {
+    Workspace changed = workspace_;
+    switch (random_.below(5)) {
+        case 0:
+            changed.pose.position = random_.in_ball(random_.magnitude(0.01, 3.0) * radius_);
+            break;
+        case 1:
+            changed.pose = {random_.in_ball(size_), random_.rotation()};
+            break;
+        case 2:
+            changed.scale = random_.magnitude(0.3, 3.0);
+            break;
+        case 3:
+            changed.force_scale = random_.magnitude(0.3, 3.0);
+            break;
+        default:
+            changed.force_limit = workspace_.force_limit = random_.magnitude(workspace_.force_limit, 1e7);
+    }
+    set_workspace(changed);
+}
+
+void KickPlay::change_around_tool() {
+    switch (body_ == no_handle ? 0 : random_.below(4)) {
+        case 0:
+            come_or_go();
+            break;
+        case 1:
+            teleport();
+            break;
+        case 2:
+            change_hands();
+            break;
+        default:
+            tool_.settings.stiffness = random_.magnitude(300.0, 2000.0);
+            stiffest_ = 2000.0;
+            set_in_hand();
+    }
+}
+
+// All as it began: the first hand has it, in its own workspace.
+void KickPlay::give_back() {
+    proxy_.enabled = tool_.enabled = true;
+    tool_.device = proxy_.device = device_;
+    set_in_hand();
+    set_workspace(workspace_);
+    wait(60);
 }
 
 void KickPlay::event() {
@@ -236,26 +391,25 @@ void KickPlay::event() {
             pose_ = near_hand(1.2 * size_ + radius_);
             add();
             break;
-        case KickCase::teleports: {
-            const bool little = random_.flip();
-            pose_ = little ? Pose{pose_.position + random_.in_ball(random_.magnitude(0.01, 3.0) * radius_),
-                                  pose_.rotation}
-                           : near_hand(1.2 * size_ + radius_);
-            session_.teleport_body(body_, pose_);
+        case KickCase::teleports:
+            teleport();
             break;
-        }
+        case KickCase::hands:
+            change_hands();
+            break;
+        case KickCase::workspace:
+            change_workspace();
+            break;
+        case KickCase::tool:
+            change_around_tool();
+            break;
         case KickCase::grows:
             radius_ = std::clamp(radius_ * random_.magnitude(0.3, 4.0), 0.001, 0.1);
             proxy_.settings.radius = radius_;
             session_.set_proxy(proxy_handle_, proxy_);
             break;
         case KickCase::vanishes:
-            if (body_ != no_handle) {
-                session_.remove_body(body_);
-                body_ = no_handle;
-            } else {
-                add();
-            }
+            come_or_go();
             break;
         case KickCase::stiffens:
             stiffest_ = std::max(stiffest_, 5000.0);
@@ -313,7 +467,10 @@ void KickPlay::leave_and_come_back() {
     if (body_ == no_handle || !form_.convex) {
         return;  // a sheet holds from both sides
     }
-    figures_.imprisoned += glm::length(hand_.force) > 1e-9;
+    // A pointer that begins anew within a shell is in it. A tool may be a step behind the hand in the air.
+    const bool began_anew = kick_ == KickCase::hands;
+    const double nothing = kick_ == KickCase::tool ? 1e-2 : 1e-9;
+    figures_.imprisoned += glm::length(hand_.force) > nothing && !(form_.hollow && began_anew);
     for (int i = 0; i < 40'000; ++i) {
         const Vec3 way = pose_.position - hand_.position;
         if (glm::length(way) < pace() || glm::length(hand_.force) > 0.5) {
@@ -343,6 +500,9 @@ KickFigures KickPlay::play() {
         }
         event();
         wait(60);
+        if (kick_ >= KickCase::hands) {
+            give_back();
+        }
     }
     leave_and_come_back();
     return figures_;
@@ -351,13 +511,14 @@ KickFigures KickPlay::play() {
 }  // namespace
 
 std::string_view name_of(KickCase kick) {
-    constexpr std::string_view names[] = {"appears",  "teleports", "grows",  "squeezed",
-                                          "vanishes", "stiffens",  "deforms"};
+    constexpr std::string_view names[] = {"appears",  "teleports", "grows", "squeezed",  "vanishes",
+                                          "stiffens", "deforms",   "hands", "workspace", "tool"};
     return names[static_cast<std::size_t>(kick)];
 }
 
 void KickFigures::add(const KickFigures& other) {
     force_step_max = std::max(force_step_max, other.force_step_max);
+    torque_step_max = std::max(torque_step_max, other.torque_step_max);
     force_max = std::max(force_max, other.force_max);
     events += other.events;
     let_out += other.let_out;

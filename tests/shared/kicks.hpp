@@ -1,6 +1,7 @@
 // What a hand must never feel: a kick because the scene changed. Whole sessions in virtual time, with a
 // device that keeps the force it is given; a body of any form appears over the hand, is put elsewhere, leaves
-// no room; the sphere grows; a material changes; a mesh deforms.
+// no room; the sphere grows; a material changes; a mesh deforms; pointers come, go and change hands; the
+// device's workspace is put elsewhere; all that to a tool in place of a sphere.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +9,31 @@
 
 namespace tactus::shared {
 
-enum class KickCase { appears, teleports, grows, squeezed, vanishes, stiffens, deforms };
+enum class KickCase {
+    appears,
+    teleports,
+    grows,
+    squeezed,
+    vanishes,
+    stiffens,
+    deforms,
+    hands,
+    workspace,
+    tool
+};
 
-inline constexpr KickCase kick_cases[] = {KickCase::appears,  KickCase::teleports, KickCase::grows,
-                                          KickCase::squeezed, KickCase::vanishes,  KickCase::stiffens,
-                                          KickCase::deforms};
+inline constexpr KickCase kick_cases[] = {
+    KickCase::appears,  KickCase::teleports, KickCase::grows, KickCase::squeezed,  KickCase::vanishes,
+    KickCase::stiffens, KickCase::deforms,   KickCase::hands, KickCase::workspace, KickCase::tool};
 
 std::string_view name_of(KickCase kick);
 
 struct KickFigures {
-    double force_step_max = 0.0;  // largest change of the device's force in a tick (unit: newtons)
-    double force_max = 0.0;       // (unit: newtons)
-    int events = 0;               // changes of the scene
-    int let_out = 0;              // of them, such that a body let the sphere out
+    double force_step_max = 0.0;   // largest change of the device's force in a tick (unit: newtons)
+    double torque_step_max = 0.0;  // likewise (unit: newton meters)
+    double force_max = 0.0;        // (unit: newtons)
+    int events = 0;                // changes of the scene
+    int let_out = 0;               // of them, such that a body let the sphere out
     // Ticks in which the sphere overlapped a body by more than half its radius, or was inside one, and did
     // not say that it is being let out.
     int overlaps = 0;

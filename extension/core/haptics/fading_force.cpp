@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/haptics/force_law.hpp"
 
 namespace tactus {
 
 namespace {
+
+// A torque is as large as the device allows, which its safety sees to.
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 
 Vec3 shortened_by(const Vec3& v, double length) {
     const double before = glm::length(v);
@@ -23,9 +27,9 @@ double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to
 
 Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step& step) {
     const Vec3 given = limited_force(force, limit);
-    const double allowed = std::max(max_step, change_by_hand(step_, step));
+    const double allowed = std::max(step.fade, change_by_hand(step_, step));
     step_ = step;
-    offset_ = shortened_by(offset_, max_step);
+    offset_ = shortened_by(offset_, step.fade);
     if (jumped) {
         // What it jumps by beyond that joins what is still fading.
         offset_ -= shortened_by(given + offset_ - felt_, allowed);
@@ -36,6 +40,16 @@ Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step&
 Vec3 FadingForce::goes_on_with(const Vec3& force, double limit) {
     felt_ = limited_force(limited_force(force, limit) + offset_, limit);
     return offset_ == Vec3(0.0) ? force : felt_;
+}
+
+Wrench FadingWrench::felt(const Wrench& wrench, double force_limit, bool jumped,
+                          const FadingForce::Step& step, const FadingForce::Step& turn) {
+    return {force_.felt(wrench.force, force_limit, jumped, step),
+            torque_.felt(wrench.torque, no_limit, jumped, turn)};
+}
+
+Wrench FadingWrench::goes_on_with(const Wrench& wrench, double force_limit) {
+    return {force_.goes_on_with(wrench.force, force_limit), torque_.goes_on_with(wrench.torque, no_limit)};
 }
 
 }  // namespace tactus

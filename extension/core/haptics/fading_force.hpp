@@ -7,12 +7,13 @@
 #pragma once
 
 #include "core/math/types.hpp"
+#include "core/math/wrench.hpp"
 
 namespace tactus {
 
 class FadingForce {
 public:
-    // The most that a change of the scene changes the felt force by in a tick (unit: newtons).
+    // The most that a change of the scene changes what a hand feels by in a tick (unit: newtons).
     static constexpr double max_step = 0.25;
 
     // What the hand's own motion changes the force by is never held back: its way times the stiffness of what
@@ -22,6 +23,7 @@ public:
         Vec3 velocity{0.0};      // (unit: meters per second)
         double stiffness = 0.0;  // of the stiffest body that is touched (unit: newtons per meter)
         double damping = 0.0;    // likewise (unit: newton-seconds per meter)
+        double fade = max_step;  // the same as max_step where a device scales forces (unit: newtons)
     };
 
     // What is felt in this tick. `force`: of the scene as it is now (unit: newtons); `limit`: what the device
@@ -35,12 +37,31 @@ public:
     // Nothing is felt, and nothing fades.
     void clear() { *this = {}; }
 
+    bool fades() const { return offset_ != Vec3(0.0); }
     const Vec3& offset() const { return offset_; }  // (unit: newtons)
 
 private:
     Vec3 offset_{0.0};
     Vec3 felt_{0.0};  // in the last tick, within the limit
     Step step_;       // of the last tick
+};
+
+// The same of a force and the torque that goes with it, each by itself: of the second, all is in newton
+// meters where the first has newtons, and in radians where it has meters.
+class FadingWrench {
+public:
+    // On a handle that is held four centimeters from its axis, as much as the force's (unit: newton meters).
+    static constexpr double max_torque_step = 0.01;
+
+    Wrench felt(const Wrench& wrench, double force_limit, bool jumped, const FadingForce::Step& step,
+                const FadingForce::Step& turn);
+    Wrench goes_on_with(const Wrench& wrench, double force_limit);
+    void clear() { *this = {}; }
+    bool fades() const { return force_.fades() || torque_.fades(); }
+    const Vec3& force_offset() const { return force_.offset(); }  // (unit: newtons)
+
+private:
+    FadingForce force_, torque_;
 };
 
 }  // namespace tactus

@@ -49,9 +49,9 @@ struct ProxyTick {
 
 // Where a crowd has held the proxy last, and how: see proxy_crowd.cpp.
 struct CrowdHold {
-    double slope = 0.0;  // by which the next step rises
-    Vec3 place{0.0};
-    Vec3 step{0.0};           // that it was to go; asked for again, it takes all of the work
+    double slope = 0.0;       // by which the next step rises; above 0: in a crowd
+    Vec3 place{0.0};          // of the sphere's centre, in the world (unit: meters)
+    Vec3 step{0.0};           // that it was to go (unit: meters); asked for again, it takes all of the work
     bool is_in_vain = false;  // it has taken it: it is not asked for again
 };
 
@@ -66,11 +66,6 @@ struct ProxyMemory {
     double slide_speed = 0.0;  // (unit: meters per second)
     CrowdHold crowd;
 };
-
-// A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
-// of it, where the hand is as deep as that below the bend's axis. What goes farther has slipped: off an edge
-// that does not hold it, out of static friction, or on from where the work of the last tick had ended.
-constexpr double max_sensitivity = 4.0;
 
 class Proxy {
 public:
@@ -153,7 +148,7 @@ private:
         bool is_cut_short = false;  // the last plan, by its share of the work
         Vec3 start{0.0};            // where the tick began,
         double distance = 0.0;      // and how far that was from the hand (unit: meters)
-        CrowdHold crowd;            // its slope above 0: in a crowd
+        CrowdHold crowd;
     };
 
     void put(const Vec3& place);
@@ -172,7 +167,7 @@ private:
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, double given_way, ProxyTick& tick);
     Hit take(ConstrainedStep& step, const Vec3& pull, Descent& descent);
-    void conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
+    void conclude(const ConstrainedStep& step, const Descent& descent, ProxyTick& tick);
     bool stays_on_planes(ConstrainedStep& step);
     bool drops_onto_one(ConstrainedStep& step, const Vec3& hand);
     bool leads_clear_of_others(const Vec3& way, const ConstrainedStep& step);

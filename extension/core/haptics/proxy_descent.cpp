@@ -129,11 +129,10 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
 
 // A bent step is believed in at first as far as a proxy follows its hand.
 void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
-    const Vec3 start = position_;
     Descent descent;
     descent.crowd = crowd_;
-    descent.start = start;
-    descent.distance = glm::distance(hand, start);
+    descent.start = position_;
+    descent.distance = glm::distance(hand, position_);
     if (!contacts_hold_) {  // what held it then may be what a search in a crowd does not find
         for (const Touch& touch : touching()) {
             surroundings_.keep_in_mind(touch.feature);
@@ -195,17 +194,16 @@ void Proxy::descend(const Vec3& hand, double given_way, ProxyTick& tick) {
             break;
         }
     }
-    conclude(start, step, descent, tick);
+    conclude(step, descent, tick);
 }
 
 // What the tick leaves to the next one, and says.
-void Proxy::conclude(const Vec3& start, const ConstrainedStep& step, const Descent& descent,
-                     ProxyTick& tick) {
+void Proxy::conclude(const ConstrainedStep& step, const Descent& descent, ProxyTick& tick) {
     const bool is_unfinished = tick.residual > tolerances().step;
-    const double way = glm::distance(position_, start);
+    const double way = glm::distance(position_, descent.start);
     keep_crowd(descent, way, is_unfinished);
     sliding_ = sliding_ && descent.slid;
-    heed_speed(step, position_ - start);
+    heed_speed(step, position_ - descent.start);
     overlaps_ = contacts_hold_ && contacts_.min_gap() < -tolerances().reach;
     // Where the work has ended before what holds it was seen again, that still does; also what held it a tick
     // ago, where it is not far from there or steps over a crowd.

@@ -82,12 +82,12 @@ double magnet_pull(const TouchMaterial& material, double gap) {
     return material.magnet_force * std::clamp(1.0 - gap / material.magnet_range, 0.0, 1.0);
 }
 
-Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t magnets, EffectMemory& memory) {
+Vec3 gradual_pull(const Vec3& pull, double max_change, std::uint64_t magnets, EffectMemory& memory) {
     const bool are_others = std::exchange(memory.magnets, magnets) != magnets;
     const Vec3 change = pull - memory.pulled;
     const double length = glm::length(change);
-    const double most = max_pull_rate * seconds;
-    memory.pulled = are_others || length <= most ? pull : memory.pulled + change * (most / length);
+    memory.pulled =
+        are_others || length <= max_change ? pull : memory.pulled + change * (max_change / length);
     return memory.pulled;
 }
 

@@ -43,14 +43,15 @@ void add_surface_effects(const TouchScene& scene, std::span<const Touch> touchin
 double magnet_pull(const TouchMaterial& material, double gap);
 
 // A pull acts from a distance, so nothing that the hand does has to announce it: a magnet that spins, appears
-// or is passed by at its middle line would turn it within a tick. It changes no faster (unit: newtons per
-// second), which a hand that comes near as fast as hands do does not notice, and together with a leap of
-// touch that fades meanwhile (fading_force.hpp) by less than half a newton in a tick.
+// or is passed by at its middle line would turn it within a tick. A hand feels it change no faster (unit:
+// newtons per second), which a hand that comes near as fast as hands do does not notice, and together with a
+// leap of touch that fades meanwhile (fading_force.hpp) by less than half a newton in a tick.
 constexpr double max_pull_rate = 200.0;
 
-// What is left of `pull` in this tick, after what it was in the one before. `magnets` counts how often one
+// What is left of `pull` in this tick, after what it was in the one before, from which it differs by at most
+// `max_change` (unit: newtons). `magnets` counts how often one
 // came, went or was described anew: where one has, all of the pull is left, since such a change is for others
 // to hide.
-Vec3 gradual_pull(const Vec3& pull, double seconds, std::uint64_t magnets, EffectMemory& memory);
+Vec3 gradual_pull(const Vec3& pull, double max_change, std::uint64_t magnets, EffectMemory& memory);
 
 }  // namespace tactus

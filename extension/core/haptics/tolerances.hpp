@@ -7,6 +7,11 @@
 
 namespace tactus {
 
+// A proxy on a surface goes this many times as far as the hand at most: on a round one by 1 / (1 - depth / r)
+// of it, where the hand is as deep as that below the bend's axis. What goes farther has slipped: off an edge
+// that does not hold it, out of static friction, or on from where the work of the last tick had ended.
+constexpr double max_sensitivity = 4.0;
+
 struct Tolerances {
     // How far above a surface the proxy rests. Protects the sign: a proxy at rest is outside by more than any
     // rounding error (unit: meters).

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/haptics/hand_place.hpp"
+#include "core/haptics/tolerances.hpp"
 #include "core/tool/tool_pair.hpp"
 #include "core/tool/tool_steps.hpp"
 
@@ -25,6 +26,7 @@ void ToolProxy::set_settings(const ToolSettings& settings) {
         around_.forget();
     }
     settings_ = settings;
+    is_changed_ = true;
     length_ = std::sqrt(settings.turning_stiffness / settings.stiffness);
 }
 
@@ -78,6 +80,7 @@ ToolTick ToolProxy::appear(const Pose& hand) {
     pace_ = 0.0;
     ToolTick tick;
     tick.pose = hand;
+    tick.jumped = true;
     tick.status = present_ ? 0u : static_cast<std::uint32_t>(tool_absent);
     return tick;
 }
@@ -137,9 +140,16 @@ double ToolProxy::farthest_to_go() const {
     return 2.0 * (length_of(lifted(motion_between(pose_, hand_), length_)) + ridden);
 }
 
+// Whether something has come to stand in it; where that takes too long to tell, not.
+bool ToolProxy::is_entered() {
+    WorkBudget look(2 * settings_.max_work, 0, cost::pack_look);
+    return !around_.is_free(pose_, look, entered) && !look.is_gone();
+}
+
 // True where it has to go on from there.
 bool ToolProxy::begin(const TouchScene& scene, const Pose& given_hand, ToolTick& tick) {
     scene_ = &scene;
+    const Pose hand_before = hand_;
     if (is_hand_pose(given_hand)) {
         hand_ = {given_hand.position, glm::normalize(given_hand.rotation)};
     }
@@ -152,15 +162,20 @@ bool ToolProxy::begin(const TouchScene& scene, const Pose& given_hand, ToolTick&
     meeting_count_ = 0;
     // What gives comes nearer everywhere, tick after tick, and most spheres have to look again.
     give_work(settings_.max_work * (scene.deformed_bodies().empty() ? 1 : 2));
-    if (!scene.only_gives_since(std::exchange(revision_, scene.revision()))) {
+    const bool other_scene = !scene.only_gives_since(std::exchange(revision_, scene.revision()));
+    if (other_scene) {
         touch_count_ = 0;
     }
+    const bool other_material =
+        std::exchange(material_changes_, scene.material_changes()) != scene.material_changes();
+    tick.jumped = std::exchange(is_changed_, false) || other_scene || other_material;
     around_.begin_tick(scene, settings_.mask, pose_, farthest_to_go());
-    if (!ride()) {
+    if ((other_scene && is_entered()) || !ride()) {
         tick = appear(hand);
         tick.status |= tool_squeezed;
         return false;
     }
+    given_way_ = way_since(start_) + length_of(lifted(motion_between(hand_before, hand), length_));
     return true;
 }
 
@@ -170,6 +185,8 @@ void ToolProxy::finish(ToolTick& tick) {
     tick.pose = pose_;
     tick.force = pull.way * -settings_.stiffness;
     tick.torque = pull.turn * -settings_.turning_stiffness;
+    const bool slipped = way_since(start_) > max_sensitivity * given_way_ + skin();
+    tick.jumped = tick.jumped || slipped;
     const bool slides = sliding_ && touch_count_ > 0;
     const bool slides_on_tool = meeting_count_ > 0 && std::ranges::any_of(pairs(), &ToolPair::sliding);
     tick.status |= (touch_count_ + meeting_count_ > 0 ? static_cast<std::uint32_t>(tool_touching) : 0u) |
@@ -187,12 +204,14 @@ ToolTick ToolProxy::move(const TouchScene& scene, const Pose& hand) {
 
 void ToolProxy::meet(ToolPair& pair) {
     pairs_[at(pair_count_++)] = &pair;
+    is_changed_ = true;
 }
 
 void ToolProxy::leave(const ToolPair& pair) {
     const auto last = pairs_.begin() + pair_count_;
     pair_count_ -= static_cast<int>(last - std::remove(pairs_.begin(), last, &pair));
     meeting_count_ = 0;
+    is_changed_ = true;
 }
 
 }  // namespace tactus

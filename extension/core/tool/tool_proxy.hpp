@@ -37,7 +37,7 @@ enum ToolStatus : std::uint32_t {
     tool_touching = 1u << 1,    // at least one contact holds it back
     tool_sliding = 1u << 2,     // dynamic friction applies
     tool_unfinished = 1u << 3,  // this tick's steps or work did not suffice
-    tool_squeezed = 1u << 4,    // moving bodies have left it no room: it begins anew
+    tool_squeezed = 1u << 4,    // a body that moves, or has come there, leaves it no room: it begins anew
 };
 
 // A contact that holds the tool back.
@@ -66,6 +66,7 @@ struct ToolTick {
     double residual = 0.0;     // length of the step that would come next (unit: meters)
     std::uint32_t status = 0;  // ToolStatus
     int steps = 0;
+    bool jumped = false;  // the force may jump, see ProxyTick
 };
 
 // Everything of a tool that its next move depends on, besides the scene. Of its contacts only the one it
@@ -113,6 +114,7 @@ public:
     void restart() {
         present_ = false;
         touch_count_ = meeting_count_ = 0;
+        is_changed_ = true;
     }
 
     ToolMemory memory() const;
@@ -146,6 +148,7 @@ private:
     void finish(ToolTick& tick);
     ToolTick appear(const Pose& hand);
     bool fits_beside_tools();
+    bool is_entered();
     double straight_share(const RigidMotion& motion) const;
     double free_share(const RigidMotion& motion, int except = -1);
     void go_free(const RigidMotion& motion, int except);
@@ -177,8 +180,11 @@ private:
     ToolSurroundings around_;
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
-    Pose hand_;   // that was given last and is one
-    Pose start_;  // of the last move
+    std::uint64_t material_changes_ = 0;
+    bool is_changed_ = false;  // itself, or with whom it is, since the last move
+    double given_way_ = 0.0;   // of the hand and of what took it along, in this tick (unit: meters)
+    Pose hand_;                // that was given last and is one
+    Pose start_;               // of the last move
     Pose pose_;
     bool present_ = false;
     bool sliding_ = false;

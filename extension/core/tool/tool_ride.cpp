@@ -15,9 +15,7 @@ using namespace tool_steps;
 
 namespace {
 
-// Of a sphere's radius: what a body on its way may enter before it has to take the tool along (the next step
-// lifts the tool out of less), and where the tool is let go since it could come out on the other side.
-constexpr double entered = 0.5;
+// Of a sphere's radius: where the tool is let go since it could come out on the other side.
 constexpr double lost = 0.9;
 constexpr int takes_along = 6;  // by what gives, in a tick: each sphere that it enters most
 

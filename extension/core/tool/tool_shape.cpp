@@ -222,6 +222,43 @@ private:
 
 }  // namespace
 
+// Prim's tree of shortest links; spheres that meet need no bridge.
+std::vector<ToolBridge> bridges_between(std::span<const ToolSphere> spheres) {
+    struct Nearest {
+        double gap = std::numeric_limits<double>::infinity();  // to those that are linked (unit: meters)
+        std::uint32_t linked = 0;
+        bool is_linked = false;
+    };
+    std::vector<Nearest> nearest(spheres.size());
+    std::vector<ToolBridge> bridges;
+    std::size_t newest = 0;
+    for (std::size_t count = 1; count < spheres.size(); ++count) {
+        nearest[newest].is_linked = true;
+        std::size_t next = newest;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < spheres.size(); ++i) {
+            if (nearest[i].is_linked) {
+                continue;
+            }
+            const double gap = glm::distance(spheres[i].center, spheres[newest].center) - spheres[i].radius -
+                               spheres[newest].radius;
+            if (gap < nearest[i].gap) {
+                nearest[i].gap = gap;
+                nearest[i].linked = static_cast<std::uint32_t>(newest);
+            }
+            if (nearest[i].gap < least) {
+                least = nearest[i].gap;
+                next = i;
+            }
+        }
+        newest = next;
+        if (least > 0.0) {
+            bridges.push_back({nearest[next].linked, static_cast<std::uint32_t>(next)});
+        }
+    }
+    return bridges;
+}
+
 ToolShapeResult make_tool_shape(const TriangleMesh& mesh, const ToolShapeSettings& settings) {
     return make_tool_shape(std::make_shared<const TriangleMesh>(mesh), settings);
 }

@@ -2,7 +2,9 @@
 // no point of its surface lies farther outside of them than a tolerance. Made off the loop.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,15 @@ struct ToolShape {
     // Whose surface other tools meet; null: they pass through, unless their own mesh is known.
     std::shared_ptr<const TriangleMesh> mesh;
 };
+
+// Two spheres that do not meet, by their places among them: what is between them is the tool as well.
+struct ToolBridge {
+    std::uint32_t first = 0, second = 0;
+};
+
+// So many, and as short as can be, that all spheres hang together. Where no surface meets a sphere or the
+// middle of a bridge, all of the tool is on one side of it.
+std::vector<ToolBridge> bridges_between(std::span<const ToolSphere> spheres);
 
 struct ToolShapeSettings {
     double tolerance = 1e-3;        // that is wanted (unit: meters), > 0

@@ -31,6 +31,10 @@ constexpr double left_over = 0.02;
 constexpr int max_stalls = 6;    // steps that lead nowhere
 constexpr int slide_rounds = 4;  // of the pressure and the friction that goes with it
 
+// Of a sphere's radius: what a body on its way may enter before it has to take the tool along (the next step
+// lifts the tool out of less), and one that comes to be there before the tool begins anew.
+constexpr double entered = 0.5;
+
 // Of the tool's reach: how far bodies may take it in a tick.
 constexpr double farthest_ride = 0.2;
 

@@ -47,7 +47,8 @@ ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::
       skin_(skin_share * shape_->reach),
       hoods_(shape_->spheres.size()),
       room_(shape_->spheres.size(), unknown),
-      near_(shape_->spheres.size()) {
+      near_(shape_->spheres.size()),
+      bridges_(bridges_between(shape_->spheres)) {
     parts_.reserve(max_parts);
     arms_.reserve(shape_->spheres.size());
     for (const ToolSphere& sphere : shape_->spheres) {
@@ -114,8 +115,21 @@ bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work, double depth)
     const Vec3 inside = to_parent(pose, shape_->spheres.front().center);
     return std::ranges::none_of(parts_, [&](std::uint32_t index) {
         const ScenePart& placed = scene_->parts()[index];
-        return placed.part->closed &&
-               placed.part->tree()->winding(to_local(placed.pose, inside), work).inside();
+        return (placed.part->closed &&
+                placed.part->tree()->winding(to_local(placed.pose, inside), work).inside()) ||
+               is_between_spheres(placed, pose, work) || work.is_gone();
+    });
+}
+
+// Whether the surface parts what the tool is made of, without meeting a sphere.
+bool ToolSurroundings::is_between_spheres(const ScenePart& placed, const Pose& pose, WorkBudget& work) const {
+    const auto place_of = [&](std::uint32_t sphere) {
+        return to_local(placed.pose, to_parent(pose, shape_->spheres[sphere].center));
+    };
+    return std::ranges::any_of(bridges_, [&](const ToolBridge& bridge) {
+        const Vec3 from = place_of(bridge.first);
+        const Vec3 way = place_of(bridge.second) - from;
+        return !sweep_surface(*placed.part, {from, way, skin_, arrival()}, 1.0, work).is_free();
     });
 }
 

@@ -141,6 +141,7 @@ private:
     double sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag, double limit,
                         int except, WorkBudget& work);
     bool has_stopped(std::uint32_t sphere, const HoodPlane& plane) const;
+    bool is_between_spheres(const ScenePart& placed, const Pose& pose, WorkBudget& work) const;
     void note_stop(const Stop& stop);
     double rest(std::uint32_t sphere) const { return shape_->spheres[sphere].radius + skin_; }
     // How much farther than the motion's way and `turn` say a sphere may get before it has arrived.
@@ -163,6 +164,7 @@ private:
     std::vector<double> arms_;         // from the tool's origin to the centre (unit: meters)
     std::vector<double> room_;         // it rests on nothing before it has gone so far (unit: meters)
     std::vector<std::uint32_t> near_;  // of spheres_where()
+    std::vector<ToolBridge> bridges_;
     // What stops a sphere counts as a contact for the rest of the tick, even where another one seems to stand
     // for it.
     std::array<Stop, max_stops> stops_;

@@ -54,6 +54,30 @@ TEST(FadingForce, WhatTheHandItselfDoesIsNotHeldBack) {
     EXPECT_NEAR(fading.felt(9.0 * up, no_limit, true, step).y, 3.0, 1e-12);
 }
 
+TEST(FadingForce, WhereADeviceScalesForcesItFadesByAsMuchOfTheDevices) {
+    FadingForce fading;
+    FadingForce::Step step;
+    step.fade = 0.1;
+    fading.felt(5.0 * up, no_limit, false, step);
+    EXPECT_NEAR(fading.felt(Vec3(0.0), no_limit, true, step).y, 4.9, 1e-12);
+    EXPECT_TRUE(fading.fades());
+    step.fade = 0.0;  // it waits
+    EXPECT_NEAR(fading.felt(Vec3(0.0), no_limit, false, step).y, 4.9, 1e-12);
+}
+
+TEST(FadingWrench, ForceAndTorqueFadeEachByItsOwnStep) {
+    FadingWrench fading;
+    FadingForce::Step turn;
+    turn.fade = FadingWrench::max_torque_step;
+    fading.felt({2.0 * up, 0.5 * up}, no_limit, false, still, turn);
+    for (int i = 1; i <= 50; ++i) {
+        const Wrench felt = fading.felt({}, no_limit, i == 1, still, turn);
+        EXPECT_NEAR(felt.force.y, std::max(0.0, 2.0 - i * FadingForce::max_step), 1e-12) << i;
+        EXPECT_NEAR(felt.torque.y, std::max(0.0, 0.5 - i * FadingWrench::max_torque_step), 1e-12) << i;
+    }
+    EXPECT_FALSE(fading.fades());
+}
+
 // Whatever jumps how often: no step is larger than the motion's own and the fading's.
 TEST(FadingForce, RandomChangesOneUponAnother) {
     RandomValues random(17);

@@ -234,15 +234,15 @@ TEST(SurfaceEffects, APullTurnsGradually) {
     Vec3 before(0.0);
     for (int i = 0; i < 1000; ++i) {
         const Vec3 spinning = 1e6 * Vec3(std::cos(2.0 * i), std::sin(2.0 * i), 0.0);
-        const Vec3 pull = gradual_pull(spinning, 1e-3, 0, memory);
+        const Vec3 pull = gradual_pull(spinning, 1e-3 * max_pull_rate, 0, memory);
         ASSERT_LE(glm::distance(pull, before), 1e-3 * max_pull_rate * (1.0 + 1e-12));
         before = pull;
     }
     for (int i = 0; i < 100; ++i) {
-        before = gradual_pull({0.0, 3.0, 0.0}, 1e-3, 0, memory);
+        before = gradual_pull({0.0, 3.0, 0.0}, 1e-3 * max_pull_rate, 0, memory);
     }
     EXPECT_EQ(before, Vec3(0.0, 3.0, 0.0));
-    EXPECT_EQ(gradual_pull({0.0, 9.0, 0.0}, 1e-3, 1, memory), Vec3(0.0, 9.0, 0.0));
+    EXPECT_EQ(gradual_pull({0.0, 9.0, 0.0}, 1e-3 * max_pull_rate, 1, memory), Vec3(0.0, 9.0, 0.0));
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/tool/tool_proxy.hpp"
 #include "shared/meshes.hpp"
@@ -51,6 +54,42 @@ TEST(ToolShape, ABoxAndAPegAreCoveredWithinWhatIsTold) {
         EXPECT_LE(made.shape->tolerance, 1e-3) << made.shape->spheres.size();
         expect_true(*mesh, *made.shape);
     }
+}
+
+// How many groups of spheres there are that hang together.
+std::size_t groups(std::span<const ToolSphere> spheres, std::span<const ToolBridge> bridges) {
+    std::vector<std::size_t> group(spheres.size());
+    std::iota(group.begin(), group.end(), std::size_t{0});
+    const auto link = [&](std::size_t a, std::size_t b) {
+        std::ranges::replace(group, std::size_t{group[a]}, std::size_t{group[b]});
+    };
+    for (std::size_t i = 0; i < spheres.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            const ToolSphere &a = spheres[i], &b = spheres[k];
+            if (glm::distance(a.center, b.center) <= a.radius + b.radius) {
+                link(i, k);
+            }
+        }
+    }
+    for (const ToolBridge& bridge : bridges) {
+        link(bridge.first, bridge.second);
+    }
+    std::ranges::sort(group);
+    return static_cast<std::size_t>(std::ranges::unique(group).begin() - group.begin());
+}
+
+TEST(ToolShape, BridgesLinkAllSpheresAndNoneIsOneTooMany) {
+    for (const double tolerance : {2e-4, 1e-3, 4e-3}) {
+        for (const TriangleMesh& mesh : {shared::box({0.01, 0.015, 0.025}),
+                                         shared::peg_mesh(0.01, 0.02, 60, 10), shared::icosphere(3, 0.05)}) {
+            const ToolShapeResult made = make_tool_shape(mesh, {tolerance, 1'000});
+            ASSERT_TRUE(made.shape) << made.error;
+            const std::vector<ToolBridge> bridges = bridges_between(made.shape->spheres);
+            EXPECT_EQ(groups(made.shape->spheres, bridges), 1u);
+            EXPECT_EQ(groups(made.shape->spheres, {}), bridges.size() + 1);
+        }
+    }
+    EXPECT_TRUE(bridges_between({}).empty());
 }
 
 TEST(ToolShape, WithFewSpheresTheToleranceThatIsToldIsLarger) {
