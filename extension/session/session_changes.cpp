@@ -434,10 +434,9 @@ bool SessionLoop::carry_out(command::SetProxy& c, Retired&) {
         if (changed.description.device != c.description.device) {
             changed.proxy->restart();
             changed.fading.clear();
-            note_hand_change(changed.description.device);
-            note_hand_change(c.description.device);
         }
-        changed.changed = changed.changed || !(changed.description.guide == c.description.guide);
+        note_hand_change(changed.description.device);
+        note_hand_change(c.description.device);
         changed.description = c.description;
         changed.proxy->set_settings(c.description.settings);
     }

@@ -167,7 +167,9 @@ bool SessionLoop::touch_fades(std::size_t device) const {
 // means to add. Over a link without a model nothing is known of that, and everything is held to be passive.
 SafetySample SessionLoop::safety_sample(DeviceSlot& slot, std::size_t index) const {
     SafetySample sample;
-    const double pace = touch_fades(index) ? 0.0 : 1.0;
+    const bool fades = touch_fades(index);
+    const bool waits = std::exchange(slot.touch_faded, fades) || fades;
+    const double pace = waits ? 0.0 : 1.0;
     FadingForce::Step step, turn;
     step.fade = pace * FadingForce::max_step;
     turn.fade = pace * FadingWrench::max_torque_step;

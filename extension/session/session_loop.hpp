@@ -201,8 +201,9 @@ private:
         Vec3 refused{0.0};                     // of what they wanted, by its limits (unit: newtons)
         DeviceSample heard;                    // as it came, with whatever nonsense
         DeviceCapabilities capabilities;
-        FadingWrench fading;  // from both to what its safety is asked for, as the device measures them
-        bool jumped = false;  // its owner has changed what makes the force
+        FadingWrench fading;       // from both to what its safety is asked for, as the device measures them
+        bool jumped = false;       // its owner has changed what makes the force
+        bool touch_faded = false;  // in the last tick, see touch_fades
         HandSafety safety;
         SafeForce safe;
         // Of what is touched, the last that was not safe (unit: newtons per meter).
