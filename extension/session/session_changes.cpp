@@ -152,9 +152,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     std::erase(guessed_, c.handle);
     std::erase(forming_, c.handle);
     std::erase(giving_, c.handle);
-    for (const SessionHandle handle : giving_) {
-        bodies_[handle].soft->obstacle_count = 0;  // they look anew
-    }
+    forget_obstacle(removed->slot);
     scene_.remove(removed->slot);
     handle_of_slot_[static_cast<std::size_t>(removed->slot)] = no_handle;
     handle_of_id_[removed->id.index()] = no_handle;
@@ -218,6 +216,7 @@ void SessionLoop::take_forms() {
     for (const SessionHandle handle : forming_) {
         Body& taking = bodies_[handle];
         taking.takes_form = false;
+        forget_obstacle(taking.slot);
         scene_.deform(taking.slot, *taking.shape);
     }
     forming_.clear();

@@ -293,6 +293,7 @@ private:
     void step_physics();
     void take_soft_forms();
     void find_obstacles(const Body& giving);
+    void forget_obstacle(int slot);
     bool place_obstacles(const Body& giving);
     void push_obstacles(const Body& giving);
     void step_soft(SessionHandle handle);

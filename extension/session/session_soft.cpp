@@ -1,6 +1,8 @@
 // Bodies that give, in the loop: what presses them, what they lie on, and the form that they take.
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "session/session_loop.hpp"
 
@@ -40,7 +42,8 @@ void SessionLoop::take_soft_forms() {
 // Solids alone, of what has a layer that the body lies on: a mesh takes too long to ask for every vertex.
 void SessionLoop::find_obstacles(const Body& giving) {
     SoftSlot& soft = *giving.soft;
-    soft.obstacle_count = 0;
+    std::array<SoftSlot::Obstacle, SoftSlot::max_obstacles> found;
+    std::size_t count = 0;
     const ScenePart& own = scene_.parts()[scene_.body(giving.slot).first_part];
     const Vec3 center = to_parent(own.pose, own.part->center);
     for (std::size_t i = 0; i < scene_.slots_in_use(); ++i) {
@@ -52,40 +55,54 @@ void SessionLoop::find_obstacles(const Body& giving) {
             const double distance =
                 glm::distance(to_parent(compose(other.pose, surface.pose), surface.center), center);
             if (!surface.tree() && distance <= surface.radius + own.part->radius + near_enough &&
-                soft.obstacle_count < SoftSlot::max_obstacles) {
-                soft.near[soft.obstacle_count++] = {static_cast<int>(i), part};
+                count < found.size()) {
+                found[count++] = {static_cast<int>(i), part};
             }
+        }
+    }
+    soft.set_near(std::span(found).first(count));
+}
+
+// Of a body that goes, or takes another form: who may lie on it looks anew.
+void SessionLoop::forget_obstacle(int slot) {
+    for (const SessionHandle handle : giving_) {
+        SoftSlot& soft = *bodies_[handle].soft;
+        if (std::ranges::find(soft.near(), slot, &SoftSlot::Obstacle::body) != soft.near().end()) {
+            soft.set_near({});
         }
     }
 }
 
-// Where they are after the physics step, in the frame of the body. True where one of them has moved.
+// Where they are after the physics step, in the frame of the body. True where one of them is elsewhere in it
+// than in the last step.
 bool SessionLoop::place_obstacles(const Body& giving) {
     SoftSlot& soft = *giving.soft;
     const Pose into = inverse(scene_.body(giving.slot).pose);
     bool moved = false;
-    for (std::size_t i = 0; i < soft.obstacle_count; ++i) {
-        const TouchBody& other = scene_.body(soft.near[i].body);
-        const Body& owner = bodies_[handle_of_slot_[static_cast<std::size_t>(soft.near[i].body)]];
-        const TouchPart& part = other.shape->parts[soft.near[i].part];
+    for (std::size_t i = 0; i < soft.near().size(); ++i) {
+        const SoftSlot::Obstacle& near = soft.near()[i];
+        SoftObstacle& obstacle = soft.obstacles()[i];
+        const TouchBody& other = scene_.body(near.body);
+        const Body& owner = bodies_[handle_of_slot_[static_cast<std::size_t>(near.body)]];
+        const TouchPart& part = other.shape->parts[near.part];
         const bool is_still = owner.motion == Motion::Static;
         const Pose now = is_still ? other.pose : physics_.pose(owner.id);
-        moved = moved || now.position != other.pose.position || now.rotation != other.pose.rotation;
-        soft.obstacles[i] = {&part.solid(), compose(into, compose(now, part.pose)),
-                             compose(into, compose(other.pose, part.pose)),
-                             soft.body.model().design.material.friction,
-                             owner.motion == Motion::Dynamic ? 1.0 / physics_.mass(owner.id) : 0.0};
+        const Pose pose = compose(into, compose(now, part.pose));
+        moved = moved || pose.position != obstacle.pose.position || pose.rotation != obstacle.pose.rotation;
+        obstacle = {&part.solid(), pose, compose(into, compose(other.pose, part.pose)),
+                    soft.body.model().design.material.friction,
+                    owner.motion == Motion::Dynamic ? 1.0 / physics_.mass(owner.id) : 0.0};
     }
     return moved;
 }
 
 // What it pushes back goes to the bodies that move, in their next step.
 void SessionLoop::push_obstacles(const Body& giving) {
-    const SoftSlot& soft = *giving.soft;
+    SoftSlot& soft = *giving.soft;
     const Pose at = scene_.body(giving.slot).pose;
-    for (std::size_t i = 0; i < soft.obstacle_count; ++i) {
-        const SoftObstacle& obstacle = soft.obstacles[i];
-        const Body& owner = bodies_[handle_of_slot_[static_cast<std::size_t>(soft.near[i].body)]];
+    for (std::size_t i = 0; i < soft.near().size(); ++i) {
+        const SoftObstacle& obstacle = soft.obstacles()[i];
+        const Body& owner = bodies_[handle_of_slot_[static_cast<std::size_t>(soft.near()[i].body)]];
         if (owner.motion == Motion::Dynamic && obstacle.impulse != Vec3(0.0)) {
             physics_.apply_force(owner.id, direction_to_parent(at, obstacle.impulse) / seconds_,
                                  to_parent(at, obstacle.pose.position));
@@ -96,7 +113,7 @@ void SessionLoop::push_obstacles(const Body& giving) {
 
 void SessionLoop::step_soft(SessionHandle handle) {
     const Body& giving = bodies_[handle];
-    if ((tick_ + handle) % ticks_between_looks == 0 || giving.soft->obstacle_count == 0) {
+    if ((tick_ + handle) % ticks_between_looks == 0 || giving.soft->near().empty()) {
         find_obstacles(giving);
     }
     if (place_obstacles(giving)) {

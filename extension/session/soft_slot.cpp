@@ -68,13 +68,21 @@ void SoftSlot::press(const Pose& at, const FeatureId& feature, const SpringForce
                               spring.sticks};
 }
 
+void SoftSlot::set_near(std::span<const Obstacle> found) {
+    if (!std::ranges::equal(found, near())) {
+        std::ranges::copy(found, near_.begin());
+        near_count_ = found.size();
+        obstacles_ = {};
+        body.wake();
+    }
+}
+
 std::uint32_t SoftSlot::step(const Pose& at, const Vec3& gravity) {
     const std::span<const SoftPush> pushes = std::span(pushes_).first(std::exchange(push_count_, 0));
     if (body.is_asleep() && pushes.empty()) {
         return 0;
     }
-    const std::uint32_t status =
-        body.step(direction_to_local(at, gravity), pushes, std::span(obstacles).first(obstacle_count));
+    const std::uint32_t status = body.step(direction_to_local(at, gravity), pushes, obstacles());
     gave_by_ = body.write_surface(surface_.vertices);
     moved_ = true;
     if (view_) {

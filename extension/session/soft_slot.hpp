@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 
 #include "core/geometry/touch_shape.hpp"
 #include "core/soft/soft_body.hpp"
@@ -22,6 +23,8 @@ public:
     struct Obstacle {
         int body = -1;         // slot in the touch scene
         std::size_t part = 0;  // of its shape
+
+        bool operator==(const Obstacle&) const = default;
     };
 
     // `view` may be null: nobody draws it. `mask`: layers that it lies on.
@@ -51,11 +54,15 @@ public:
     // What presses it does so in one step from here. `gravity` in the world.
     std::uint32_t step(const Pose& at, const Vec3& gravity);
 
-    std::array<Obstacle, max_obstacles> near{};
-    std::array<SoftObstacle, max_obstacles> obstacles{};
-    std::size_t obstacle_count = 0;
+    // What it lies on, or may soon. Where that is another one, all of it is new to the body, which wakes.
+    std::span<const Obstacle> near() const { return std::span(near_).first(near_count_); }
+    std::span<SoftObstacle> obstacles() { return std::span(obstacles_).first(near_count_); }
+    void set_near(std::span<const Obstacle> found);
 
 private:
+    std::array<Obstacle, max_obstacles> near_{};
+    std::array<SoftObstacle, max_obstacles> obstacles_{};  // one each, as in the last step
+    std::size_t near_count_ = 0;
     std::array<TouchShape, 2> forms_;
     std::array<std::shared_ptr<TriangleTree>, 2> trees_;  // of the forms
     std::size_t shown_ = 0;

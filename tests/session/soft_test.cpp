@@ -1,6 +1,7 @@
 // Bodies that give, touched.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <numbers>
@@ -161,6 +162,78 @@ TEST(Soft, ABoxLiesOnABlock) {
     ASSERT_NE(state, nullptr);
     EXPECT_NEAR(state->pose.position.y, 0.11, 0.01);
     EXPECT_LT(glm::length(state->linear_velocity), 0.02);
+}
+
+double lowest(SoftRig& rig, double height) {
+    double least = 1.0;
+    for (const Vec3& vertex : rig.surface(height).vertices) {
+        least = std::min(least, vertex.y);
+    }
+    return least;
+}
+
+// Of a block that fell on a table, a second after `change` of the table.
+double lowest_after(const std::function<void(SoftRig&, SessionHandle table)>& change) {
+    SoftRig rig({.stiffness = 5e4, .damping = 0.01}, {}, 0.08);
+    rig.device.position = Vec3(0.0, 1.0, 0.0);
+    const SessionHandle table =
+        rig.add(body(BoxShape{Vec3(0.2, 0.01, 0.2)}, Vec3(0.0, 0.02, 0.0), Motion::Static));
+    rig.ticks(2000);
+    EXPECT_NEAR(lowest(rig, 0.08), 0.03, 1e-3);
+    change(rig, table);
+    rig.ticks(1000);
+    return lowest(rig, 0.08);
+}
+
+// A form of triangles is none that it lies on (find_obstacles), and another one of solids is one at once.
+TEST(Soft, WhatItLiesOnMayGoOrTakeAnotherForm) {
+    const auto take = [](SoftRig& rig, SessionHandle table, const Shape& shape) {
+        EXPECT_EQ(rig.session.deform_body(
+                      table, Session::prepare_body(body(shape, Vec3(0.0, 0.02, 0.0), Motion::Static))),
+                  "");
+    };
+    const auto mesh = std::make_shared<const TriangleMesh>(shared::box(Vec3(0.2, 0.01, 0.2)));
+    const auto on_mesh = [&](SoftRig& rig, SessionHandle table) { take(rig, table, MeshShape{mesh}); };
+    const auto on_thinner = [&](SoftRig& rig, SessionHandle table) {
+        take(rig, table, BoxShape{Vec3(0.2, 0.005, 0.2)});
+    };
+    const auto on_none = [](SoftRig& rig, SessionHandle table) { rig.session.remove_body(table); };
+    EXPECT_NEAR(lowest_after(on_mesh), 0.0, 2e-3);
+    EXPECT_NEAR(lowest_after(on_thinner), 0.025, 2e-3);
+    EXPECT_NEAR(lowest_after(on_none), 0.0, 2e-3);
+}
+
+// The height of the middle of a block that stood asleep, half a second after `change` of a plate beside it.
+double top_after(const std::function<void(SoftRig&, SessionHandle plate)>& change) {
+    SoftRig rig({.stiffness = 1e4, .damping = 0.01}, foot);
+    rig.device.position = Vec3(0.0, 1.0, 0.0);
+    const SessionHandle plate =
+        rig.add(body(BoxShape{Vec3(0.1, 0.01, 0.1)}, Vec3(0.0, 0.5, 0.0), Motion::Static));
+    rig.ticks(3000);
+    rig.surface();
+    rig.ticks(10);
+    EXPECT_FALSE(rig.view->refresh()) << "it does not sleep";
+    change(rig, plate);
+    rig.ticks(500);
+    double highest = 0.0;
+    for (const Vec3& vertex : rig.surface().vertices) {
+        highest = std::max(highest, vertex.y);
+    }
+    return highest;
+}
+
+TEST(Soft, ABlockThatSleepsNoticesWhatComes) {
+    const Pose pressing{Vec3(0.0, 0.08, 0.0)};
+    EXPECT_NEAR(
+        top_after([&](SoftRig& rig, SessionHandle plate) { rig.session.teleport_body(plate, pressing); }),
+        0.07, 2e-3);
+    EXPECT_NEAR(
+        top_after([&](SoftRig& rig, SessionHandle plate) { rig.session.move_body(plate, pressing, 0.3); }),
+        0.07, 2e-3);
+    EXPECT_NEAR(top_after([&](SoftRig& rig, SessionHandle) {
+                    rig.add(body(BoxShape{Vec3(0.1, 0.01, 0.1)}, pressing.position, Motion::Static));
+                }),
+                0.07, 2e-3);
 }
 
 TEST(Soft, ATickAllocatesLocksAndCallsNothing) {

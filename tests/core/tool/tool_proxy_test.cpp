@@ -7,9 +7,11 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 
+#include "shared/deforms.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/tool_figures.hpp"
@@ -229,6 +231,47 @@ TEST(ToolProxy, BeginsOnlyWhereItIsFree) {
     EXPECT_EQ(rig.tick({{0.0, -0.02, 0.0}, upright}).status, static_cast<std::uint32_t>(tool_absent));
     EXPECT_EQ(rig.tick({{0.0, 0.005, 0.0}, upright}).status, static_cast<std::uint32_t>(tool_absent));
     EXPECT_EQ(rig.tick({{0.0, 0.02, 0.0}, upright}).status, 0u);
+}
+
+// A sheet that passes between two balls on a stick meets neither.
+TEST(ToolProxy, NeverBeginsAstrideAWall) {
+    auto dumbbell = std::make_shared<ToolShape>();
+    dumbbell->spheres = {{{-0.02, 0.0, 0.0}, 0.01}, {{0.02, 0.0, 0.0}, 0.01}};
+    dumbbell->reach = 0.03;
+    ToolProxy tool(dumbbell, 8, {});
+    TouchScene scene(4, 8);
+    const TriangleMesh sheet{{{0.0, -1.0, -1.0}, {0.0, 1.0, -1.0}, {0.0, 0.0, 1.0}}, {{0, 1, 2}}};
+    const auto shape = shared::touch_of(sheet);
+    scene.add(*shape, {}, {}, 1);
+    const auto status_at = [&](double x) {
+        scene.begin_tick();
+        return tool.move(scene, {{x, 0.0, 0.0}, upright}).status;
+    };
+    EXPECT_EQ(status_at(0.0), static_cast<std::uint32_t>(tool_absent));
+    EXPECT_EQ(status_at(0.005), static_cast<std::uint32_t>(tool_absent));
+    EXPECT_EQ(status_at(0.031), 0u);
+}
+
+// It is not held there: it begins anew where the hand is out, and says so. What comes elsewhere is nothing to
+// it, but that a force may be another one.
+TEST(ToolProxy, ABodyThatComesToStandInItLetsItGo) {
+    ToolRig rig = bar_over_floor();
+    settle(rig, {{0.0, 0.02, 0.0}, upright}, 2);
+    EXPECT_FALSE(settle(rig, {{0.0, 0.0, 0.0}, upright}).jumped);
+    const auto touching = static_cast<std::uint32_t>(tool_touching);
+    rig.add(shared::box(Vec3(0.02)), {}, {{0.3, 0.2, 0.0}, upright});
+    const ToolTick beside = rig.tick({{0.0, 0.0, 0.0}, upright});
+    EXPECT_TRUE(beside.jumped);
+    EXPECT_EQ(beside.status & (tool_absent | tool_squeezed | touching), touching);
+    EXPECT_FALSE(rig.tick({{0.0, 0.0, 0.0}, upright}).jumped);
+    rig.add(shared::box(Vec3(0.2)), {}, {{0.0, 0.1, 0.0}, upright});
+    const ToolTick within = rig.tick({{0.0, 0.0, 0.0}, upright});
+    EXPECT_TRUE(within.jumped);
+    EXPECT_EQ(within.status, static_cast<std::uint32_t>(tool_absent | tool_squeezed));
+    EXPECT_EQ(within.force, Vec3(0.0));
+    EXPECT_EQ(settle(rig, {{0.0, 0.1, 0.0}, upright}, 2).status, static_cast<std::uint32_t>(tool_absent));
+    EXPECT_EQ(settle(rig, {{0.0, 0.4, 0.0}, upright}, 2).status, 0u);
+    EXPECT_EQ(settle(rig, {{0.0, 0.3, 0.0}, upright}).status & touching, touching);
 }
 
 // A block that comes from the side takes a tool at rest along, and one that carries it lifts it.
