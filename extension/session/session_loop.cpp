@@ -214,6 +214,19 @@ FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
     return step;
 }
 
+// At the depth that one surface is pressed to, another one that is softer or stiffer presses otherwise: who
+// drags across their border, or against a wall, has not gone that deep into it.
+bool SessionLoop::touches_other_walls(ProxySlot& slot) const {
+    Stiffnesses now;
+    for (const Touch& contact : slot.proxy->touching()) {
+        const double stiffness = spring_of(*feel_at(scene_, contact).material).steepest();
+        now.least = now.most == 0.0 ? stiffness : std::min(now.least, stiffness);
+        now.most = std::max(now.most, stiffness);
+    }
+    const Stiffnesses before = std::exchange(slot.walls, now);
+    return before.most > 0.0 && now.most > 0.0 && before != now;
+}
+
 // Bodies get their part only now: what a correction of this tick changes is in it.
 void SessionLoop::press_all() {
     for (ProxySlot& slot : proxies_) {
@@ -264,7 +277,8 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     note_walls(slot, device);
     break_surfaces(slot, force);
     add_surface_effects(scene_, slot.proxy->touching(), motion, now, seconds_, slot.effects, force);
-    if (slot.description.force_law == ForceLaw::smoothed && !tick.jumped && !led.jumped) {
+    slot.jumped = touches_other_walls(slot) || tick.jumped || led.jumped;
+    if (slot.description.force_law == ForceLaw::smoothed && !slot.jumped) {
         smooth(force, slot.force_before - slot.effects.besides);
     }
     const double max_change = max_pull_rate * seconds_ / device.workspace.force_scale;
@@ -274,7 +288,6 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.step = step_of(slot);
     slot.step.stiffness += led.stiffness + field.stiffness;
     slot.step.damping += field.damping;
-    slot.jumped = tick.jumped || led.jumped;
     slot.sliding = (tick.status & proxy_sliding) != 0;
     hold_against_turning(slot);
     status_ |= tick.status & proxy_unfinished ? static_cast<TickStatus>(session_proxy_unfinished) : 0u;

@@ -58,6 +58,14 @@ public:
         bool jumped = false;     // see ProxyTick
     };
 
+    // Of what a pointer touches, the softest and the stiffest; 0 where there is nothing (unit: newtons per
+    // meter).
+    struct Stiffnesses {
+        double least = 0.0, most = 0.0;
+
+        bool operator==(const Stiffnesses&) const = default;
+    };
+
     struct ProxySlot {
         std::unique_ptr<Proxy> proxy;
         ProxyDescription description;
@@ -72,6 +80,7 @@ public:
         bool jumped = false;
         HandForce parts;
         Vec3 pressed{0.0};  // of `parts`, what surfaces press with (unit: newtons)
+        Stiffnesses walls;
         bool sliding = false;
         bool idle = false;  // a side says that nobody holds it: it touches nothing
         EffectMemory effects;
@@ -273,6 +282,7 @@ private:
     void press_bodies(const ToolSlot& slot);
     void describe(ToolSlot& slot, const ToolTick& tick) const;
     FadingForce::Step step_of(const ProxySlot& slot) const;
+    bool touches_other_walls(ProxySlot& slot) const;
     void press_all();
     Vec3 attract(const ProxySlot& slot, bool press);
     struct Lead {

@@ -103,8 +103,9 @@ public:
         radius_ = random_.magnitude(0.002, 0.03);
         size_ = radius_ * random_.magnitude(1.5, 12.0);
         stiffness_ = random_.magnitude(200.0, 5000.0);
-        form_ = kick == KickCase::squeezed ? Form{BoxShape{Vec3(1.0, 0.2, 1.0) * size_}, {}, true}
-                                           : random_form(random_, size_);
+        form_ = kick == KickCase::squeezed || kick == KickCase::crosses
+                    ? Form{BoxShape{Vec3(1.0, 0.2, 1.0) * size_}, {}, true}
+                    : random_form(random_, size_);
         if (kick == KickCase::squeezed && random_.flip()) {
             form_ = form_of(box(Vec3(1.0, 0.2, 1.0) * size_), true, random_.flip());
         }
@@ -189,6 +190,7 @@ private:
     void give_back();
     void approach();
     void squeeze();
+    void cross();
     void leave_and_come_back();
     Pose near_hand(double farthest);
     double pace() const { return hand_step / std::max(stiffness_, stiffest_); }
@@ -424,6 +426,7 @@ void KickPlay::event() {
             break;
         }
         case KickCase::squeezed:
+        case KickCase::crosses:
             break;
     }
 }
@@ -458,6 +461,33 @@ void KickPlay::squeeze() {
     judged_ = true;
 }
 
+// From a floor to another one beside it, or against a wall that stands on it, and back.
+void KickPlay::cross() {
+    const double other = random_.magnitude(100.0, 5000.0);
+    stiffest_ = 2.0 * std::max(stiffness_, other);  // over an edge the proxy goes farther than the hand
+    const double step = random_.flip() ? 0.0 : random_.between(0.1, 4.0) * radius_;
+    const auto add_floor = [&](double side, double height, double stiffness) {
+        const double half = 5.0 * size_;
+        BodyAddition floor =
+            body({BoxShape{Vec3(half)}, {}, true},
+                 {Vec3(side * half, height - half, 0.0), Quat(1.0, 0.0, 0.0, 0.0)}, Motion::Static);
+        floor.touch_material = material(stiffness);
+        session_.add_body(floor);
+    };
+    add_floor(-1.0, 0.0, stiffness_);
+    add_floor(1.0, step, other);
+    const double pressed = random_.between(0.5, 6.0) / stiffness_;
+    const double far = 2.0 * radius_ + 3.0 * pressed;
+    hand_.position = {-far, 2.0 * radius_, 0.0};
+    tick(hand_.position);
+    for (int round = 0; round < 2; ++round) {
+        ++figures_.events;
+        draw({-far, radius_ - pressed, 0.0});
+        draw({far, radius_ - pressed, random_.between(-1.0, 1.0) * radius_});
+        wait(60);
+    }
+}
+
 // However it began: far away nothing is felt, and who comes back from outside feels the body again.
 void KickPlay::leave_and_come_back() {
     const Vec3 away = glm::normalize(hand_.position - pose_.position + 1e-3 * random_.direction());
@@ -483,8 +513,8 @@ void KickPlay::leave_and_come_back() {
 
 KickFigures KickPlay::play() {
     friction_ = random_.flip() ? 0.0 : random_.between(0.1, 1.0);
-    if (kick_ == KickCase::squeezed) {
-        squeeze();
+    if (kick_ == KickCase::squeezed || kick_ == KickCase::crosses) {
+        kick_ == KickCase::squeezed ? squeeze() : cross();
         return figures_;
     }
     hand_.position = (3.0 * size_ + 2.0 * radius_) * random_.direction();
@@ -511,8 +541,9 @@ KickFigures KickPlay::play() {
 }  // namespace
 
 std::string_view name_of(KickCase kick) {
-    constexpr std::string_view names[] = {"appears",  "teleports", "grows", "squeezed",  "vanishes",
-                                          "stiffens", "deforms",   "hands", "workspace", "tool"};
+    constexpr std::string_view names[] = {"appears",  "teleports", "grows",   "squeezed",
+                                          "vanishes", "stiffens",  "deforms", "crosses",
+                                          "hands",    "workspace", "tool"};
     return names[static_cast<std::size_t>(kick)];
 }
 

@@ -1,7 +1,8 @@
 // What a hand must never feel: a kick because the scene changed. Whole sessions in virtual time, with a
 // device that keeps the force it is given; a body of any form appears over the hand, is put elsewhere, leaves
 // no room; the sphere grows; a material changes; a mesh deforms; pointers come, go and change hands; the
-// device's workspace is put elsewhere; all that to a tool in place of a sphere.
+// device's workspace is put elsewhere; all that to a tool in place of a sphere. And a hand that only drags,
+// from one surface to another one that is as much softer or stiffer as can be.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +18,16 @@ enum class KickCase {
     vanishes,
     stiffens,
     deforms,
+    crosses,
     hands,
     workspace,
-    tool
+    tool,
 };
 
-inline constexpr KickCase kick_cases[] = {
-    KickCase::appears,  KickCase::teleports, KickCase::grows, KickCase::squeezed,  KickCase::vanishes,
-    KickCase::stiffens, KickCase::deforms,   KickCase::hands, KickCase::workspace, KickCase::tool};
+inline constexpr KickCase kick_cases[] = {KickCase::appears,   KickCase::teleports, KickCase::grows,
+                                          KickCase::squeezed,  KickCase::vanishes,  KickCase::stiffens,
+                                          KickCase::deforms,   KickCase::crosses,   KickCase::hands,
+                                          KickCase::workspace, KickCase::tool};
 
 std::string_view name_of(KickCase kick);
 

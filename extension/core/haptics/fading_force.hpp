@@ -1,7 +1,8 @@
 // What a change of the scene would take from the hand or give it in one tick, spread over many.
 //
 // The motion of the hand and of bodies changes the force continuously. A body that appears, vanishes or is
-// put elsewhere, a stiffness that is set, a radius that grows, a surface that lets go change it at once. Then
+// put elsewhere, a stiffness that is set, the border of a stiffer surface, a radius that grows, a surface
+// that lets go change it at once. Then
 //     felt force = force of the scene + offset,
 // where the offset is what the felt force would jump by otherwise, and fades by a fixed step a tick.
 #pragma once
