@@ -18,6 +18,18 @@ Vec3 shortened_by(const Vec3& v, double length) {
     return before > length ? v * ((before - length) / before) : Vec3(0.0);
 }
 
+// What hides a force is no longer than that: where the hand leaves while it fades, it is not drawn back.
+// Along the force, what is felt does not go below nothing, or farther below than it was.
+Vec3 drawing_back(const Vec3& force, const Vec3& offset, const Vec3& felt_before) {
+    const double length = glm::length(force);
+    if (length == 0.0) {
+        return Vec3(0.0);
+    }
+    const Vec3 along = force / length;
+    const double least = std::min(0.0, glm::dot(felt_before, along));
+    return along * std::max(0.0, least - glm::dot(force + offset, along));
+}
+
 double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to) {
     return std::max(from.stiffness, to.stiffness) * glm::distance(from.hand, to.hand) +
            std::max(from.damping, to.damping) * glm::distance(from.velocity, to.velocity);
@@ -34,6 +46,7 @@ Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step&
         // What it jumps by beyond that joins what is still fading.
         offset_ -= shortened_by(given + offset_ - felt_, allowed);
     }
+    offset_ += drawing_back(given, offset_, felt_);
     return goes_on_with(force, limit);
 }
 

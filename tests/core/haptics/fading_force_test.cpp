@@ -54,6 +54,32 @@ TEST(FadingForce, WhatTheHandItselfDoesIsNotHeldBack) {
     EXPECT_NEAR(fading.felt(9.0 * up, no_limit, true, step).y, 3.0, 1e-12);
 }
 
+// A body has appeared over the hand, which leaves at once, at half a newton a tick.
+TEST(FadingForce, WhoLeavesWhileItFadesInIsNotDrawnBack) {
+    FadingForce fading;
+    FadingForce::Step step{Vec3(0.0), Vec3(0.0), 500.0, 0.0};
+    fading.felt(Vec3(0.0), no_limit, false, step);
+    for (int i = 0; i < 24; ++i) {
+        step.hand.y += 1e-3;
+        const Vec3 felt = fading.felt(std::max(0.0, 8.0 - 0.5 * i) * up, no_limit, i == 0, step);
+        EXPECT_GE(felt.y, i < 16 ? -1e-12 : -0.25) << i;  // in the air there is no direction to go by
+        EXPECT_LE(felt.y, 0.5) << i;
+    }
+    EXPECT_FALSE(fading.fades());
+}
+
+// What lingers of a force that has gone is not cut short by another one that grows against it.
+TEST(FadingForce, WhatLingersIsNotCutByAForceAgainstIt) {
+    FadingForce fading;
+    fading.felt(4.0 * up, no_limit, false, still);
+    Vec3 felt = fading.felt(Vec3(0.0), no_limit, true, still);
+    for (int i = 1; i <= 40; ++i) {
+        const Vec3 now = fading.felt(-0.1 * i * up, no_limit, false, still);
+        EXPECT_LE(glm::length(now - felt), FadingForce::max_step + 0.1 + 1e-9) << i;
+        felt = now;
+    }
+}
+
 TEST(FadingForce, WhereADeviceScalesForcesItFadesByAsMuchOfTheDevices) {
     FadingForce fading;
     FadingForce::Step step;
