@@ -204,12 +204,10 @@ void SessionLoop::fade_jumps() {
 }
 
 FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
-    FadingForce::Step step{slot.hand, slot.hand_velocity};
+    FadingForce::Step step{slot.hand, slot.hand_velocity, slot.walls.most};
     step.fade = fade_of(slot.description.device);
     for (const Touch& contact : slot.proxy->touching()) {
-        const TouchMaterial& material = *feel_at(scene_, contact).material;
-        step.stiffness = std::max(step.stiffness, spring_of(material).steepest());
-        step.damping = std::max(step.damping, material.damping);
+        step.damping = std::max(step.damping, feel_at(scene_, contact).material->damping);
     }
     return step;
 }
@@ -249,6 +247,7 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.force = slot.effects.besides = Vec3(0.0);
         slot.torsion.count = 0;
         slot.proxy->restart();
+        slot.walls = {};
         slot.state = {};
         slot.step = step_of(slot);
         slot.jumped = true;

@@ -142,15 +142,20 @@ TEST(Soft, FrictionDragsItsSurfaceAlong) {
     EXPECT_GT(held_back[1], 1.5 * held_back[0]);
 }
 
+// Of its corners, of a block that was put in at that height (unit: meters).
+double lowest(SoftRig& rig, double height) {
+    double least = 1.0;
+    for (const Vec3& vertex : rig.surface(height).vertices) {
+        least = std::min(least, vertex.y);
+    }
+    return least;
+}
+
 TEST(Soft, ABlockThatFallsComesToRestOnTheGround) {
     SoftRig rig({.stiffness = 5e4, .damping = 0.005}, {}, 0.1);
     rig.device.position = Vec3(0.0, 1.0, 0.0);
     rig.ticks(4000);
-    double lowest = 1.0;
-    for (const Vec3& vertex : rig.surface(0.1).vertices) {
-        lowest = std::min(lowest, vertex.y);
-    }
-    EXPECT_NEAR(lowest, 0.0, 1e-4);
+    EXPECT_NEAR(lowest(rig, 0.1), 0.0, 1e-4);
 }
 
 TEST(Soft, ABoxLiesOnABlock) {
@@ -162,14 +167,6 @@ TEST(Soft, ABoxLiesOnABlock) {
     ASSERT_NE(state, nullptr);
     EXPECT_NEAR(state->pose.position.y, 0.11, 0.01);
     EXPECT_LT(glm::length(state->linear_velocity), 0.02);
-}
-
-double lowest(SoftRig& rig, double height) {
-    double least = 1.0;
-    for (const Vec3& vertex : rig.surface(height).vertices) {
-        least = std::min(least, vertex.y);
-    }
-    return least;
 }
 
 // Of a block that fell on a table, a second after `change` of the table.
