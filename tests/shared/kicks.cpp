@@ -97,6 +97,11 @@ Form random_form(RandomValues& random, double size) {
     }
 }
 
+// Whether its owner changes the hand or what is in it, not the scene around it.
+constexpr bool is_of_the_hand(KickCase kick) {
+    return kick == KickCase::hands || kick == KickCase::workspace || kick == KickCase::tool;
+}
+
 class KickPlay {
 public:
     KickPlay(KickCase kick, std::uint64_t seed) : kick_(kick), random_(seed * 8 + static_cast<int>(kick)) {
@@ -266,7 +271,7 @@ void KickPlay::draw(const Vec3& to) {
 
 void KickPlay::wait(int ticks) {
     const Vec3 around = hand_.position;
-    still_ = !form_.convex || kick_ >= KickCase::hands || random_.flip();
+    still_ = !form_.convex || is_of_the_hand(kick_) || random_.flip();
     for (int i = 0; i < ticks; ++i) {
         if (still_) {
             tick(around);
@@ -530,7 +535,7 @@ KickFigures KickPlay::play() {
         }
         event();
         wait(60);
-        if (kick_ >= KickCase::hands) {
+        if (is_of_the_hand(kick_)) {
             give_back();
         }
     }

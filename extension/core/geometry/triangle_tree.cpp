@@ -111,49 +111,6 @@ NearestTriangle TriangleTree::search(const Vec3& point, const NearestTriangle& k
     return nearest;
 }
 
-Hit TriangleTree::sweep(const SphereWay& way, double limit, WorkBudget& work) const {
-    const Vec3 start = way.start - origin_;
-    const Vec3 end = start + way.motion * limit;
-    const double rounding = std::max(float_slack(start), float_slack(end));
-    const double reach = way.distance + way.slack + rounding;
-    // The rate at which a box is neared errs by the rounding of its few operations, and by the angle by which
-    // a rounded offset of at least `distance` is turned.
-    const double blur = glm::length(way.motion) * (4e-6 + 2.0 * rounding / way.distance);
-    const FloatWay boxes{to_float_point(start),
-                         to_float_point(end),
-                         to_float_point(way.motion),
-                         static_cast<float>(reach * (1.0 + 1e-6)),
-                         static_cast<float>(blur),
-                         static_cast<float>(limit),
-                         static_cast<float>(std::max(point_rounding(start), point_rounding(end))),
-                         static_cast<float>(1.0 / std::max(glm::length(way.motion), 1e-30))};
-    Hit hit;
-    hit.t = limit;
-    const auto a_little_more = [](double t) { return static_cast<float>(t * (1.0 + 1e-6)); };
-    float bound = a_little_more(limit);
-    const float left_out = visit_best_first(
-        bound, work, [&](std::uint32_t node) { return earliest_meeting(nodes_[node], turned_[node], boxes); },
-        [&](std::uint32_t pack, float) {
-            TrianglePack room;
-            const PackHit met = sweep_to_triangles(packs_.at(pack, room), way, hit.t);
-            work.spend(met.looks * work.sweep_look());
-            if (met.found()) {
-                hit.t = met.t;
-                hit.found = true;
-                hit.triangle = pack * lane_count + static_cast<std::uint32_t>(met.lane);
-                // Nothing is met before the start.
-                bound = hit.t > 0.0 ? a_little_more(hit.t) : -std::numeric_limits<float>::infinity();
-            }
-        });
-    const double known = std::max(0.0, static_cast<double>(left_out) * (1.0 - 1e-6));
-    if (left_out <= bound && known < hit.t) {
-        hit.t = known;
-        hit.found = false;
-        hit.complete = false;
-    }
-    return hit;
-}
-
 std::size_t TriangleTree::bytes() const {
     return nodes_.size() * (sizeof(BoxNode) + sizeof(TurnedNode)) +
            ids_.size() * (packs_.bytes_each() + sizeof(PackIds));

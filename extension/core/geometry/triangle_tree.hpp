@@ -52,6 +52,15 @@ struct NearestTriangle {
     bool complete = true;    // false: the budget was gone before everything nearer was looked at
 };
 
+// How far a sweep has come that takes longer than a tick has.
+struct SweepProgress {
+    static constexpr std::size_t max_levels = 32;  // of a tree: from the ninth on each leaves an eighth
+
+    Hit hit;  // of the packs so far
+    // Child by child to the pack whose turn it is.
+    std::array<std::uint8_t, max_levels> path{};
+};
+
 // Where the corners of a mesh's triangles are, and whether single precision holds them exactly.
 struct CornerExtent {
     Vec3 low{std::numeric_limits<double>::infinity()};
@@ -105,6 +114,9 @@ public:
 
     // The first triangle that stops the sphere at t <= limit. See sweep_to_triangles.
     Hit sweep(const SphereWay& way, double limit, WorkBudget& work) const;
+    // The same up to progress.hit.t, pack after pack as they lie in the tree, from where it has come to.
+    // False where the budget ends it: asked again, it goes on there.
+    bool sweep_on(const SphereWay& way, SweepProgress& progress, WorkBudget& work) const;
 
     // How often the surface winds around the point: of use for closed meshes only (see is_closed). Costs
     // what a ray costs; nothing is allocated. Where `work` is used up, nothing is known.
@@ -147,6 +159,10 @@ public:
 
 private:
     double float_slack(const Vec3& relative) const;
+    FloatWay to_float_way(const SphereWay& way, double limit) const;
+    void sweep_pack(std::uint32_t pack, const SphereWay& way, Hit& hit, WorkBudget& work) const;
+    bool sweep_node(std::uint32_t node, std::size_t level, const SphereWay& way, const FloatWay& boxes,
+                    SweepProgress& progress, WorkBudget& work) const;
     double point_rounding(const Vec3& relative) const;
     bool crossings(const Vec3& point, int axis, double sign, WorkBudget& work, int& number) const;
     NearestTriangle search(const Vec3& point, const NearestTriangle& known, double share, double enough,

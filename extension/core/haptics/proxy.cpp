@@ -117,7 +117,7 @@ void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& 
     const bool touched = touching_.count > 0;
     if (changed) {
         touching_.clear();
-        crowd_.is_in_vain = false;
+        crowd_.next = CrowdHold::Next::anew;
     }
     if (fly(hand)) {
         touching_.clear();

@@ -49,10 +49,18 @@ struct ProxyTick {
 
 // Where a crowd has held the proxy last, and how: see proxy_crowd.cpp.
 struct CrowdHold {
-    double slope = 0.0;       // by which the next step rises; above 0: in a crowd
-    Vec3 place{0.0};          // of the sphere's centre, in the world (unit: meters)
-    Vec3 step{0.0};           // that it was to go (unit: meters); asked for again, it takes all of the work
-    bool is_in_vain = false;  // it has taken it: it is not asked for again
+    // How the step that was held is asked next.
+    enum class Next : std::uint8_t {
+        anew,     // by a question's share of the work, or where it is the same one, by all of it
+        on,       // as far as a tick's work takes it, and on from there in the next
+        no_more,  // it has been asked to its end
+    };
+
+    double slope = 0.0;  // by which the next step rises; above 0: in a crowd
+    Vec3 place{0.0};     // of the sphere's centre, in the world (unit: meters)
+    Vec3 step{0.0};      // that it was to go (unit: meters)
+    Vec3 pull{0.0};      // to the hand, then (unit: meters)
+    Next next = Next::anew;
 };
 
 // Everything of a proxy that its next move depends on, besides the scene.
@@ -99,6 +107,7 @@ public:
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
         crowd_ = memory.crowd;
+        crowd_.next = crowd_.next == CrowdHold::Next::on ? CrowdHold::Next::anew : crowd_.next;
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -114,6 +123,7 @@ public:
         present_ = false;
         sliding_ = false;
         touching_.clear();
+        crowd_ = {};
     }
 
 private:
@@ -162,7 +172,7 @@ private:
     void ride_deformations(ProxyTick& tick);
     bool ride_deformation(int body);
     Hit advance(const Vec3& motion, FeatureId& stopped_by, int except = -1);
-    Hit advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by);
+    Hit advance(const ConstrainedStep& step, const Vec3& pull, Descent& descent, FeatureId& stopped_by);
     int carrier() const;
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, double given_way, ProxyTick& tick);
@@ -186,7 +196,9 @@ private:
     ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);
     void step_over_crowd(ConstrainedStep& step, const Vec3& pull, const Descent& descent);
     bool is_asked_again(const ConstrainedStep& step, const CrowdHold& crowd) const;
-    Hit sweep_in_share(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by);
+    Hit sweep_in_share(const ConstrainedStep& step, const Vec3& pull, Descent& descent,
+                       FeatureId& stopped_by);
+    void go_on(const Vec3& pull, Descent& descent);
     void keep_crowd(const Descent& descent, double way, bool is_unfinished);
     bool lift(bool strays);
     bool strays(double length) const;
@@ -206,7 +218,8 @@ private:
     double seconds_ = 0.001;    // of this tick
     double slide_speed_ = 0.0;  // that friction goes by, see friction.hpp (unit: meters per second)
     CrowdHold crowd_;
-    Vec3 hand_{0.0};  // the last that was a place
+    LongSweep long_sweep_;  // of the step that a crowd has held last
+    Vec3 hand_{0.0};        // the last that was a place
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     bool overlaps_ = false;       // a surface, since the last move

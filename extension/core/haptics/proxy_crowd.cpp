@@ -29,6 +29,8 @@ constexpr double max_slope = 5.0;
 constexpr double steeper = 5.0;
 // A step over a crowd may end that much farther from the hand than its tick began (of the radius).
 constexpr double max_detour = 0.1;
+// A held step is asked to its end as long as the hand leads about where it did (of the way to it).
+constexpr double same_pull = 0.25;
 
 // Of a way that begins in a ball around `center`, as far as it stays in it.
 double share_within(const Vec3& way, const Vec3& center, double radius) {
@@ -95,7 +97,8 @@ bool Proxy::is_asked_again(const ConstrainedStep& step, const CrowdHold& crowd) 
 // that is left. Where it leads nowhere it is a crowd that stands in the way: the next step rises, and more
 // steeply each time. So it does where it is stopped by what a full list of contacts leaves out, or where half
 // of the work has led nowhere. A step that takes little again has left the crowd.
-Hit Proxy::sweep_in_share(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
+Hit Proxy::sweep_in_share(const ConstrainedStep& step, const Vec3& pull, Descent& descent,
+                          FeatureId& stopped_by) {
     WorkBudget& work = surroundings_.work();
     const Vec3 before = position_;
     const std::int64_t left = work.left();
@@ -109,7 +112,8 @@ Hit Proxy::sweep_in_share(const ConstrainedStep& step, Descent& descent, Feature
     };
     if (is_used_up && !hit.complete && leads_nowhere_from(before)) {
         descent.crowd = {std::clamp(steeper * descent.crowd.slope, least_slope, max_slope), position_,
-                         step.motion, 4 * given > 3 * settings_.max_work};
+                         step.motion, pull};
+        long_sweep_ = {stopped_by.part, 0, {}};
     } else if (hit.is_free()) {
         const bool is_left = given - work.left() < question_share() / share_out_of_crowd;
         descent.crowd.slope = is_left ? 0.0 : descent.crowd.slope;
@@ -120,14 +124,46 @@ Hit Proxy::sweep_in_share(const ConstrainedStep& step, Descent& descent, Feature
     return hit;
 }
 
-// What the next tick begins with. Where even the steepest steps lead nowhere it is asked anew: they lead
-// across to what is near on the other side, and a flatter one may lead between.
+// Where even the steepest steps are held, the last of them is asked to its end, however many ticks that
+// takes: as long as the sphere and all around it stay where they are, and the hand leads about where it did.
+// Around a throat of the sphere's own size no bound tells thousands of triangles apart, and a step of one
+// radius and one of a hundredth take the same work: so it is asked whole.
+void Proxy::go_on(const Vec3& pull, Descent& descent) {
+    CrowdHold& crowd = descent.crowd;
+    if (position_ != crowd.place || glm::distance(pull, crowd.pull) > same_pull * glm::length(crowd.pull)) {
+        crowd = {};
+        return;
+    }
+    descent.slid = true;
+    FeatureId stopped_by;
+    const Hit hit = surroundings_.sweep_on(position_, crowd.step, long_sweep_, stopped_by);
+    if (!hit.complete && hit.t == 0.0) {
+        return;
+    }
+    const double way = hit.t * glm::length(crowd.step);
+    position_ += hit.t * crowd.step;
+    surroundings_.travelled(way);
+    contacts_hold_ = false;
+    descent.beyond = drop_after(way, crowd.slope);
+    if (!hit.found || way >= least_progress * settings_.radius) {
+        crowd = {};
+        return;
+    }
+    crowd.next = CrowdHold::Next::no_more;
+    surroundings_.keep_in_mind(stopped_by);
+    surroundings_.insist_on(stopped_by, position_);
+}
+
+// What the next tick begins with.
 void Proxy::keep_crowd(const Descent& descent, double way, bool is_unfinished) {
     const bool was_steepest = crowd_.slope >= max_slope;
     crowd_ = way < least_progress_of_tick * settings_.radius ? descent.crowd : CrowdHold{};
-    if (is_unfinished && was_steepest && !crowd_.is_in_vain) {
-        crowd_ = {};
-    } else if (is_unfinished) {
+    if (!is_unfinished || crowd_.next != CrowdHold::Next::anew) {
+        return;
+    }
+    if (was_steepest) {
+        crowd_.next = CrowdHold::Next::on;
+    } else {
         crowd_.slope = std::min(max_slope, steeper * crowd_.slope);
     }
 }

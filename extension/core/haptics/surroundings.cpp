@@ -137,25 +137,61 @@ Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double l
     return tree.sweep(way, limit, work_);
 }
 
+SphereWay Surroundings::way_in(std::uint32_t part, const Vec3& center, const Vec3& motion) const {
+    const Pose& pose = scene_->parts()[part].pose;
+    return {to_local(pose, center), direction_to_local(pose, motion), radius_ + tolerances().stop,
+            tolerances().arrival};
+}
+
+// `first`: what ends the way so far.
+void Surroundings::sweep_part(std::uint32_t index, const Vec3& center, const Vec3& motion, Hit& first,
+                              FeatureId& stopped_by) {
+    const TouchPart& part = *scene_->parts()[index].part;
+    const SphereWay way = way_in(index, center, motion);
+    const Hit hit = part.tree() ? sweep_tree(index, way, first.t) : sweep_surface(part, way, first.t, work_);
+    if (!hit.is_free()) {
+        first = hit;
+        const bool is_triangle = part.tree() && hit.triangle != Hit::no_triangle;
+        stopped_by = {index, is_triangle ? slot_in_whole(index, tree_of(index), hit.triangle) : hit.triangle};
+    }
+}
+
 Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except) {
     const double length = glm::length(motion);
     broad_phase_.bring_near(length, center, work_);
     Hit first;
     for (const std::uint32_t part : broad_phase_.near()) {
-        if (!counts(part, first.t * length, except)) {
-            continue;
+        if (counts(part, first.t * length, except)) {
+            sweep_part(part, center, motion, first, stopped_by);
         }
-        const ScenePart& placed = scene_->parts()[part];
-        const SphereWay way{to_local(placed.pose, center), direction_to_local(placed.pose, motion),
-                            radius_ + tolerances().stop, tolerances().arrival};
-        const Hit hit = placed.part->tree() ? sweep_tree(part, way, first.t)
-                                            : sweep_surface(*placed.part, way, first.t, work_);
-        if (!hit.is_free()) {
-            first = hit;
-            const bool is_triangle = placed.part->tree() && hit.triangle != Hit::no_triangle;
-            stopped_by = {part,
-                          is_triangle ? slot_in_whole(part, tree_of(part), hit.triangle) : hit.triangle};
+    }
+    return first;
+}
+
+Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sweep, FeatureId& stopped_by) {
+    const double length = glm::length(motion);
+    broad_phase_.bring_near(length, center, work_);
+    Hit first;
+    for (const std::uint32_t part : broad_phase_.near()) {
+        if (part != sweep.part && counts(part, first.t * length, -1)) {
+            sweep_part(part, center, motion, first, stopped_by);
         }
+    }
+    const TriangleTree& tree = tree_of(sweep.part);
+    if (sweep.lineage != tree.lineage()) {
+        sweep = {sweep.part, tree.lineage(), {}};
+    }
+    Hit& hit = sweep.progress.hit;
+    if (first.t < hit.t) {
+        hit = {};
+        hit.t = first.t;
+    }
+    if (!tree.sweep_on(way_in(sweep.part, center, motion), sweep.progress, work_)) {
+        return {0.0, false, false};
+    }
+    if (hit.found) {
+        stopped_by = {sweep.part, slot_in_whole(sweep.part, tree, hit.triangle)};
+        return hit;
     }
     return first;
 }

@@ -15,6 +15,14 @@
 
 namespace tactus {
 
+// A sweep that takes longer than a tick has, through a part whose triangles are too many: the others are
+// asked anew in each.
+struct LongSweep {
+    std::uint32_t part = 0;
+    std::uint64_t lineage = 0;  // of the tree that was asked; 0: none so far
+    SweepProgress progress;
+};
+
 class Surroundings {
 public:
     explicit Surroundings(std::size_t max_parts);
@@ -64,6 +72,8 @@ public:
     // How far the sphere can go along the way from the centre. The body `except` is not in the way: the one
     // that causes the motion. `stopped_by` is what the way ends at, where something does.
     Hit sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except = -1);
+    // The same over several ticks, as long as nothing moves: not complete until all of it is known.
+    Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sweep, FeatureId& stopped_by);
     // A feature that has just held the sphere back or stopped it counts as a contact in what is found next,
     // as far above it as the sphere may be: in a groove it is the other wall. What stops the sphere at once,
     // although no contact does, counts until the sphere has moved; false where it did so already.
@@ -126,6 +136,9 @@ private:
     Owner& owner_of(std::uint32_t part, const TriangleTree& tree);
     double wanted_margin() const;
     PackMemory* memory_around(std::uint32_t part, const TriangleTree& tree, const Vec3& local, double way);
+    SphereWay way_in(std::uint32_t part, const Vec3& center, const Vec3& motion) const;
+    void sweep_part(std::uint32_t part, const Vec3& center, const Vec3& motion, Hit& first,
+                    FeatureId& stopped_by);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);
     void leave_out(std::uint32_t part);
     void drop_beyond(double max_gap, ContactList& out);

@@ -305,6 +305,40 @@ TEST(TriangleTree, ASweepThatMayNotLookFurtherEndsEarly) {
     EXPECT_GT(cut, 50);
 }
 
+// However little of it fits into a tick.
+TEST(TriangleTree, ASweepInPiecesFindsWhatOneInOneGoDoes) {
+    RandomValues random(44);
+    int found = 0, pieces = 0;
+    for (const Sample& sample : samples()) {
+        const TriangleTree tree = TriangleTree::build(sample.mesh);
+        const Extent extent = extent_of(sample.mesh);
+        for (int i = 0; i < 60; ++i) {
+            const Vec3 start = extent.center + random.in_ball(2.0 * extent.radius);
+            const double radius =
+                (i % 2 ? 1.0 - 1e-9 : 0.3) * static_cast<double>(shared::slow_distance(start, sample.mesh));
+            const SphereWay way{start, random.in_ball(2.0 * extent.radius), radius, 1e-9 * radius};
+            WorkBudget enough(1'000'000);
+            const double limit = random.between(0.1, 1.0);
+            const Hit whole = tree.sweep(way, limit, enough);
+            SweepProgress progress;
+            progress.hit.t = limit;
+            bool is_done = false;
+            for (int tick = 0; tick < 10'000 && !is_done; ++tick) {
+                WorkBudget little(random.between(1.0, 30.0));
+                is_done = tree.sweep_on(way, progress, little);
+                pieces += !is_done;
+                ASSERT_GE(little.left(), -100) << sample.name << " " << i;
+            }
+            ASSERT_TRUE(is_done) << sample.name << " " << i;
+            ASSERT_EQ(progress.hit.found, whole.found) << sample.name << " " << i;
+            ASSERT_NEAR(progress.hit.t, whole.t, 1e-6) << sample.name << " " << i;
+            found += whole.found;
+        }
+    }
+    EXPECT_GT(found, 100);
+    EXPECT_GT(pieces, 500);
+}
+
 TEST(TriangleTree, SweepFindsTheFirstTriangleOfBruteForce) {
     RandomValues random(43);
     for (const Sample& sample : samples()) {

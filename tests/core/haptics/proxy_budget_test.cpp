@@ -247,34 +247,6 @@ TEST(ProxyBudget, WithLittleWorkNoTickIsCalledFinishedThatIsNot) {
     EXPECT_GT(unfinished, 500);
 }
 
-// One question among 256,000 triangles that grow from 1e-5 to 1 takes more than a tick here: to find what is
-// touched, or how far the way is free. It never stands still for more than a tick or two.
-TEST(ProxyBudget, InACrowdThatTakesMoreThanATickItGoesOn) {
-    constexpr double radius = 0.2;
-    const TriangleMesh mesh = shared::graded(256, 500);
-    const shared::JudgeTree judge(mesh);
-    const std::vector<Vec3> way = shared::slow_scan(judge, radius, 450);
-    for (const int work : {4'000, 8'000, 18'000}) {
-        TouchRig rig(radius);
-        rig.add(mesh);
-        limit_work(rig, work);
-        int held = 0, longest = 0, unfinished = 0;
-        for (std::size_t i = 0; i < way.size(); ++i) {
-            const Vec3 before = rig.proxy.position();
-            const ProxyTick tick = rig.tick(way[i]);
-            const bool is_unfinished = (tick.status & proxy_unfinished) != 0;
-            unfinished += is_unfinished;
-            held = is_unfinished && glm::distance(before, tick.position) < 1e-4 * radius ? held + 1 : 0;
-            longest = std::max(longest, held);
-            if (i % 10 == 0) {
-                ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
-            }
-        }
-        EXPECT_LE(longest, 2) << "work " << work;
-        EXPECT_GT(unfinished, 20) << "work " << work;
-    }
-}
-
 // More triangles touch the proxy than any list of contacts holds.
 TEST(ProxyBudget, AHeapOfTinyTrianglesLetsItGo) {
     constexpr double radius = 0.05;
@@ -388,89 +360,6 @@ TEST(ProxyBudget, OnARimOfManyEdgesToTellThemApartIsCheap) {
     EXPECT_LE(before - work.left(), 40 * contacts.count);
     EXPECT_GE(counting, contacts.count / 4);  // an edge, its ends, and the triangles that share them
     EXPECT_LT(counting, contacts.count);
-}
-
-// All edges of a rim lie within a ten-thousandth of the radius of a ball in a hole's mouth: to look at each
-// once takes more than a tick. It rolls out of the mouth and back.
-TEST(ProxyBudget, InTheMouthOfABoreItGoesOn) {
-    constexpr double wide = 0.1, height = 0.2, radius = 0.11;
-    const TriangleMesh mesh = shared::bore(8'000, wide, height);
-    const shared::JudgeTree judge(mesh);
-    TouchRig rig(radius);
-    rig.add(mesh);
-    RandomValues random(3);
-    Vec3 hand(0.0, height + 0.1, 0.0);
-    Vec3 goal = hand;
-    rig.tick(hand);
-    shared::ReferenceDescent reference(judge, radius);
-    int unfinished = 0, standing = 0, longest = 0, series = 0, astray = 0;
-    for (int i = 0; i < 2'000; ++i) {
-        if (i % 20 == 0) {
-            goal = Vec3(0.0, height, 0.0) + random.in_ball(0.3);
-        }
-        hand += 0.1 * (goal - hand);
-        const Vec3 before = rig.proxy.position();
-        const ProxyTick tick = rig.tick(hand);
-        const bool is_unfinished = (tick.status & proxy_unfinished) != 0;
-        const bool stands = is_unfinished && glm::distance(before, tick.position) < 1e-3 * radius;
-        unfinished += is_unfinished;
-        standing += stands;
-        series = stands ? series + 1 : 0;
-        longest = std::max(longest, series);
-        if (stands && standing % 5 == 0) {
-            const shared::SlowVec3 end = reference.settle(tick.position, hand).position;
-            astray += glm::distance(end, shared::SlowVec3(tick.position)) > 0.01 * radius;
-        }
-        ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
-    }
-    EXPECT_GT(unfinished, 50);
-    EXPECT_LE(standing, 400);
-    EXPECT_LE(longest, 100);
-    EXPECT_LE(astray, 3);  // it stands where it sits in the mouth
-}
-
-// In a funnel's seat a ball touches all of its facets at once: to look at each takes more than a tick. It
-// stays there, however many there are, and does not leave over the rim.
-TEST(ProxyBudget, InAFunnelsSeatItStays) {
-    constexpr double radius = 0.12;
-    struct Case {
-        int count;
-        double unevenness;
-        int max_moving, max_unfinished;
-    };
-    for (const Case& played : {Case{1'024, 0.0, 5, 20},
-                               {2'048, 0.0, 10, 30},
-                               {8'192, 1.0, 10, 1'500},
-                               {20'000, 0.0, 100, 1'500}}) {
-        const TriangleMesh mesh = shared::funnel(played.count, played.unevenness);
-        const shared::JudgeTree judge(mesh);
-        TouchRig rig(radius);
-        rig.add(mesh);
-        const auto hand_at = [](int i) {
-            const double down = std::min(i / 300.0, 1.0);
-            return Vec3(0.3 * (1.0 - down) + 0.05 * std::sin(0.004 * i), 0.6 - 0.9 * down,
-                        0.04 * std::sin(0.007 * i + 1.0));
-        };
-        Vec3 before = hand_at(0);
-        double thrown = 0.0;
-        int moving = 0, unfinished = 0;
-        for (int i = 0; i < 1'500; ++i) {
-            const Vec3 hand = hand_at(i);
-            const ProxyTick tick = rig.tick(hand);
-            thrown = std::max(thrown, glm::distance(tick.position, hand) - glm::distance(before, hand));
-            moving += i >= 300 && glm::distance(before, tick.position) > 1e-3 * radius;
-            unfinished += (tick.status & proxy_unfinished) != 0;
-            ASSERT_GE(judge.nearest(tick.position, 2.0 * radius).distance, radius) << "tick " << i;
-            before = tick.position;
-        }
-        // Its walls rise by 4 over 3: they would meet 4/3 of the throat's radius below it, and a sphere
-        // between them is 5/3 of its radius above that.
-        const Vec3 seat(0.0, -0.1 - 4.0 / 3.0 * 0.05 + 5.0 / 3.0 * radius, 0.0);
-        EXPECT_LT(glm::distance(before, seat), 0.02 * radius) << played.count;
-        EXPECT_LT(thrown, 0.11 * radius) << played.count;
-        EXPECT_LE(moving, played.max_moving) << played.count;
-        EXPECT_LE(unfinished, played.max_unfinished) << played.count;
-    }
 }
 
 // Among hundreds of balls within reach, with a twentieth of the usual work, by a hand that jumps. A way that
