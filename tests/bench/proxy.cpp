@@ -1,5 +1,6 @@
 // The proxy, timed tick by tick and held against exact descent, beside one sphere cast of Jolt and one convex
-// sweep of Bullet over the same segments; its kernels, each alone; and what it does on rough meshes.
+// sweep of Bullet over the same segments; its kernels, each alone; and what it does among thousands of bodies
+// and on rough meshes.
 //
 //     proxy [--only=PATTERN] [--most=1310720] [--ticks=N] [--rounds=5] [--checks=N] [--replays=3] [--work=N]
 //           [--whole]
@@ -20,6 +21,7 @@
 // replays of the same ticks. A segment is that of the tick: from where the proxy is to the hand.
 #include <cstdio>
 
+#include "proxy/bodies.hpp"
 #include "proxy/even.hpp"
 #include "proxy/kernels.hpp"
 #include "proxy/rough.hpp"
@@ -34,14 +36,15 @@ using namespace tactus;
 int measure_all(shared::Options& options) {
     bench::EvenSettings even;
     bench::RoughSettings rough;
-    even.only = rough.only = options.text("only");
+    bench::BodiesSettings bodies;
+    even.only = rough.only = bodies.only = options.text("only");
     even.rounds = static_cast<int>(options.number("rounds", even.rounds));
     even.max_triangles = static_cast<int>(options.number("most", even.max_triangles));
     even.ticks = static_cast<int>(options.number("ticks", even.ticks));
     even.checks = static_cast<int>(options.number("checks", even.checks));
     rough.ticks = static_cast<int>(options.number("ticks", rough.ticks));
     rough.checks = static_cast<int>(options.number("checks", rough.checks));
-    rough.replays = static_cast<int>(options.number("replays", rough.replays));
+    rough.replays = bodies.replays = static_cast<int>(options.number("replays", rough.replays));
     rough.max_work = static_cast<std::int64_t>(options.number("work", static_cast<double>(rough.max_work)));
     rough.narrowed = !options.has("whole");
     rough.max_triangles = static_cast<int>(options.number("most", rough.max_triangles));
@@ -63,6 +66,7 @@ int measure_all(shared::Options& options) {
     if (shared::is_chosen("kernel.", even.only)) {
         bench::measure_kernels(clock, even.rounds, report);
     }
+    bench::measure_bodies(clock, bodies, report);
     bench::measure_rough(clock, rough, report);
     return report.write_json(shared::result_path("proxy")) ? 0 : 1;
 }

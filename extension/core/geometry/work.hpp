@@ -16,6 +16,7 @@ constexpr std::int64_t pack_look = 3;      // distances of four triangles
 constexpr std::int64_t contact_look = 7;   // the same, with their tangents
 constexpr std::int64_t sweep_look = 8;     // the same, and whether they can be met from there on
 constexpr std::int64_t part_look = 1;      // whether a part is in reach at all
+constexpr std::int64_t far_part = 8;       // the same, of the next one in the heap of those that are far
 constexpr std::int64_t solid_look = 6;     // distance of a solid
 constexpr std::int64_t closest_point = 4;  // of one triangle, by scalars
 constexpr std::int64_t half_space = 1;     // one test in the solver

@@ -96,7 +96,8 @@ bool BroadPhase::needs_other_tolerances(double magnitude) {
     return magnitude > magnitude_ || smaller_ticks_ > patience;
 }
 
-// What moves comes nearer by as much. A far part has been given some way to move before that matters.
+// What moves comes nearer by as much. A far part has been given some way to move before that matters, and is
+// given half of what is left then: as long as that is far, nobody has to look at it.
 void BroadPhase::follow_moved(const TouchBody& body) {
     for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
         const auto part = static_cast<std::uint32_t>(body.first_part + i);
@@ -106,7 +107,11 @@ void BroadPhase::follow_moved(const TouchBody& body) {
         }
         record.own_way += body.moved_by;
         if (record.place == Place::far && record.own_way > record.own_way_until) {
-            make_near(part);
+            if (const double distance = clearance(part); is_distant(part, distance)) {
+                send_far(part, distance);
+            } else {
+                make_near(part);
+            }
         }
     }
 }
@@ -117,7 +122,7 @@ void BroadPhase::forget_all(const Vec3& center) {
     near_.clear();
     tolerances_ = make_tolerances(radius_, magnitude_);
     for (std::size_t i = 0; i < scene_->parts().size(); ++i) {
-        records_[i] = {0.0, 0.0, 0.0, Place::absent, records_[i].stamp};
+        records_[i] = {.stamp = records_[i].stamp};
         forget(static_cast<std::uint32_t>(i), center);
     }
 }
@@ -125,7 +130,7 @@ void BroadPhase::forget_all(const Vec3& center) {
 void BroadPhase::forget(std::uint32_t part, const Vec3& center) {
     Record& record = records_[part];
     leave_near(part);
-    record = {0.0, 0.0, 0.0, Place::absent, record.stamp + 1};
+    record = {.stamp = record.stamp + 1};
     const ScenePart& placed = scene_->parts()[part];
     if (!placed.part || (scene_->body(static_cast<int>(placed.body)).layer & mask_) == 0) {
         return;
@@ -137,13 +142,17 @@ void BroadPhase::make_near(std::uint32_t part) {
     Record& record = records_[part];
     record.place = Place::near;
     ++record.stamp;
-    record.clear_until = 0.0;
+    record.index = static_cast<std::uint32_t>(near_.size());
     near_.push_back(part);
 }
 
 void BroadPhase::leave_near(std::uint32_t part) {
     if (records_[part].place == Place::near) {
-        std::erase(near_, part);
+        const std::uint32_t index = records_[part].index;
+        near_[index] = near_.back();
+        records_[near_[index]].index = index;
+        near_.pop_back();
+        records_[part].place = Place::absent;
     }
 }
 
@@ -152,6 +161,7 @@ void BroadPhase::send_far(std::uint32_t part, double distance) {
     Record& record = records_[part];
     const double own = record.own_way > 0.0 ? 0.5 * distance : 0.0;
     record.place = Place::far;
+    set_clear(part, distance);
     record.own_way_until = record.own_way + own;
     push_far({odometer_ + distance - own, part, ++record.stamp});
 }
@@ -166,18 +176,21 @@ void BroadPhase::push_far(const Far& far) {
     std::push_heap(far_.begin(), far_.end(), &is_due_later);
 }
 
-// A part that cannot be reached within the next ticks leaves the near list.
+// Whether a part at that distance cannot be reached within the next ticks.
+bool BroadPhase::is_distant(std::uint32_t part, double distance) const {
+    const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
+    return distance > 40.0 * (pace_ + body.moved_by) + 0.1 * radius_;
+}
+
 void BroadPhase::retire_distant_parts() {
     for (std::size_t i = 0; i < near_.size();) {
         const std::uint32_t part = near_[i];
-        const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
-        const double distance = records_[part].clear_until - reading(part);
-        if (distance <= 40.0 * (pace_ + body.moved_by) + 0.1 * radius_) {
+        if (const double distance = clearance(part); is_distant(part, distance)) {
+            leave_near(part);
+            send_far(part, distance);
+        } else {
             ++i;
-            continue;
         }
-        leave_near(part);
-        send_far(part, distance);
     }
 }
 
@@ -197,16 +210,14 @@ double BroadPhase::distance_bound(std::uint32_t index, const Vec3& center, WorkB
         return distance_to_solid(placed.part->solid(), local).distance - margin();
     }
     const double to_ball = distance_to_ball(index, center);
-    return to_ball > placed.part->radius || work.is_gone()
-               ? to_ball
-               : placed.part->tree()->least_distance(local, work) - margin();
+    return to_ball > placed.part->radius ? to_ball
+                                         : placed.part->tree()->least_distance(local, work) - margin();
 }
 
-// Makes sure that every part within `length` of the sphere is on the near list.
 void BroadPhase::bring_near(double length, const Vec3& center, WorkBudget& work) {
-    while (!far_.empty() && far_.front().due <= odometer_ + length) {
+    while (far_clearance() <= length && !work.is_gone()) {
         const Far soonest = far_.front();
-        work.spend(cost::part_look);
+        work.spend(cost::far_part);
         std::pop_heap(far_.begin(), far_.end(), &is_due_later);
         far_.pop_back();
         Record& record = records_[soonest.part];

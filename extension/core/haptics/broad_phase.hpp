@@ -38,8 +38,8 @@ public:
         odometer_at_tick_ += length;
     }
 
-    // Makes sure that every part within `length` of the sphere is in near(). With the work gone others come
-    // along, as near as the balls around them.
+    // Makes sure that every part within `length` of the sphere is in near(): with the work gone, only up to
+    // far_clearance().
     void bring_near(double length, const Vec3& center, WorkBudget& work);
     std::span<const std::uint32_t> near() const { return near_; }
     // How far the sphere can go at least before it touches a part that is not near.
@@ -77,6 +77,7 @@ private:
         double own_way_until = 0.0;  // far: it stays so until it has moved that far
         Place place = Place::absent;
         std::uint32_t stamp = 0;  // tells entries of the far heap, and memories, that are out of date
+        std::uint32_t index = 0;  // near: in near_
     };
 
     struct Far {
@@ -91,6 +92,7 @@ private:
     void forget_all(const Vec3& center);
     void forget(std::uint32_t part, const Vec3& center);
     void follow_moved(const TouchBody& body);
+    bool is_distant(std::uint32_t part, double distance) const;
     void retire_distant_parts();
     void make_near(std::uint32_t part);
     void leave_near(std::uint32_t part);

@@ -15,6 +15,10 @@ bool is_form(Change::Kind kind) {
     return kind == Change::Kind::form || kind == Change::Kind::gives;
 }
 
+bool is_one_sided(const TouchShape& shape) {
+    return std::ranges::any_of(shape.parts, &TouchPart::one_sided);
+}
+
 bool rests_on(const TouchingSphere& sphere, int body) {
     return std::ranges::any_of(sphere.touching, [&](const Touch& c) { return c.body == body; });
 }
@@ -47,9 +51,8 @@ bool must_be_let_out_of(const TouchBody& body, int slot, const Change* change, c
     if (at.distance < room) {
         return true;
     }
-    const bool one_sided =
-        std::ranges::any_of(body.shape->parts, [](const TouchPart& part) { return part.one_sided; });
-    return at.inside && (one_sided || !was_inside(body, change, sphere.mask, sphere.center, work));
+    return at.inside &&
+           (is_one_sided(*body.shape) || !was_inside(body, change, sphere.mask, sphere.center, work));
 }
 
 // Of several changes of one body the first. Where it was narrowed, it is as it was.
@@ -110,7 +113,7 @@ bool let_out_of_squeeze(const TouchScene& scene, const TouchingSphere& sphere, P
 bool is_inside_one_sided(const TouchScene& scene, const Vec3& point, std::uint32_t mask, WorkBudget& work) {
     for (std::size_t slot = 0; slot < scene.slots(); ++slot) {
         const TouchBody& body = scene.body(static_cast<int>(slot));
-        if (body.shape && (body.layer & mask) != 0 &&
+        if (body.shape && (body.layer & mask) != 0 && is_one_sided(*body.shape) &&
             overlap_with(*body.shape, body.pose, point, 0.0, 0.0, Insides::of_one_sided, work).inside) {
             return true;
         }

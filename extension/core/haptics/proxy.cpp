@@ -127,7 +127,9 @@ void Proxy::follow(const Vec3& hand, double given_way, bool changed, ProxyTick& 
     const bool touches = touching_.count > 0;
     const bool slipped = (touched || touches) &&
                          glm::distance(position_, start) > max_sensitivity * given_way + tolerances().reach;
-    tick.jumped = tick.jumped || slipped || overlapped || overlaps_;
+    const bool is_unfinished = (tick.status & proxy_unfinished) != 0;
+    const bool was_unfinished = std::exchange(unfinished_, is_unfinished);
+    tick.jumped = tick.jumped || slipped || overlapped || overlaps_ || is_unfinished || was_unfinished;
     const PassedBodies& passed = surroundings_.passed();
     const bool lets_out_of_squeeze = passed.any(PassedBecause::squeezes);
     const auto say = [&](ProxyStatus status, bool holds) { tick.status |= holds ? status : 0u; };

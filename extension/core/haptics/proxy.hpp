@@ -42,8 +42,8 @@ struct ProxyTick {
     std::uint32_t status = 0;
     int steps = 0;
     // The force may jump (see FadingForce): something else than the motion of the hand and of bodies has
-    // changed what is touched, the proxy has slipped farther than that motion leads it, or it is squeezed and
-    // has no place that follows from where the hand is.
+    // changed what is touched, the proxy has slipped farther than that motion leads it, or has no place that
+    // follows from where the hand is: it is squeezed, or the work of this tick or the last did not suffice.
     bool jumped = false;
 };
 
@@ -69,6 +69,7 @@ struct ProxyMemory {
     bool present = false;
     bool sliding = false;
     bool overlaps = false;
+    bool unfinished = false;
     Vec3 hand{0.0};  // in the world (unit: meters)
     TouchList touching;
     double slide_speed = 0.0;  // (unit: meters per second)
@@ -96,13 +97,15 @@ public:
     void go_along(const Vec3& offset, int body);
     // The proxy as it was, to move it again from there.
     ProxyMemory memory() const {
-        return {position_, present_, sliding_, overlaps_, hand_, touching_, slide_speed_, crowd_};
+        return {position_, present_,  sliding_,     overlaps_, unfinished_,
+                hand_,     touching_, slide_speed_, crowd_};
     }
     void recall(const ProxyMemory& memory) {
         put(memory.position);
         present_ = memory.present;
         sliding_ = memory.sliding;
         overlaps_ = memory.overlaps;
+        unfinished_ = memory.unfinished;
         hand_ = memory.hand;
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
@@ -223,6 +226,7 @@ private:
     ContactList contacts_;
     bool contacts_hold_ = false;  // contacts_ are those at position_
     bool overlaps_ = false;       // a surface, since the last move
+    bool unfinished_ = false;     // the last move was
     // What the last move has seen.
     std::uint64_t scene_ticks_ = 0;
     std::uint64_t revision_ = 0;

@@ -113,7 +113,7 @@ Hit Proxy::sweep_in_share(const ConstrainedStep& step, const Vec3& pull, Descent
     if (is_used_up && !hit.complete && leads_nowhere_from(before)) {
         descent.crowd = {std::clamp(steeper * descent.crowd.slope, least_slope, max_slope), position_,
                          step.motion, pull};
-        long_sweep_ = {stopped_by.part, 0, {}};
+        long_sweep_ = {stopped_by.part};
     } else if (hit.is_free()) {
         const bool is_left = given - work.left() < question_share() / share_out_of_crowd;
         descent.crowd.slope = is_left ? 0.0 : descent.crowd.slope;
@@ -137,7 +137,7 @@ void Proxy::go_on(const Vec3& pull, Descent& descent) {
     descent.slid = true;
     FeatureId stopped_by;
     const Hit hit = surroundings_.sweep_on(position_, crowd.step, long_sweep_, stopped_by);
-    if (!hit.complete && hit.t == 0.0) {
+    if (!long_sweep_.is_done) {
         return;
     }
     const double way = hit.t * glm::length(crowd.step);

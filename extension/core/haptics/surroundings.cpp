@@ -48,6 +48,14 @@ bool Surroundings::counts(std::uint32_t part, double length, int except) const {
            !passed_.contains(static_cast<int>(body));
 }
 
+// The parts that may be met within that length, and some that are not. To go through them is counted as well.
+std::span<const std::uint32_t> Surroundings::bring_near(double length, const Vec3& center) {
+    constexpr std::size_t parts_a_unit = 8;
+    broad_phase_.bring_near(length, center, work_);
+    work_.spend(static_cast<std::int64_t>(broad_phase_.near().size() / parts_a_unit));
+    return broad_phase_.near();
+}
+
 // The one that questions go to: of all triangles, or of those that the sphere can touch.
 const TriangleTree& Surroundings::tree_of(std::uint32_t index) const {
     const TouchPart& part = *scene_->parts()[index].part;
@@ -66,8 +74,9 @@ bool Surroundings::fits(std::uint32_t index, const Vec3& center) {
 }
 
 bool Surroundings::fits_everywhere(const Vec3& center) {
-    broad_phase_.bring_near(0.0, center, work_);
-    return std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) { return fits(part, center); });
+    const auto near = bring_near(0.0, center);
+    return broad_phase_.far_clearance() >= 0.0 &&
+           std::ranges::all_of(near, [&](std::uint32_t part) { return fits(part, center); });
 }
 
 // Who has a part's memory: its own, or the one that was least recently used.
@@ -143,9 +152,19 @@ SphereWay Surroundings::way_in(std::uint32_t part, const Vec3& center, const Vec
             tolerances().arrival};
 }
 
-// `first`: what ends the way so far.
+// `first`: what ends the way so far. Where the work is gone, a part is as far away as is already known.
 void Surroundings::sweep_part(std::uint32_t index, const Vec3& center, const Vec3& motion, Hit& first,
                               FeatureId& stopped_by) {
+    const double length = glm::length(motion);
+    if (!counts(index, first.t * length, -1)) {
+        return;
+    }
+    if (work_.is_gone()) {
+        first = {length > 0.0 ? std::min(first.t, broad_phase_.clearance(index) / length) : 0.0, false,
+                 false};
+        stopped_by = {index};
+        return;
+    }
     const TouchPart& part = *scene_->parts()[index].part;
     const SphereWay way = way_in(index, center, motion);
     const Hit hit = part.tree() ? sweep_tree(index, way, first.t) : sweep_surface(part, way, first.t, work_);
@@ -156,12 +175,17 @@ void Surroundings::sweep_part(std::uint32_t index, const Vec3& center, const Vec
     }
 }
 
+// What ends the way among those that are not near: nothing, unless the work was gone before they were.
+Hit Surroundings::begin_sweep(double length, const Vec3& center) {
+    bring_near(length, center);
+    const double far = broad_phase_.far_clearance();
+    return far >= length ? Hit{} : Hit{std::max(0.0, far / length), false, false};
+}
+
 Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except) {
-    const double length = glm::length(motion);
-    broad_phase_.bring_near(length, center, work_);
-    Hit first;
+    Hit first = begin_sweep(glm::length(motion), center);
     for (const std::uint32_t part : broad_phase_.near()) {
-        if (counts(part, first.t * length, except)) {
+        if (static_cast<int>(scene_->parts()[part].body) != except) {
             sweep_part(part, center, motion, first, stopped_by);
         }
     }
@@ -169,24 +193,28 @@ Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopp
 }
 
 Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sweep, FeatureId& stopped_by) {
-    const double length = glm::length(motion);
-    broad_phase_.bring_near(length, center, work_);
-    Hit first;
+    const TouchPart* const crowd = scene_->parts()[sweep.part].part;
+    if (!crowd || !crowd->tree()) {
+        sweep.is_done = true;
+        return this->sweep(center, motion, stopped_by);
+    }
+    Hit first = begin_sweep(glm::length(motion), center);
     for (const std::uint32_t part : broad_phase_.near()) {
-        if (part != sweep.part && counts(part, first.t * length, -1)) {
+        if (part != sweep.part) {
             sweep_part(part, center, motion, first, stopped_by);
         }
     }
     const TriangleTree& tree = tree_of(sweep.part);
     if (sweep.lineage != tree.lineage()) {
-        sweep = {sweep.part, tree.lineage(), {}};
+        sweep = {sweep.part, tree.lineage()};
     }
     Hit& hit = sweep.progress.hit;
     if (first.t < hit.t) {
         hit = {};
         hit.t = first.t;
     }
-    if (!tree.sweep_on(way_in(sweep.part, center, motion), sweep.progress, work_)) {
+    sweep.is_done = tree.sweep_on(way_in(sweep.part, center, motion), sweep.progress, work_);
+    if (!sweep.is_done) {
         return {0.0, false, false};
     }
     if (hit.found) {
@@ -199,7 +227,7 @@ Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sw
 // Seen from a moving part, the sphere is what moves. Where its way in the part's frame meets a surface, the
 // part ran into the sphere there, and takes it along from that place on.
 bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier, Push& push) {
-    while (from < broad_phase_.near().size()) {
+    while (from < broad_phase_.near().size() && !work_.is_gone()) {
         const std::uint32_t part = broad_phase_.near()[from++];
         const ScenePart& placed = scene_->parts()[part];
         if (!scene_->body(static_cast<int>(placed.body)).moved || !counts(part, 0.0, carrier)) {
@@ -219,17 +247,30 @@ bool Surroundings::next_push(std::size_t& from, const Vec3& center, int carrier,
     return false;
 }
 
+bool Surroundings::has_room_beside(std::uint32_t part, const Vec3& center, double room) {
+    if (broad_phase_.is_clear(part, 0.0)) {
+        return true;
+    }
+    if (work_.is_gone()) {
+        return false;
+    }
+    const ScenePart& placed = scene_->parts()[part];
+    if (!placed.part->tree()) {
+        work_.spend(cost::solid_look);
+        const double distance =
+            distance_to_solid(placed.part->solid(), to_local(placed.pose, center)).distance;
+        broad_phase_.set_clear(part, distance - rest() - tolerances().reach);
+        return distance >= room;
+    }
+    const TouchBody& body = scene_->body(static_cast<int>(placed.body));
+    const Overlap at = overlap_with(*body.shape, body.pose, center, room, room, Insides::of_solids, work_);
+    return at.known && at.distance >= room;
+}
+
 bool Surroundings::has_room(const Vec3& center, double room) {
-    broad_phase_.bring_near(room, center, work_);
-    return std::ranges::all_of(broad_phase_.near(), [&](std::uint32_t part) {
-        if (broad_phase_.is_clear(part, room)) {
-            return true;
-        }
-        const TouchBody& body = scene_->body(static_cast<int>(scene_->parts()[part].body));
-        const Overlap at =
-            overlap_with(*body.shape, body.pose, center, room, room, Insides::of_solids, work_);
-        return at.known && at.distance >= room;
-    });
+    const auto near = bring_near(0.0, center);
+    return broad_phase_.far_clearance() >= 0.0 &&
+           std::ranges::all_of(near, [&](std::uint32_t part) { return has_room_beside(part, center, room); });
 }
 
 }  // namespace tactus

@@ -20,7 +20,8 @@ namespace tactus {
 struct LongSweep {
     std::uint32_t part = 0;
     std::uint64_t lineage = 0;  // of the tree that was asked; 0: none so far
-    SweepProgress progress;
+    SweepProgress progress{};
+    bool is_done = false;
 };
 
 class Surroundings {
@@ -72,7 +73,7 @@ public:
     // How far the sphere can go along the way from the centre. The body `except` is not in the way: the one
     // that causes the motion. `stopped_by` is what the way ends at, where something does.
     Hit sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except = -1);
-    // The same over several ticks, as long as nothing moves: not complete until all of it is known.
+    // The same over several ticks, as long as nothing moves: nothing is known until it is done.
     Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sweep, FeatureId& stopped_by);
     // A feature that has just held the sphere back or stopped it counts as a contact in what is found next,
     // as far above it as the sphere may be: in a groove it is the other wall. What stops the sphere at once,
@@ -94,7 +95,8 @@ public:
     PassedBodies& passed() { return passed_; }
     const PassedBodies& passed() const { return passed_; }
 
-    // False where a surface is nearer to the centre than `room`, or the centre is inside a solid.
+    // False where a surface is nearer to the centre than `room`, the sphere's radius at most, or the centre is
+    // inside a solid.
     bool has_room(const Vec3& center, double room);
 
     // How far a sweep had best ask: about as far as the last ways were free (unit: meters).
@@ -131,6 +133,9 @@ private:
     std::uint32_t slot_in_whole(std::uint32_t part, const TriangleTree& tree, std::uint32_t slot) const {
         return &tree == scene_->parts()[part].part->tree() ? slot : tree.triangle_at(slot);
     }
+    std::span<const std::uint32_t> bring_near(double length, const Vec3& center);
+    Hit begin_sweep(double length, const Vec3& center);
+    bool has_room_beside(std::uint32_t part, const Vec3& center, double room);
     bool fits(std::uint32_t part, const Vec3& center);
     bool fits_everywhere(const Vec3& center);
     Owner& owner_of(std::uint32_t part, const TriangleTree& tree);

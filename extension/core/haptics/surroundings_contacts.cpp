@@ -21,12 +21,16 @@ constexpr double nothing_seen = -std::numeric_limits<double>::infinity();
 void Surroundings::find_contacts(const Vec3& center, ContactList& out, double beyond, double ahead) {
     out.clear();
     ContactGathering gathering(out, rest(), tolerances(), beyond, ahead);
-    broad_phase_.bring_near(2.0 * tolerances().reach + beyond + ahead, center, work_);
+    const auto near = bring_near(2.0 * tolerances().reach + beyond + ahead, center);
     seen_gap_ = broad_phase_.far_clearance();
-    for (const std::uint32_t part : broad_phase_.near()) {
+    for (const std::uint32_t part : near) {
         if (!counts(part, beyond + ahead, -1)) {
             leave_out(part);
             continue;
+        }
+        if (work_.is_gone()) {
+            seen_gap_ = nothing_seen;
+            break;
         }
         const ScenePart& placed = scene_->parts()[part];
         const Vec3 local = to_local(placed.pose, center);
@@ -82,9 +86,12 @@ void Surroundings::find_nearest_contacts(const Vec3& center, double max_gap, Con
     constexpr double share = 1.0 - 1e-4;
     out.clear();
     seen_gap_ = nothing_seen;
-    broad_phase_.bring_near(max_gap, center, work_);
+    const auto near = bring_near(max_gap, center);
     const ContactLook look = look_from(center);
-    for (const std::uint32_t part : broad_phase_.near()) {
+    for (const std::uint32_t part : near) {
+        if (work_.is_gone()) {
+            break;
+        }
         if (!counts(part, max_gap, -1)) {
             continue;
         }
