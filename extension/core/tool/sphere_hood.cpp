@@ -42,18 +42,21 @@ void SphereHood::keep(const HoodPlane& plane, double distance, double& limit) {
     distances_[at(place)] = distance;
 }
 
-void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> parts, const Vec3& center,
-                        double limit, double keep_within, double same, WorkBudget& work) {
+// With the work gone a part is as far away as its ball.
+void SphereHood::gather(const TouchScene& scene, const PartBalls& parts, const Vec3& center, double limit,
+                        double keep_within, double same, WorkBudget& work) {
     count_ = 0;
     clear_ = limit;
     worn_ = 0.0;
     gathered_at_ = center;
     looked_at_ = Vec3(std::numeric_limits<double>::infinity());
-    for (const std::uint32_t index : parts) {
+    parts.visit_within(center, limit, work, [&](std::uint32_t index) {
         const ScenePart& placed = scene.parts()[index];
         const Vec3 local = to_local(placed.pose, center);
-        if (glm::distance(local, placed.part->center) - placed.part->radius >= limit) {
-            continue;
+        const double to_ball = glm::distance(local, placed.part->center) - placed.part->radius;
+        if (to_ball >= limit || work.is_gone()) {
+            clear_ = std::min(clear_, std::max(to_ball, 0.0));
+            return;
         }
         HoodPlane plane;
         plane.part = index;
@@ -64,7 +67,7 @@ void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> 
             if (distance < limit) {
                 keep(plane, distance, limit);
             }
-            continue;
+            return;
         }
         const double unseen = tree->visit_near(local, limit, work, [&](std::uint32_t pack) {
             work.spend(cost::pack_look);
@@ -80,7 +83,7 @@ void SphereHood::gather(const TouchScene& scene, std::span<const std::uint32_t> 
             }
         });
         clear_ = std::min(clear_, unseen);
-    }
+    });
     // What is farther is one of the others.
     while (count_ > 0 && distances_[static_cast<std::size_t>(count_ - 1)] > keep_within) {
         clear_ = std::min(clear_, distances_[static_cast<std::size_t>(--count_)]);

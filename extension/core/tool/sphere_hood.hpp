@@ -13,6 +13,7 @@
 
 #include "core/geometry/surface.hpp"
 #include "core/haptics/touch_scene.hpp"
+#include "core/tool/part_balls.hpp"
 
 namespace tactus {
 
@@ -61,8 +62,8 @@ public:
 
     // Looks for features nearer than `limit` among the parts, and remembers those nearer than `keep_within`
     // (unit: meters). Points within `same` of each other are one (unit: meters).
-    void gather(const TouchScene& scene, std::span<const std::uint32_t> parts, const Vec3& center,
-                double limit, double keep_within, double same, WorkBudget& work);
+    void gather(const TouchScene& scene, const PartBalls& parts, const Vec3& center, double limit,
+                double keep_within, double same, WorkBudget& work);
     // The same features, those nearer than `within` exactly as they are seen from `center`.
     void look(const TouchScene& scene, const Vec3& center, double within, double same, WorkBudget& work);
     bool is_full() const { return count_ == capacity; }

@@ -6,17 +6,16 @@
 
 namespace tactus {
 
-double ToolSurroundings::share_until_entered(int body, const Pose& before, const Pose& now, double depth,
+double ToolSurroundings::share_until_entered(std::span<const std::uint32_t> spheres, int body,
+                                             const Pose& before, const Pose& now, double depth,
                                              WorkBudget& work) {
     double limit = 1.0;
-    for (const std::uint32_t part : parts_) {
+    for (const std::uint32_t part : parts_of(body)) {
         const ScenePart& placed = scene_->parts()[part];
-        if (static_cast<int>(placed.body) != body) {
-            continue;
-        }
-        for (std::uint32_t i = 0; i < hoods_.size(); ++i) {
-            if (cannot_be_entered(i, depth)) {
-                continue;
+        work.spend(1 + static_cast<std::int64_t>(spheres.size()) / spheres_at_a_time);
+        for (const std::uint32_t i : spheres) {
+            if (work.is_gone()) {
+                break;
             }
             const Vec3 from = to_local(placed.previous, to_parent(before, shape_->spheres[i].center));
             const Vec3 to = to_local(placed.pose, to_parent(now, shape_->spheres[i].center));
@@ -52,11 +51,8 @@ ToolSurroundings::Entering ToolSurroundings::entered_by_form(int body, const Pos
                                                              double depth, WorkBudget& work) {
     Entering entering;
     const TouchBody& given = scene_->body(body);
-    for (const std::uint32_t part : parts_) {
+    for (const std::uint32_t part : parts_of(body)) {
         const ScenePart& placed = scene_->parts()[part];
-        if (static_cast<int>(placed.body) != body) {
-            continue;
-        }
         const TouchPart& former = given.former->parts[part - given.first_part];
         const DeformSweep sweep(*former.tree(), *placed.part->tree());
         for (std::uint32_t i = 0; i < hoods_.size(); ++i) {

@@ -85,11 +85,20 @@ bool ToolProxy::ride() {
         take_along(carries, 1.0);
     }
     bool has_room = true;
-    for (const int index : scene_->moved_bodies()) {
-        const double share = around_.share_until_entered(index, before, pose_, entered, work_);
-        if (share < 1.0) {
-            take_along(index, 1.0 - share);
-            has_room = has_room && around_.share_until_entered(index, before, pose_, lost, work_) == 1.0;
+    {  // However many move, half of the work is left for what gives, and for the tool's own way.
+        const WorkShare share_of_bodies(work_, work_.left() / 2);
+        std::span<const std::uint32_t> enterable = around_.enterable(entered);
+        for (const int index : scene_->moved_bodies()) {
+            if (enterable.empty() || work_.is_gone()) {
+                break;
+            }
+            const double share = around_.share_until_entered(enterable, index, before, pose_, entered, work_);
+            if (share < 1.0) {
+                take_along(index, 1.0 - share);
+                has_room = has_room && around_.share_until_entered(around_.enterable(lost), index, before,
+                                                                   pose_, lost, work_) == 1.0;
+                enterable = around_.enterable(entered);
+            }
         }
     }
     return ride_forms(taken) && has_room && taken <= farthest_ride * shape().reach;

@@ -45,11 +45,11 @@ RigidMotion motion_between(const Pose& from, const Pose& to) {
 ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::size_t max_parts)
     : shape_(std::move(shape)),
       skin_(skin_share * shape_->reach),
+      parts_(max_parts),
       hoods_(shape_->spheres.size()),
       room_(shape_->spheres.size(), unknown),
       near_(shape_->spheres.size()),
       bridges_(bridges_between(shape_->spheres)) {
-    parts_.reserve(max_parts);
     arms_.reserve(shape_->spheres.size());
     for (const ToolSphere& sphere : shape_->spheres) {
         arms_.push_back(glm::length(sphere.center));
@@ -73,7 +73,7 @@ void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, c
     is_first_ = true;
     const double near = shape_->reach * (1.0 + farthest_share) + way + skin_;
     double approach = 0.0;
-    parts_.clear();
+    parts_.clear(pose.position);
     const std::span<const ScenePart> parts = scene.parts();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const ScenePart& placed = parts[i];
@@ -84,7 +84,8 @@ void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, c
         const Vec3 apart = to_local(placed.pose, pose.position) - placed.part->center;
         const double gone = (body.moved ? body.moved_by : 0.0) + body.gave_by;
         if (glm::length(apart) - placed.part->radius <= near + gone) {
-            parts_.push_back(static_cast<std::uint32_t>(i));
+            parts_.add(static_cast<std::uint32_t>(i), to_parent(placed.pose, placed.part->center),
+                       placed.part->radius);
             approach = std::max(approach, gone);
         }
     }
@@ -99,7 +100,7 @@ void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, c
 }
 
 bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work, double depth) {
-    for (std::uint32_t i = 0; i < hoods_.size() && !parts_.empty(); ++i) {
+    for (std::uint32_t i = 0; i < hoods_.size() && !parts_.is_empty(); ++i) {
         const double least = -depth * shape_->spheres[i].radius;
         if (room_[i] > least) {
             continue;
@@ -112,25 +113,45 @@ bool ToolSurroundings::is_free(const Pose& pose, WorkBudget& work, double depth)
             return false;
         }
     }
-    const Vec3 inside = to_parent(pose, shape_->spheres.front().center);
-    return std::ranges::none_of(parts_, [&](std::uint32_t index) {
+    return parts_.is_empty() ||
+           (!is_inside(pose, work) && !is_between_spheres(pose, work) && !work.is_gone());
+}
+
+// Whether it is within a mesh that bounds a solid.
+bool ToolSurroundings::is_inside(const Pose& pose, WorkBudget& work) const {
+    const Vec3 point = to_parent(pose, shape_->spheres.front().center);
+    bool inside = false;
+    parts_.visit_within(point, 0.0, work, [&](std::uint32_t index) {
         const ScenePart& placed = scene_->parts()[index];
-        return (placed.part->closed &&
-                placed.part->tree()->winding(to_local(placed.pose, inside), work).inside()) ||
-               is_between_spheres(placed, pose, work) || work.is_gone();
+        inside = inside || (placed.part->closed && !work.is_gone() &&
+                            placed.part->tree()->winding(to_local(placed.pose, point), work).inside());
+    });
+    return inside;
+}
+
+// Whether a surface parts what the tool is made of, without meeting a sphere.
+bool ToolSurroundings::is_between_spheres(const Pose& pose, WorkBudget& work) const {
+    return std::ranges::any_of(bridges_, [&](const ToolBridge& bridge) {
+        const Vec3 from = to_parent(pose, shape_->spheres[bridge.first].center);
+        const Vec3 way = to_parent(pose, shape_->spheres[bridge.second].center) - from;
+        bool parted = work.is_gone();
+        parts_.visit_within(from + 0.5 * way, 0.5 * glm::length(way) + 2.0 * skin_, work,
+                            [&](std::uint32_t index) {
+                                const ScenePart& placed = scene_->parts()[index];
+                                const SphereWay swept{to_local(placed.pose, from),
+                                                      direction_to_local(placed.pose, way), skin_, arrival()};
+                                parted = parted || !sweep_surface(*placed.part, swept, 1.0, work).is_free();
+                            });
+        return parted;
     });
 }
 
-// Whether the surface parts what the tool is made of, without meeting a sphere.
-bool ToolSurroundings::is_between_spheres(const ScenePart& placed, const Pose& pose, WorkBudget& work) const {
-    const auto place_of = [&](std::uint32_t sphere) {
-        return to_local(placed.pose, to_parent(pose, shape_->spheres[sphere].center));
-    };
-    return std::ranges::any_of(bridges_, [&](const ToolBridge& bridge) {
-        const Vec3 from = place_of(bridge.first);
-        const Vec3 way = place_of(bridge.second) - from;
-        return !sweep_surface(*placed.part, {from, way, skin_, arrival()}, 1.0, work).is_free();
-    });
+// Those of a body: they stand in the order of their numbers.
+std::span<const std::uint32_t> ToolSurroundings::parts_of(int body) const {
+    const TouchBody& asked = scene_->body(body);
+    const std::span<const std::uint32_t> all = parts_.all();
+    const auto first = std::ranges::lower_bound(all, asked.first_part);
+    return {first, std::ranges::lower_bound(all, asked.first_part + asked.shape->parts.size())};
 }
 
 void ToolSurroundings::note_stop(const Stop& stop) {
@@ -164,12 +185,17 @@ double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, con
         return limit;
     }
     const double length = glm::distance(from, to);
-    for (const std::uint32_t part : parts_) {
+    const double reach = stop + length + skin_;
+    parts_.visit_within(from, reach, work, [&](std::uint32_t part) {
         const ScenePart& placed = scene_->parts()[part];
         const Vec3 start = to_local(placed.pose, from);
-        if (static_cast<int>(placed.body) == except ||
-            glm::distance(start, placed.part->center) - placed.part->radius > stop + length + skin_) {
-            continue;
+        const double to_ball = glm::distance(start, placed.part->center) - placed.part->radius;
+        if (static_cast<int>(placed.body) == except || to_ball > reach) {
+            return;
+        }
+        if (work.is_gone()) {
+            limit = length > 0.0 ? std::clamp((to_ball - stop) / length, 0.0, limit) : 0.0;
+            return;
         }
         const SphereWay swept{start, direction_to_local(placed.pose, to - from), stop, arrival};
         const Hit hit = sweep_surface(*placed.part, swept, limit, work);
@@ -177,7 +203,7 @@ double ToolSurroundings::sweep_sphere(std::uint32_t index, const Vec3& from, con
             stopped_by_ = {index, part, hit.triangle};
         }
         limit = std::min(limit, hit.is_free() ? limit : hit.t);
-    }
+    });
     return limit;
 }
 
@@ -211,7 +237,7 @@ double ToolSurroundings::free_share(const ToolWay& swing, WorkBudget& work, int 
     const std::span<const std::uint32_t> met = spheres_where(
         [&](std::size_t i) { return room_[i] <= way + turn * arms_[i] + strays(swing, turn, arms_[i]); });
     for (const bool is_near : {true, false}) {
-        for (std::size_t k = 0; k < met.size() && !parts_.empty(); ++k) {
+        for (std::size_t k = 0; k < met.size() && !parts_.is_empty(); ++k) {
             const std::uint32_t i = met[k];
             const double far = way + turn * arms_[i];
             const double stray = strays(swing, turn, arms_[i]);

@@ -13,6 +13,7 @@
 #include "core/geometry/deform_sweep.hpp"
 #include "core/haptics/contact.hpp"
 #include "core/tool/nearest_motion.hpp"
+#include "core/tool/part_balls.hpp"
 #include "core/tool/sphere_hood.hpp"
 #include "core/tool/tool_shape.hpp"
 
@@ -65,7 +66,7 @@ public:
     // Once a tick: the tool stands at `pose` and goes no farther than `way` (unit: meters).
     void begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way);
     void forget();
-    bool is_empty() const { return parts_.empty(); }
+    bool is_empty() const { return parts_.is_empty(); }
     // Whether the tool neither touches nor is inside anything, by more than this share of a sphere's radius.
     // False where the work is gone.
     bool is_free(const Pose& pose, WorkBudget& work, double depth = 0.0);
@@ -82,9 +83,14 @@ public:
         return free_share(steady_way(pose, motion), work, except);
     }
     double free_share(const ToolWay& way, WorkBudget& work, int except = -1);
+    // The spheres that bodies may have entered by more than this share of their radius. Until the tool moves.
+    std::span<const std::uint32_t> enterable(double depth) {
+        return spheres_where([&](std::size_t i) { return room_[i] <= -depth * shape_->spheres[i].radius; });
+    }
     // What of its way in this tick the body has gone when it is this share of a sphere's radius in the tool,
     // which went from `before` to `now`; 1: it is not.
-    double share_until_entered(int body, const Pose& before, const Pose& now, double depth, WorkBudget& work);
+    double share_until_entered(std::span<const std::uint32_t> spheres, int body, const Pose& before,
+                               const Pose& now, double depth, WorkBudget& work);
     // The same for a body that gives, between its two last forms, and how its surface goes on there until the
     // tick ends, in the world (unit: meters).
     struct Entering {
@@ -141,7 +147,9 @@ private:
     double sweep_sphere(std::uint32_t index, const Vec3& from, const Vec3& to, double sag, double limit,
                         int except, WorkBudget& work);
     bool has_stopped(std::uint32_t sphere, const HoodPlane& plane) const;
-    bool is_between_spheres(const ScenePart& placed, const Pose& pose, WorkBudget& work) const;
+    bool is_inside(const Pose& pose, WorkBudget& work) const;
+    bool is_between_spheres(const Pose& pose, WorkBudget& work) const;
+    std::span<const std::uint32_t> parts_of(int body) const;
     void note_stop(const Stop& stop);
     double rest(std::uint32_t sphere) const { return shape_->spheres[sphere].radius + skin_; }
     // How much farther than the motion's way and `turn` say a sphere may get before it has arrived.
@@ -158,7 +166,7 @@ private:
     double skin_;
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
-    std::vector<std::uint32_t> parts_;  // of the scene, near the tool in this tick
+    PartBalls parts_;  // of the scene, near the tool in this tick
     // One each a sphere.
     std::vector<SphereHood> hoods_;
     std::vector<double> arms_;         // from the tool's origin to the centre (unit: meters)
