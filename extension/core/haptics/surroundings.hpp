@@ -95,8 +95,8 @@ public:
     PassedBodies& passed() { return passed_; }
     const PassedBodies& passed() const { return passed_; }
 
-    // False where a surface is nearer to the centre than `room`, the sphere's radius at most, or the centre is
-    // inside a solid.
+    // False where a surface is nearer to the centre than `room`, the sphere's radius at most, or the centre
+    // is inside a solid.
     bool has_room(const Vec3& center, double room);
 
     // How far a sweep had best ask: about as far as the last ways were free (unit: meters).
