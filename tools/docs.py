@@ -19,7 +19,7 @@ CONTENTS = {
     "Research": ["tutorials/own_experiment", "experiments", "bundles", "teleoperation"],
     "Extend": ["tutorials/own_force_effect", "tutorials/own_driver", "wire_format"],
     "Reference": ["classes/index"],
-    "How it works": ["architecture", "proxy", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],
+    "How it works": ["architecture", "proxy", "proxy_steps", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],
     "Changes": ["changes"],
 }
 
