@@ -42,6 +42,18 @@ struct FloatPoint {
     FloatLanes x, y, z;
 };
 
+inline FloatLanes dot(const FloatPoint& a, const FloatPoint& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline FloatPoint cross(const FloatPoint& a, const FloatPoint& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+inline FloatPoint operator-(const FloatPoint& a, const FloatPoint& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
 inline FloatLanes splat_float(float v) {
     return FloatLanes{v, v, v, v, v, v, v, v};
 }

@@ -47,18 +47,6 @@ inline FloatPoint middle_of(const BoxNode& boxes) {
             (boxes.low[2] + boxes.high[2]) * half};
 }
 
-inline FloatLanes dot(const FloatPoint& a, const FloatPoint& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-inline FloatPoint cross(const FloatPoint& a, const FloatPoint& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-inline FloatPoint operator-(const FloatPoint& a, const FloatPoint& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 inline TurnedAxes axes_of(const TurnedNode& turned) {
     const FloatLanes unit = splat_float(0x1p-15f);
     const auto widened = [&](const ShortLanes& v) { return __builtin_convertvector(v, FloatLanes) * unit; };

@@ -59,8 +59,8 @@ struct CrowdHold {
     double slope = 0.0;  // by which the next step rises; above 0: in a crowd
     Vec3 place{0.0};     // of the sphere's centre, in the world (unit: meters)
     Vec3 step{0.0};      // that it was to go (unit: meters)
-    Vec3 pull{0.0};      // to the hand, then (unit: meters)
     Next next = Next::anew;
+    Vec3 pull{0.0};  // on: to the hand, when it was held (unit: meters)
 };
 
 // Everything of a proxy that its next move depends on, besides the scene.
@@ -110,7 +110,9 @@ public:
         touching_ = memory.touching;
         slide_speed_ = memory.slide_speed;
         crowd_ = memory.crowd;
-        crowd_.next = crowd_.next == CrowdHold::Next::on ? CrowdHold::Next::anew : crowd_.next;
+        if (crowd_.next == CrowdHold::Next::on) {  // how far it had come is not remembered
+            crowd_.next = CrowdHold::Next::anew;
+        }
     }
     // Whether dynamic or static friction holds it next, where another proxy knows.
     void set_sliding(bool sliding) { sliding_ = sliding; }
@@ -175,7 +177,7 @@ private:
     void ride_deformations(ProxyTick& tick);
     bool ride_deformation(int body);
     Hit advance(const Vec3& motion, FeatureId& stopped_by, int except = -1);
-    Hit advance(const ConstrainedStep& step, const Vec3& pull, Descent& descent, FeatureId& stopped_by);
+    Hit advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by);
     int carrier() const;
     bool fly(const Vec3& hand);
     void descend(const Vec3& hand, double given_way, ProxyTick& tick);
@@ -199,8 +201,7 @@ private:
     ConstrainedStep plan_in_share(const Vec3& pull, Descent& descent);
     void step_over_crowd(ConstrainedStep& step, const Vec3& pull, const Descent& descent);
     bool is_asked_again(const ConstrainedStep& step, const CrowdHold& crowd) const;
-    Hit sweep_in_share(const ConstrainedStep& step, const Vec3& pull, Descent& descent,
-                       FeatureId& stopped_by);
+    Hit sweep_in_share(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by);
     void go_on(const Vec3& pull, Descent& descent);
     void keep_crowd(const Descent& descent, double way, bool is_unfinished);
     bool lift(bool strays);

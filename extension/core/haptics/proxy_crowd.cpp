@@ -97,8 +97,7 @@ bool Proxy::is_asked_again(const ConstrainedStep& step, const CrowdHold& crowd) 
 // that is left. Where it leads nowhere it is a crowd that stands in the way: the next step rises, and more
 // steeply each time. So it does where it is stopped by what a full list of contacts leaves out, or where half
 // of the work has led nowhere. A step that takes little again has left the crowd.
-Hit Proxy::sweep_in_share(const ConstrainedStep& step, const Vec3& pull, Descent& descent,
-                          FeatureId& stopped_by) {
+Hit Proxy::sweep_in_share(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
     WorkBudget& work = surroundings_.work();
     const Vec3 before = position_;
     const std::int64_t left = work.left();
@@ -112,7 +111,7 @@ Hit Proxy::sweep_in_share(const ConstrainedStep& step, const Vec3& pull, Descent
     };
     if (is_used_up && !hit.complete && leads_nowhere_from(before)) {
         descent.crowd = {std::clamp(steeper * descent.crowd.slope, least_slope, max_slope), position_,
-                         step.motion, pull};
+                         step.motion};
         long_sweep_ = {stopped_by.part};
     } else if (hit.is_free()) {
         const bool is_left = given - work.left() < question_share() / share_out_of_crowd;
@@ -163,6 +162,7 @@ void Proxy::keep_crowd(const Descent& descent, double way, bool is_unfinished) {
     }
     if (was_steepest) {
         crowd_.next = CrowdHold::Next::on;
+        crowd_.pull = hand_ - position_;
     } else {
         crowd_.slope = std::min(max_slope, steeper * crowd_.slope);
     }

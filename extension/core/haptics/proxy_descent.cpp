@@ -84,7 +84,7 @@ bool Proxy::look_around(Descent& descent) {
 // Nothing is asked where the contacts tell already: a straight way that stays in front of their planes meets
 // none of them, and one no longer than what is left out by them is above rest meets nothing else. Covered
 // ones are asked as well: what stands for them does so at this place.
-Hit Proxy::advance(const ConstrainedStep& step, const Vec3& pull, Descent& descent, FeatureId& stopped_by) {
+Hit Proxy::advance(const ConstrainedStep& step, Descent& descent, FeatureId& stopped_by) {
     const double length = glm::length(step.motion);
     if (contacts_hold_ && length <= surroundings_.unseen_gap() &&
         stays_in_front_of_all(step.motion, contacts_, tolerances().same)) {
@@ -92,7 +92,7 @@ Hit Proxy::advance(const ConstrainedStep& step, const Vec3& pull, Descent& desce
         surroundings_.travelled(length);
         return {};
     }
-    return sweep_in_share(step, pull, descent, stopped_by);
+    return sweep_in_share(step, descent, stopped_by);
 }
 
 // Goes where the step leads, and keeps what that shows for the next one.
@@ -102,7 +102,7 @@ Hit Proxy::take(ConstrainedStep& step, const Vec3& pull, Descent& descent) {
     const Vec3 before = position_;
     const double slope = descent.crowd.slope;
     FeatureId stopped_by;
-    const Hit hit = advance(step, pull, descent, stopped_by);
+    const Hit hit = advance(step, descent, stopped_by);
     const double length = glm::distance(before, position_);
     // Where the work has ended before it moved, they are still those at its place.
     const bool is_stopper_known = hit.found || hit.triangle != Hit::no_triangle;

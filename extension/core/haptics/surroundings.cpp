@@ -152,19 +152,9 @@ SphereWay Surroundings::way_in(std::uint32_t part, const Vec3& center, const Vec
             tolerances().arrival};
 }
 
-// `first`: what ends the way so far. Where the work is gone, a part is as far away as is already known.
+// `first`: what ends the way so far.
 void Surroundings::sweep_part(std::uint32_t index, const Vec3& center, const Vec3& motion, Hit& first,
                               FeatureId& stopped_by) {
-    const double length = glm::length(motion);
-    if (!counts(index, first.t * length, -1)) {
-        return;
-    }
-    if (work_.is_gone()) {
-        first = {length > 0.0 ? std::min(first.t, broad_phase_.clearance(index) / length) : 0.0, false,
-                 false};
-        stopped_by = {index};
-        return;
-    }
     const TouchPart& part = *scene_->parts()[index].part;
     const SphereWay way = way_in(index, center, motion);
     const Hit hit = part.tree() ? sweep_tree(index, way, first.t) : sweep_surface(part, way, first.t, work_);
@@ -175,50 +165,63 @@ void Surroundings::sweep_part(std::uint32_t index, const Vec3& center, const Vec
     }
 }
 
-// What ends the way among those that are not near: nothing, unless the work was gone before they were.
-Hit Surroundings::begin_sweep(double length, const Vec3& center) {
-    bring_near(length, center);
-    const double far = broad_phase_.far_clearance();
-    return far >= length ? Hit{} : Hit{std::max(0.0, far / length), false, false};
-}
-
-Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except) {
-    Hit first = begin_sweep(glm::length(motion), center);
-    for (const std::uint32_t part : broad_phase_.near()) {
-        if (static_cast<int>(scene_->parts()[part].body) != except) {
+// Through the parts that may be met within a length, as `may_be_met` says. With the work gone a part is as
+// far away as is already known, and one that is not near as the broad phase knows.
+template <class MayBeMet>
+Hit Surroundings::sweep_parts(const Vec3& center, const Vec3& motion, FeatureId& stopped_by,
+                              MayBeMet&& may_be_met) {
+    const double length = glm::length(motion);
+    const auto near = bring_near(length, center);
+    Hit first;
+    const auto end_at = [&](double distance) {
+        first = {length > 0.0 ? std::clamp(distance / length, 0.0, first.t) : 0.0, false, false};
+    };
+    if (const double far = broad_phase_.far_clearance(); far < length) {
+        end_at(far);
+    }
+    for (const std::uint32_t part : near) {
+        if (!may_be_met(part, first.t * length)) {
+            continue;
+        }
+        if (work_.is_gone()) {
+            end_at(broad_phase_.clearance(part));
+            stopped_by = {part};
+        } else {
             sweep_part(part, center, motion, first, stopped_by);
         }
     }
     return first;
 }
 
-Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sweep, FeatureId& stopped_by) {
-    const TouchPart* const crowd = scene_->parts()[sweep.part].part;
-    if (!crowd || !crowd->tree()) {
-        sweep.is_done = true;
-        return this->sweep(center, motion, stopped_by);
+Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except) {
+    return sweep_parts(center, motion, stopped_by,
+                       [&](std::uint32_t part, double length) { return counts(part, length, except); });
+}
+
+Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& crowd, FeatureId& stopped_by) {
+    const TouchPart* const dense = scene_->parts()[crowd.part].part;
+    if (!dense || !dense->tree()) {
+        crowd.is_done = true;
+        return sweep(center, motion, stopped_by);
     }
-    Hit first = begin_sweep(glm::length(motion), center);
-    for (const std::uint32_t part : broad_phase_.near()) {
-        if (part != sweep.part) {
-            sweep_part(part, center, motion, first, stopped_by);
-        }
+    const Hit first = sweep_parts(center, motion, stopped_by, [&](std::uint32_t part, double length) {
+        return part != crowd.part && counts(part, length, -1);
+    });
+    const TriangleTree& tree = tree_of(crowd.part);
+    if (crowd.lineage != tree.lineage()) {
+        crowd = {crowd.part, tree.lineage()};
     }
-    const TriangleTree& tree = tree_of(sweep.part);
-    if (sweep.lineage != tree.lineage()) {
-        sweep = {sweep.part, tree.lineage()};
-    }
-    Hit& hit = sweep.progress.hit;
+    Hit& hit = crowd.progress.hit;
     if (first.t < hit.t) {
         hit = {};
         hit.t = first.t;
     }
-    sweep.is_done = tree.sweep_on(way_in(sweep.part, center, motion), sweep.progress, work_);
-    if (!sweep.is_done) {
+    crowd.is_done = tree.sweep_on(way_in(crowd.part, center, motion), crowd.progress, work_);
+    if (!crowd.is_done) {
         return {0.0, false, false};
     }
     if (hit.found) {
-        stopped_by = {sweep.part, slot_in_whole(sweep.part, tree, hit.triangle)};
+        stopped_by = {crowd.part, slot_in_whole(crowd.part, tree, hit.triangle)};
         return hit;
     }
     return first;

@@ -74,7 +74,7 @@ public:
     // that causes the motion. `stopped_by` is what the way ends at, where something does.
     Hit sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except = -1);
     // The same over several ticks, as long as nothing moves: nothing is known until it is done.
-    Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& sweep, FeatureId& stopped_by);
+    Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& crowd, FeatureId& stopped_by);
     // A feature that has just held the sphere back or stopped it counts as a contact in what is found next,
     // as far above it as the sphere may be: in a groove it is the other wall. What stops the sphere at once,
     // although no contact does, counts until the sphere has moved; false where it did so already.
@@ -134,7 +134,6 @@ private:
         return &tree == scene_->parts()[part].part->tree() ? slot : tree.triangle_at(slot);
     }
     std::span<const std::uint32_t> bring_near(double length, const Vec3& center);
-    Hit begin_sweep(double length, const Vec3& center);
     bool has_room_beside(std::uint32_t part, const Vec3& center, double room);
     bool fits(std::uint32_t part, const Vec3& center);
     bool fits_everywhere(const Vec3& center);
@@ -142,6 +141,8 @@ private:
     double wanted_margin() const;
     PackMemory* memory_around(std::uint32_t part, const TriangleTree& tree, const Vec3& local, double way);
     SphereWay way_in(std::uint32_t part, const Vec3& center, const Vec3& motion) const;
+    template <class MayBeMet>
+    Hit sweep_parts(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, MayBeMet&& may_be_met);
     void sweep_part(std::uint32_t part, const Vec3& center, const Vec3& motion, Hit& first,
                     FeatureId& stopped_by);
     Hit sweep_tree(std::uint32_t part, const SphereWay& way, double limit);

@@ -1,5 +1,5 @@
-// The balls around the parts of a scene that are near a tool, eight side by
-// side: hundreds of spheres ask them in every step.
+// The balls around the parts of a scene that are near a tool, eight side by side: hundreds of spheres ask
+// them in every step.
 #pragma once
 
 #include <bit>
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/turned_node.hpp"
+#include "core/geometry/box_node.hpp"
 #include "core/geometry/work.hpp"
 
 namespace tactus {
@@ -21,15 +21,13 @@ public:
         groups_.reserve(max_parts / node_width + 1);
     }
 
-    // `origin`: where they will be asked from, about (in the world, unit:
-    // meters).
+    // `origin`: where they will be asked from, about (in the world, unit: meters).
     void clear(const Vec3& origin) {
         origin_ = origin;
         parts_.clear();
         groups_.clear();
     }
-    // In the order of their numbers. `center` in the world (unit: meters); the
-    // radius may be infinite.
+    // In the order of their numbers. `center` in the world (unit: meters); the radius may be infinite.
     void add(std::uint32_t part, const Vec3& center, double radius) {
         const std::size_t lane = parts_.size() % node_width;
         if (lane == 0) {
@@ -48,9 +46,8 @@ public:
     bool is_empty() const { return parts_.empty(); }
     std::span<const std::uint32_t> all() const { return parts_; }
 
-    // Calls visit(part), in the order in which they were added, for each whose
-    // ball is within `reach` of the point, and for some that are not by a
-    // millionth.
+    // Calls visit(part), in the order in which they were added, for each whose ball is within `reach` of the
+    // point, and for some that are not by a millionth.
     template <class Visit>
     void visit_within(const Vec3& point, double reach, WorkBudget& work, Visit&& visit) const {
         constexpr std::size_t groups_a_unit = 4;
@@ -73,8 +70,7 @@ private:
         FloatLanes radius;
     };
 
-    // By more than what single precision loses of it, of the place, and of their
-    // squares.
+    // By more than what single precision loses of it, of the place, and of their squares.
     static double widened(double length, const Vec3& place) {
         return length + 1e-6 * (length + glm::length(place));
     }

@@ -154,6 +154,9 @@ private:
     void go_free(const RigidMotion& motion, int except);
     double farthest_to_go() const;
     bool ride();
+    void take_along(const RigidMotion& motion, int body, double& taken);
+    RigidMotion way_with(int body) const;
+    bool ride_bodies(const Pose& before, double& taken);
     bool ride_forms(double& taken);
     RigidMotion way_of_form(int body) const;
     std::span<const ToolTouch>::iterator hardest_touch() const;

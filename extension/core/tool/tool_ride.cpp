@@ -66,42 +66,51 @@ int ToolProxy::carrier() const {
     return hardest == touching().end() ? -1 : hardest->body;
 }
 
+// As far as there is room, and no farther than a tick may: `taken` is how far all together have led.
+void ToolProxy::take_along(const RigidMotion& motion, int body, double& taken) {
+    taken += around_.farthest_way(motion);
+    if (taken <= farthest_ride * shape().reach) {
+        go_free(motion, body);
+    }
+}
+
+// The tool's own, if it went with the body since the last tick.
+RigidMotion ToolProxy::way_with(int index) const {
+    const TouchBody& body = scene_->body(index);
+    return motion_between(pose_, compose(displacement(body.previous, body.pose), pose_));
+}
+
 // What has moved takes the tool along: all the way, as far as there is room, where it rests on it; and what
 // is left of the way where it would enter its spheres so far that the next step could lose them. False where
 // something else leaves no room for that.
 bool ToolProxy::ride() {
     const Pose before = pose_;
     double taken = 0.0;
-    const auto take_along = [&](int index, double share) {
-        const TouchBody& body = scene_->body(index);
-        const Pose there = compose(displacement(body.previous, body.pose), pose_);
-        const RigidMotion motion = motion_between(pose_, there) * share;
-        taken += around_.farthest_way(motion);
-        if (taken <= farthest_ride * shape().reach) {
-            go_free(motion, index);
-        }
-    };
     if (const int carries = carrier(); carries >= 0 && scene_->body(carries).moved) {
-        take_along(carries, 1.0);
+        take_along(way_with(carries), carries, taken);
     }
+    const bool has_room = ride_bodies(before, taken);
+    return ride_forms(taken) && has_room && taken <= farthest_ride * shape().reach;
+}
+
+// However many move, half of the work is left for what gives, and for the tool's own way.
+bool ToolProxy::ride_bodies(const Pose& before, double& taken) {
+    const WorkShare half(work_, work_.left() / 2);
     bool has_room = true;
-    {  // However many move, half of the work is left for what gives, and for the tool's own way.
-        const WorkShare share_of_bodies(work_, work_.left() / 2);
-        std::span<const std::uint32_t> enterable = around_.enterable(entered);
-        for (const int index : scene_->moved_bodies()) {
-            if (enterable.empty() || work_.is_gone()) {
-                break;
-            }
-            const double share = around_.share_until_entered(enterable, index, before, pose_, entered, work_);
-            if (share < 1.0) {
-                take_along(index, 1.0 - share);
-                has_room = has_room && around_.share_until_entered(around_.enterable(lost), index, before,
-                                                                   pose_, lost, work_) == 1.0;
-                enterable = around_.enterable(entered);
-            }
+    std::span<const std::uint32_t> enterable = around_.enterable(entered);
+    for (const int index : scene_->moved_bodies()) {
+        if (enterable.empty() || work_.is_gone()) {
+            break;
+        }
+        const double share = around_.share_until_entered(enterable, index, before, pose_, entered, work_);
+        if (share < 1.0) {
+            take_along(way_with(index) * (1.0 - share), index, taken);
+            has_room = has_room && around_.share_until_entered(around_.enterable(lost), index, before, pose_,
+                                                               lost, work_) == 1.0;
+            enterable = around_.enterable(entered);
         }
     }
-    return ride_forms(taken) && has_room && taken <= farthest_ride * shape().reach;
+    return has_room;
 }
 
 // The rigid motion nearest to how the surface has gone under the tool, by what each contact presses with.
@@ -147,12 +156,6 @@ RigidMotion ToolProxy::way_of_form(int body) const {
 // What gives carries a tool that rests on it, and takes it along where it would enter its spheres too far.
 bool ToolProxy::ride_forms(double& taken) {
     const Pose before = pose_;
-    const auto take_along = [&](const RigidMotion& motion, int index) {
-        taken += around_.farthest_way(motion);
-        if (motion.way != Vec3(0.0) && taken <= farthest_ride * shape().reach) {
-            go_free(motion, index);
-        }
-    };
     bool has_room = true;
     for (const int index : scene_->deformed_bodies()) {
         const TouchBody& body = scene_->body(index);
@@ -160,13 +163,15 @@ bool ToolProxy::ride_forms(double& taken) {
             continue;
         }
         if (const RigidMotion rests = way_of_form(index); rests.way != Vec3(0.0)) {
-            take_along(rests, index);
+            take_along(rests, index, taken);
         }
         double share = 0.0;
         for (int i = 0; i < takes_along && share < 1.0; ++i) {
             const auto entering = around_.entered_by_form(index, before, pose_, entered, work_);
             share = entering.share;
-            take_along({entering.way, Vec3(0.0)}, index);
+            if (entering.way != Vec3(0.0)) {
+                take_along({entering.way, Vec3(0.0)}, index, taken);
+            }
         }
         has_room = has_room &&
                    (share == 1.0 || around_.entered_by_form(index, before, pose_, lost, work_).share == 1.0);

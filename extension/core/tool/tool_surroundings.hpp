@@ -85,7 +85,8 @@ public:
     double free_share(const ToolWay& way, WorkBudget& work, int except = -1);
     // The spheres that bodies may have entered by more than this share of their radius. Until the tool moves.
     std::span<const std::uint32_t> enterable(double depth) {
-        return spheres_where([&](std::size_t i) { return room_[i] <= -depth * shape_->spheres[i].radius; });
+        return spheres_where(
+            [&](std::size_t i) { return !cannot_be_entered(static_cast<std::uint32_t>(i), depth); });
     }
     // What of its way in this tick the body has gone when it is this share of a sphere's radius in the tool,
     // which went from `before` to `now`; 1: it is not.
