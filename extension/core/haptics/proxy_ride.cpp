@@ -101,36 +101,12 @@ private:
 
 }  // namespace
 
-// Whether the force may change although neither hand nor bodies have moved.
-bool Proxy::take_in_jumps() {
-    const bool missed = scene_->ticks() > std::exchange(scene_ticks_, scene_->ticks()) + 1;
-    const bool other_sphere =
-        settings_.radius != settled_.radius || settings_.mask != settled_.mask || missed;
-    const std::uint64_t since = std::exchange(revision_, scene_->revision());
-    const bool other_material =
-        std::exchange(material_changes_, scene_->material_changes()) != scene_->material_changes();
-    settled_ = settings_;
-    if (!other_sphere && since == revision_) {
-        return other_material;
-    }
-    if (present_) {
-        let_go(let_out(*scene_, since, other_sphere, sphere(), surroundings_.passed(), surroundings_.work()));
-    }
-    return other_sphere || other_material || !scene_->only_gives_since(since);
-}
-
-// Where more bodies stand in the way than can be passed one by one, nothing is touched until there is room.
-void Proxy::let_go(bool every) {
-    present_ = present_ && every;
-    contacts_hold_ = false;
-}
-
 // The moving body that the proxy rests on most.
 int Proxy::carrier() const {
     int body = -1;
     double max_pressure = 0.0;
     for (const Touch& contact : touching()) {
-        if (contact.pressure > max_pressure && scene_->body(contact.body).moved) {
+        if (contact.pressure > max_pressure && scene().body(contact.body).moved) {
             body = contact.body;
             max_pressure = contact.pressure;
         }
@@ -141,24 +117,24 @@ int Proxy::carrier() const {
 // The body's triangles on their way since the last tick, where the body was then. False where they leave the
 // proxy no room.
 bool Proxy::ride_deformation(int index) {
-    const TouchBody& body = scene_->body(index);
+    const TouchBody& body = scene().body(index);
     const bool rests = std::ranges::any_of(touching(), [&](const Touch& c) { return c.body == index; });
     for (std::size_t i = 0; i < body.shape->parts.size(); ++i) {
         const TouchPart& from = body.former->parts[i];
         const TouchPart& to = body.shape->parts[i];
         const Pose placed = compose(body.previous, to.pose);
-        const Vec3 local = to_local(placed, position_);
-        if (glm::length(local - to.center) > std::max(from.radius, to.radius) + 1.1 * settings_.radius) {
+        const Vec3 local = to_local(placed, sphere_.position);
+        if (glm::length(local - to.center) > std::max(from.radius, to.radius) + 1.1 * settings().radius) {
             continue;
         }
         const DeformSweep sweep(*from.tree(), *to.tree());
         const auto advanced = [&](const Vec3& motion) {
-            const Vec3 before = position_;
+            const Vec3 before = sphere_.position;
             FeatureId stopped_by;
-            advance(direction_to_parent(placed, motion), stopped_by, index);
-            return direction_to_local(placed, position_ - before);
+            sphere_.advance(direction_to_parent(placed, motion), stopped_by, index);
+            return direction_to_local(placed, sphere_.position - before);
         };
-        DeformRide ride(sweep, local, settings_.radius, tolerances().same, surroundings_.work());
+        DeformRide ride(sweep, local, settings().radius, sphere_.tolerances().same, sphere_.work());
         if (!ride.go(rests, advanced)) {
             return false;
         }
@@ -167,13 +143,12 @@ bool Proxy::ride_deformation(int index) {
 }
 
 void Proxy::ride_deformations(ProxyTick& tick) {
-    for (const int index : scene_->deformed_bodies()) {
-        const TouchBody& body = scene_->body(index);
-        PassedBodies& passed = surroundings_.passed();
-        if ((body.layer & settings_.mask) != 0 && !passed.contains(index) &&
+    for (const int index : scene().deformed_bodies()) {
+        const TouchBody& body = scene().body(index);
+        if ((body.layer & settings().mask) != 0 && !passed().contains(index) &&
             is_deformation(*body.former, *body.shape) && !ride_deformation(index)) {
             tick.status |= proxy_squeezed;
-            let_go(passed.pass(index, PassedBecause::squeezes));
+            let_go(passed().pass(index, PassedBecause::squeezes));
         }
     }
 }
@@ -185,34 +160,35 @@ void Proxy::ride_bodies(ProxyTick& tick) {
     FeatureId stopped_by;
     const int carried_by = carrier();
     if (carried_by >= 0) {
-        const TouchBody& body = scene_->body(carried_by);
-        const Vec3 carried = to_parent(body.pose, to_local(body.previous, position_));
-        free = advance(carried - position_, stopped_by, carried_by).is_free();
+        const TouchBody& body = scene().body(carried_by);
+        const Vec3 carried = to_parent(body.pose, to_local(body.previous, sphere_.position));
+        free = sphere_.advance(carried - sphere_.position, stopped_by, carried_by).is_free();
     }
     bool squeezed = !free;
     Surroundings::Push push;
-    for (std::size_t from = 0; surroundings_.next_push(from, position_, free ? carried_by : -1, push);) {
-        free = advance(push.displacement, stopped_by, push.body).is_free();
+    for (std::size_t from = 0;
+         sphere_.surroundings.next_push(from, sphere_.position, free ? carried_by : -1, push);) {
+        free = sphere_.advance(push.displacement, stopped_by, push.body).is_free();
         squeezed = squeezed || !free;
     }
     if (squeezed) {
-        surroundings_.doubt();
+        sphere_.surroundings.doubt();
         tick.status |= proxy_squeezed;
-        const std::size_t before = surroundings_.passed().count();
-        let_go(let_out_of_squeeze(*scene_, sphere(), surroundings_.passed(), surroundings_.work()));
-        tick.jumped = tick.jumped || surroundings_.passed().count() != before;
+        const std::size_t before = passed().count();
+        let_go(let_out_of_squeeze(scene(), touching_sphere(), passed(), sphere_.work()));
+        tick.jumped = tick.jumped || passed().count() != before;
     }
 }
 
 // With all that has moved since the last tick. Returns how far that has led (unit: meters).
 double Proxy::ride_along(ProxyTick& tick) {
-    const Vec3 before = position_;
-    surroundings_.make_sure(position_);
+    const Vec3 before = sphere_.position;
+    sphere_.surroundings.make_sure(sphere_.position);
     ride_deformations(tick);
-    if (!scene_->moved_bodies().empty()) {
+    if (!scene().moved_bodies().empty()) {
         ride_bodies(tick);
     }
-    return glm::distance(position_, before);
+    return glm::distance(sphere_.position, before);
 }
 
 }  // namespace tactus

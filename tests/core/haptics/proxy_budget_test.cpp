@@ -147,7 +147,7 @@ TEST(ProxyBudget, FacetAfterFacetContactsAreNotSoughtAnew) {
 }
 
 // A step that the next facet stops was planned without it: what it promised does not end the trust in bent
-// steps (see Proxy::doubt).
+// steps (see StepTrust::doubt).
 TEST(ProxyBudget, WhatAStoppedStepPromisedIsNotHeldAgainstTheNext) {
     int unfinished = 0, touching = 0;
     for (const double radius : {0.05, 0.1, 0.2}) {

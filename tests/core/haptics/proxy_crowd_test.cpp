@@ -1,5 +1,5 @@
 // Where thousands of triangles are about as near as the one that is touched, the proxy still goes where it
-// may: see proxy_crowd.cpp.
+// may: see crowd.hpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
