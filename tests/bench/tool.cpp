@@ -12,6 +12,7 @@
 #include "shared/stack_figures.hpp"
 #include "shared/tool_figures.hpp"
 #include "shared/torsion_figures.hpp"
+#include "tool/among.hpp"
 
 namespace {
 
@@ -249,6 +250,9 @@ int main(int count, char** arguments) {
     }
     if (is_chosen("soft", only)) {
         report_soft(report, presses);
+    }
+    if (is_chosen("among", only, false)) {
+        tactus::bench::measure_among({.only = only}, report);
     }
     if (is_chosen("rough_on_rough", only)) {
         report_rough(report, ticks);

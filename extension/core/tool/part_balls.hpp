@@ -50,8 +50,8 @@ public:
     // point, and for some that are not by a millionth.
     template <class Visit>
     void visit_within(const Vec3& point, double reach, WorkBudget& work, Visit&& visit) const {
-        constexpr std::size_t groups_a_unit = 4;
-        work.spend(static_cast<std::int64_t>(groups_.size() / groups_a_unit));
+        constexpr std::size_t groups_a_unit = 8;
+        work.spend(static_cast<std::int64_t>((groups_.size() + groups_a_unit - 1) / groups_a_unit));
         const Vec3 apart = point - origin_;
         const FloatPoint at = to_float_point(apart);
         const FloatLanes room = splat_float(static_cast<float>(widened(reach, apart)));

@@ -6,6 +6,21 @@
 
 namespace tactus {
 
+// The spheres ask the parts, eight at a time: hundreds of both take some microseconds. A part that enters a
+// sphere in this tick stands no farther from it now than both have gone.
+void ToolSurroundings::find_entering(std::span<const std::uint32_t> spheres, const Pose& before,
+                                     const Pose& now, double depth, WorkBudget& work) {
+    std::ranges::fill(may_have_entered_, std::uint8_t{0});
+    const double gone = farthest_way(motion_between(before, now));
+    for (std::size_t i = 0; i < spheres.size() && !work.is_gone(); ++i) {
+        const ToolSphere& sphere = shape_->spheres[spheres[i]];
+        const double reach = (1.0 - depth) * sphere.radius + gone + skin_;
+        entering_.visit_within(to_parent(now, sphere.center), reach, work, [&](std::uint32_t part) {
+            may_have_entered_[scene_->body(static_cast<int>(scene_->parts()[part].body)).first_part] = 1;
+        });
+    }
+}
+
 double ToolSurroundings::share_until_entered(std::span<const std::uint32_t> spheres, int body,
                                              const Pose& before, const Pose& now, double depth,
                                              WorkBudget& work) {

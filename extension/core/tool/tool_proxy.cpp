@@ -169,7 +169,7 @@ bool ToolProxy::begin(const TouchScene& scene, const Pose& given_hand, ToolTick&
     const bool other_material =
         std::exchange(material_changes_, scene.material_changes()) != scene.material_changes();
     tick.jumped = std::exchange(is_changed_, false) || other_scene || other_material;
-    around_.begin_tick(scene, settings_.mask, pose_, farthest_to_go());
+    around_.begin_tick(scene, settings_.mask, pose_, farthest_to_go(), farthest_ride * shape().reach);
     if ((other_scene && is_entered()) || !ride()) {
         tick = appear(hand);
         tick.status |= tool_squeezed;

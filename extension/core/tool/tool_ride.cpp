@@ -93,24 +93,36 @@ bool ToolProxy::ride() {
     return ride_forms(taken) && has_room && taken <= farthest_ride * shape().reach;
 }
 
-// However many move, half of the work is left for what gives, and for the tool's own way.
+// However many move, half of the work is left for what gives, and for the tool's own way. What could not be
+// asked may have gone anywhere: the tool has no room then, either.
 bool ToolProxy::ride_bodies(const Pose& before, double& taken) {
+    if (scene_->moved_bodies().empty()) {
+        return true;
+    }
     const WorkShare half(work_, work_.left() / 2);
     bool has_room = true;
-    std::span<const std::uint32_t> enterable = around_.enterable(entered);
+    std::span<const std::uint32_t> enterable;
+    const auto look = [&] {
+        enterable = around_.enterable(entered);
+        around_.find_entering(enterable, before, pose_, entered, work_);
+    };
+    look();
     for (const int index : scene_->moved_bodies()) {
         if (enterable.empty() || work_.is_gone()) {
             break;
+        }
+        if (!around_.may_have_entered(index)) {
+            continue;
         }
         const double share = around_.share_until_entered(enterable, index, before, pose_, entered, work_);
         if (share < 1.0) {
             take_along(way_with(index) * (1.0 - share), index, taken);
             has_room = has_room && around_.share_until_entered(around_.enterable(lost), index, before, pose_,
                                                                lost, work_) == 1.0;
-            enterable = around_.enterable(entered);
+            look();
         }
     }
-    return has_room;
+    return has_room && !work_.is_gone();
 }
 
 // The rigid motion nearest to how the surface has gone under the tool, by what each contact presses with.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
@@ -46,14 +47,22 @@ ToolSurroundings::ToolSurroundings(std::shared_ptr<const ToolShape> shape, std::
     : shape_(std::move(shape)),
       skin_(skin_share * shape_->reach),
       parts_(max_parts),
+      entering_(max_parts),
       hoods_(shape_->spheres.size()),
       room_(shape_->spheres.size(), unknown),
       near_(shape_->spheres.size()),
+      may_have_entered_(max_parts),
       bridges_(bridges_between(shape_->spheres)) {
     arms_.reserve(shape_->spheres.size());
     for (const ToolSphere& sphere : shape_->spheres) {
         arms_.push_back(glm::length(sphere.center));
+        low_ = glm::min(low_, sphere.center - sphere.radius);
+        high_ = glm::max(high_, sphere.center + sphere.radius);
     }
+}
+
+double ToolSurroundings::distance_outside_box(const Vec3& local) const {
+    return glm::distance(local, glm::clamp(local, low_, high_));
 }
 
 double ToolSurroundings::way_of(const RigidMotion& motion, double arm) {
@@ -67,13 +76,15 @@ void ToolSurroundings::forget() {
     }
 }
 
-void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way) {
+void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way,
+                                  double ride) {
     scene_ = &scene;
     stop_count_ = 0;
     is_first_ = true;
-    const double near = shape_->reach * (1.0 + farthest_share) + way + skin_;
+    const double beyond = farthest_share * shape_->reach + way + skin_;
     double approach = 0.0;
     parts_.clear(pose.position);
+    entering_.clear(pose.position);
     const std::span<const ScenePart> parts = scene.parts();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const ScenePart& placed = parts[i];
@@ -81,12 +92,19 @@ void ToolSurroundings::begin_tick(const TouchScene& scene, std::uint32_t mask, c
             continue;
         }
         const TouchBody& body = scene.body(static_cast<int>(placed.body));
-        const Vec3 apart = to_local(placed.pose, pose.position) - placed.part->center;
+        const Vec3 center = to_parent(placed.pose, placed.part->center);
         const double gone = (body.moved ? body.moved_by : 0.0) + body.gave_by;
-        if (glm::length(apart) - placed.part->radius <= near + gone) {
-            parts_.add(static_cast<std::uint32_t>(i), to_parent(placed.pose, placed.part->center),
-                       placed.part->radius);
+        const double ball = placed.part->radius + gone;
+        if (glm::distance(center, pose.position) > shape_->reach + beyond + ball) {
+            continue;
+        }
+        const double apart = distance_outside_box(to_local(pose, center)) - ball;
+        if (apart <= beyond) {
+            parts_.add(static_cast<std::uint32_t>(i), center, ball);
             approach = std::max(approach, gone);
+        }
+        if (body.moved && apart <= ride + skin_) {
+            entering_.add(static_cast<std::uint32_t>(i), center, ball);
         }
     }
     if (!scene.only_gives_since(std::exchange(revision_, scene.revision()))) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -63,8 +64,10 @@ public:
     // How far above surfaces the tool rests (unit: meters).
     double skin() const { return skin_; }
 
-    // Once a tick: the tool stands at `pose` and goes no farther than `way` (unit: meters).
-    void begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way);
+    // Once a tick: the tool stands at `pose` and goes no farther than `way`, of which bodies take it along by
+    // no more than `ride` (unit: meters).
+    void begin_tick(const TouchScene& scene, std::uint32_t mask, const Pose& pose, double way,
+                    double ride = 0.0);
     void forget();
     bool is_empty() const { return parts_.is_empty(); }
     // Whether the tool neither touches nor is inside anything, by more than this share of a sphere's radius.
@@ -88,6 +91,11 @@ public:
         return spheres_where(
             [&](std::size_t i) { return !cannot_be_entered(static_cast<std::uint32_t>(i), depth); });
     }
+    // Which bodies may have entered these spheres by that share on their way in this tick, while the tool
+    // went from `before` to `now`. Until the next call, or where the work is gone none but those found.
+    void find_entering(std::span<const std::uint32_t> spheres, const Pose& before, const Pose& now,
+                       double depth, WorkBudget& work);
+    bool may_have_entered(int body) const { return may_have_entered_[scene_->body(body).first_part] != 0; }
     // What of its way in this tick the body has gone when it is this share of a sphere's radius in the tool,
     // which went from `before` to `now`; 1: it is not.
     double share_until_entered(std::span<const std::uint32_t> spheres, int body, const Pose& before,
@@ -125,6 +133,8 @@ private:
     };
 
     static double way_of(const RigidMotion& motion, double arm);
+    // Of a point in the tool's frame (unit: meters).
+    double distance_outside_box(const Vec3& local) const;
     // How exactly contacts are looked for: a tick's first are as near as they seem, those of a tool at rest
     // are all that it touches.
     enum class Care : std::uint8_t { usual, first, exact };
@@ -164,15 +174,21 @@ private:
     }
 
     std::shared_ptr<const ToolShape> shape_;
+    // The box around its spheres, in its frame (unit: meters).
+    Vec3 low_{std::numeric_limits<double>::infinity()};
+    Vec3 high_{-std::numeric_limits<double>::infinity()};
     double skin_;
     const TouchScene* scene_ = nullptr;
     std::uint64_t revision_ = 0;
-    PartBalls parts_;  // of the scene, near the tool in this tick
+    // Of the scene, on their way in this tick: those near the tool, and those that may enter it.
+    PartBalls parts_, entering_;
     // One each a sphere.
     std::vector<SphereHood> hoods_;
     std::vector<double> arms_;         // from the tool's origin to the centre (unit: meters)
     std::vector<double> room_;         // it rests on nothing before it has gone so far (unit: meters)
     std::vector<std::uint32_t> near_;  // of spheres_where()
+    // One each a part: of the first of a body, what find_entering() has found.
+    std::vector<std::uint8_t> may_have_entered_;
     std::vector<ToolBridge> bridges_;
     // What stops a sphere counts as a contact for the rest of the tick, even where another one seems to stand
     // for it.
