@@ -41,18 +41,9 @@ void report_torsion(Report& report) {
                 point.turned);
 }
 
-double percentile(std::vector<double>& values, double share) {
-    if (values.empty()) {
-        return 0.0;
-    }
-    const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1));
-    std::ranges::nth_element(values, place);
-    return *place;
-}
-
 void report_plays(Report& report, const std::string& name, ToolFigures& figures) {
-    const double p99 = percentile(figures.microseconds, 0.99);
-    const double longest = percentile(figures.microseconds, 1.0);
+    const double p99 = quantile(figures.microseconds, 0.99);
+    const double longest = quantile(figures.microseconds, 1.0);
     report.set(name + ".ticks", figures.ticks);
     report.set(name + ".contact_ticks", figures.contact_ticks);
     report.set(name + ".unfinished", figures.unfinished);
@@ -60,14 +51,14 @@ void report_plays(Report& report, const std::string& name, ToolFigures& figures)
     report.set(name + ".deepest_m", figures.deepest);
     report.set(name + ".passes", figures.passes);
     report.set(name + ".still_way_m", figures.still_way);
-    report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
+    report.set(name + ".tick_p50_us", quantile(figures.microseconds, 0.5));
     report.set(name + ".tick_p99_us", p99);
     report.set(name + ".tick_max_us", longest);
     std::printf(
         "%s: %d ticks, %d in contact, %d unfinished; penetrations %d, passes %d, still way %g m; "
         "p50 %.0f, p99 %.0f, longest %.0f us\n",
         name.c_str(), figures.ticks, figures.contact_ticks, figures.unfinished, figures.penetrations,
-        figures.passes, figures.still_way, percentile(figures.microseconds, 0.5), p99, longest);
+        figures.passes, figures.still_way, quantile(figures.microseconds, 0.5), p99, longest);
 }
 
 void report_peg(Report& report, int angles) {
@@ -135,15 +126,15 @@ void report_field(Report& report, int samples, int ticks) {
     for (const double radius : {0.05, 0.02}) {
         FieldFigures figures = play_field_sphere(static_cast<std::uint32_t>(samples), radius, ticks);
         const std::string name = "field.r" + std::to_string(radius).substr(0, 4);
-        const double of_these = percentile(figures.microseconds, 0.99);
+        const double of_these = quantile(figures.microseconds, 0.99);
         report.set(name + ".error_voxel_max", figures.error_voxels);
         report.set(name + ".height_error_voxel_max", figures.height_error_voxels);
         report.set(name + ".contact_ticks", figures.contact_ticks);
         report.set(name + ".unfinished", figures.unfinished);
-        report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
+        report.set(name + ".tick_p50_us", quantile(figures.microseconds, 0.5));
         report.set(name + ".tick_p99_us", of_these);
-        report.set(name + ".tick_max_us", percentile(figures.microseconds, 1.0));
-        report.set(name + ".free_tick_p50_us", percentile(figures.free_microseconds, 0.5));
+        report.set(name + ".tick_max_us", quantile(figures.microseconds, 1.0));
+        report.set(name + ".free_tick_p50_us", quantile(figures.free_microseconds, 0.5));
         report.set(name + ".triangles", figures.triangles);
         report.set(name + ".build_ms", figures.build_milliseconds);
         std::printf(
@@ -151,7 +142,7 @@ void report_field(Report& report, int samples, int ticks) {
             "voxels, %.4f in height; p50 %.2f, p99 %.2f, longest %.2f us\n",
             name.c_str(), samples, figures.triangles, figures.build_milliseconds, figures.contact_ticks,
             figures.unfinished, figures.error_voxels, figures.height_error_voxels,
-            percentile(figures.microseconds, 0.5), of_these, percentile(figures.microseconds, 1.0));
+            quantile(figures.microseconds, 0.5), of_these, quantile(figures.microseconds, 1.0));
         error = std::max(error, figures.error_voxels);
         p99 = std::max(p99, of_these);
     }
@@ -174,10 +165,10 @@ void report_presses(Report& report, const std::string& name, SoftFigures& figure
     report.set(name + ".energy_created_held_J", figures.energy_created_held);
     report.set(name + ".energy_held_over_damped", figures.held_share);
     report.set(name + ".shape_error_m", figures.shape_error);
-    report.set(name + ".tick_p50_us", percentile(figures.microseconds, 0.5));
-    report.set(name + ".tick_p99_us", percentile(figures.microseconds, 0.99));
-    report.set(name + ".tick_max_us", percentile(figures.microseconds, 1.0));
-    report.set(name + ".still_tick_p50_us", percentile(figures.still_microseconds, 0.5));
+    report.set(name + ".tick_p50_us", quantile(figures.microseconds, 0.5));
+    report.set(name + ".tick_p99_us", quantile(figures.microseconds, 0.99));
+    report.set(name + ".tick_max_us", quantile(figures.microseconds, 1.0));
+    report.set(name + ".still_tick_p50_us", quantile(figures.still_microseconds, 0.5));
     std::printf(
         "%s: %zu nodes, %zu elements, %zu entries; %d presses, %d ticks in contact, %d passes, %d "
         "unfinished; "
@@ -188,9 +179,8 @@ void report_presses(Report& report, const std::string& name, SoftFigures& figure
         name.c_str(), figures.nodes, figures.elements, figures.factor_entries, figures.presses,
         figures.contact_ticks, figures.passes, figures.unfinished, 1e3 * figures.deepest,
         figures.largest_force, figures.energy_created, figures.energy_created_held, figures.held_share,
-        1e3 * figures.shape_error, percentile(figures.microseconds, 0.5),
-        percentile(figures.microseconds, 0.99), percentile(figures.microseconds, 1.0),
-        percentile(figures.still_microseconds, 0.5));
+        1e3 * figures.shape_error, quantile(figures.microseconds, 0.5), quantile(figures.microseconds, 0.99),
+        quantile(figures.microseconds, 1.0), quantile(figures.still_microseconds, 0.5));
 }
 
 void report_soft(Report& report, int presses) {
@@ -199,7 +189,7 @@ void report_soft(Report& report, int presses) {
     SoftFigures cloth = press_cloth(presses, 1e6, 7);
     report_presses(report, "soft.cloth", cloth);
     report.set("soft.tick_p99_us",
-               std::max(percentile(block.microseconds, 0.99), percentile(cloth.microseconds, 0.99)));
+               std::max(quantile(block.microseconds, 0.99), quantile(cloth.microseconds, 0.99)));
     report.set("soft.passes", block.passes + cloth.passes);
     report.set("soft.energy_created_J", std::max(block.energy_created, cloth.energy_created));
     report.set("soft.shape_error_m", std::max(block.shape_error, cloth.shape_error));
@@ -252,7 +242,7 @@ int main(int count, char** arguments) {
         report_soft(report, presses);
     }
     if (is_chosen("among", only, false)) {
-        tactus::bench::measure_among({.only = only}, report);
+        tactus::bench::measure_among(only, report);
     }
     if (is_chosen("rough_on_rough", only)) {
         report_rough(report, ticks);

@@ -59,4 +59,10 @@ inline ManyBodies heap_of_balls(int count, double radius) {
     return {SphereShape{0.2 * radius}, places};
 }
 
+// Through that heap and out of it again, on all sides.
+inline Vec3 through_heap(double radius, double seconds) {
+    return radius *
+           Vec3(3.0 * std::cos(4.0 * seconds), 2.0 * std::sin(7.1 * seconds), 1.5 * std::sin(1.3 * seconds));
+}
+
 }  // namespace tactus::shared

@@ -32,12 +32,9 @@ constexpr double ball = 0.05;
 Vec3 over_boxes(double seconds) {
     return {0.05 * (1.0 - std::cos(2.0 * seconds)), std::max(0.073 + finger, 0.2 - seconds), 0.0};
 }
-// Through the heap and out of it again, on all sides.
 Vec3 through_heap(double seconds) {
-    return ball *
-           Vec3(3.0 * std::cos(4.0 * seconds), 2.0 * std::sin(7.1 * seconds), 1.5 * std::sin(1.3 * seconds));
+    return shared::through_heap(ball, seconds);
 }
-
 ManyBodies heap(int count) {
     return shared::heap_of_balls(count, ball);
 }

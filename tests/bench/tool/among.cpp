@@ -17,6 +17,9 @@ namespace {
 
 using shared::ManyBodies;
 
+constexpr std::size_t ticks = 1'500;
+constexpr int replays = 3;
+
 struct Case {
     const char* name;
     double moves;  // how far each body goes to and fro (unit: meters)
@@ -29,15 +32,14 @@ Pose tilted(const Vec3& place, double seconds) {
             glm::normalize(Quat(1.0, 0.1 * std::sin(3.0 * seconds), 0.05 * std::cos(2.0 * seconds), 0.0))};
 }
 
-// Through the heap and out of it again, on all sides.
+constexpr double ball = 0.05;  // of the heap (unit: meters)
+
 Pose through_heap(double seconds) {
-    return tilted(0.05 * Vec3(3.0 * std::cos(4.0 * seconds), 2.0 * std::sin(7.1 * seconds),
-                              1.5 * std::sin(1.3 * seconds)),
-                  seconds);
+    return tilted(shared::through_heap(ball, seconds), seconds);
 }
 
 ManyBodies heap(int count) {
-    return shared::heap_of_balls(count, 0.05);
+    return shared::heap_of_balls(count, ball);
 }
 
 // Posts of 5 mm side by side, their tops at 0.
@@ -67,15 +69,15 @@ struct Figures {
     int contact_ticks = 0, unfinished = 0, absent = 0;
 };
 
-Figures play(const Case& played, int count, const AmongSettings& settings) {
+Figures play(const Case& played, int count) {
     const shared::SpanClock clock;
     const auto shape = make_tool_shape(shared::box(Vec3(0.05, 0.01, 0.01)), {1e-3, 400}).shape;
     Figures figures;
-    figures.times.assign(static_cast<std::size_t>(settings.ticks), 1e300);
-    for (int replay = 0; replay < settings.replays; ++replay) {
+    figures.times.assign(ticks, 1e300);
+    for (int replay = 0; replay < replays; ++replay) {
         ManyBodies bodies = played.make(count);
         ToolProxy tool(shape, bodies.places.size(), {});
-        for (std::size_t i = 0; i < figures.times.size(); ++i) {
+        for (std::size_t i = 0; i < ticks; ++i) {
             bodies.tick(played.moves);
             const std::uint64_t start = clock.now();
             const ToolTick tick = tool.move(bodies.scene, played.hand(1e-3 * static_cast<double>(i)));
@@ -93,14 +95,14 @@ Figures play(const Case& played, int count, const AmongSettings& settings) {
 
 }  // namespace
 
-void measure_among(const AmongSettings& settings, shared::Report& report) {
+void measure_among(const std::string& only, shared::Report& report) {
     for (const Case& played : cases) {
         for (const int count : {256, 1'024, 4'096}) {
             const std::string name = "among_" + std::string(played.name) + "_" + std::to_string(count);
-            if (!shared::is_chosen(name, settings.only)) {
+            if (!shared::is_chosen(name, only)) {
                 continue;
             }
-            Figures figures = play(played, count, settings);
+            Figures figures = play(played, count);
             const double p50 = shared::quantile(figures.times, 0.5);
             const double p99 = shared::quantile(figures.times, 0.99);
             const double longest = *std::ranges::max_element(figures.times);
@@ -111,8 +113,9 @@ void measure_among(const AmongSettings& settings, shared::Report& report) {
             report.set(name + ".unfinished", figures.unfinished);
             report.set(name + ".absent", figures.absent);
             std::printf(
-                "%s: p50 %.1f, p99 %.0f, longest %.0f us; of %d ticks %d touched, %d unfinished, %d let go\n",
-                name.c_str(), p50, p99, longest, settings.ticks, figures.contact_ticks, figures.unfinished,
+                "%s: p50 %.1f, p99 %.0f, longest %.0f us; of %zu ticks %d touched, %d unfinished, %d let "
+                "go\n",
+                name.c_str(), p50, p99, longest, ticks, figures.contact_ticks, figures.unfinished,
                 figures.absent);
         }
     }

@@ -8,12 +8,7 @@
 
 namespace tactus::bench {
 
-struct AmongSettings {
-    std::string only;
-    int ticks = 1'500;
-    int replays = 3;
-};
-
-void measure_among(const AmongSettings& settings, shared::Report& report);
+// Those cases that `only` chooses (see is_chosen).
+void measure_among(const std::string& only, shared::Report& report);
 
 }  // namespace tactus::bench
