@@ -1,6 +1,7 @@
 #include "world/narrowed_touch.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "platform/large_pages.hpp"
 
@@ -15,16 +16,33 @@ std::shared_ptr<const TouchableTriangles> freed_aside(std::shared_ptr<const Touc
             }};
 }
 
-void make(NarrowedTree& tree, const ParallelRunner& run) {
-    if (const auto narrower = narrowed(tree.whole, tree.radius, run)) {
+void make(NarrowedTree& tree, const ParallelRunner& run, const StillWanted& is_wanted) {
+    if (const auto narrower = narrowed(tree.whole, tree.radius, run, is_wanted)) {
         tree.touchable = freed_aside(narrower->parts.front().touchable);
         std::ranges::for_each(tree.touchable->tree.memory(), move_to_large_pages);
     }
 }
 
+// Until nobody else has held it once: whoever asks then begins anew.
+class WantedByOthers {
+public:
+    explicit WantedByOthers(const std::shared_ptr<NarrowedTree>& tree) : tree_(tree) {}
+
+    bool operator()() {
+        if (tree_.use_count() == 1) {
+            given_up_.store(true, std::memory_order_relaxed);
+        }
+        return !given_up_.load(std::memory_order_relaxed);
+    }
+
+private:
+    const std::shared_ptr<NarrowedTree>& tree_;
+    std::atomic<bool> given_up_{false};
+};
+
 }  // namespace
 
-// One that nobody waited for may be left undone.
+// One that nobody waited for is given up.
 std::shared_ptr<const NarrowedTree> NarrowedTrees::get(const TouchPart& part, double radius,
                                                        Workers& workers) {
     const std::pair key(part.tree(), radius);
@@ -41,9 +59,11 @@ std::shared_ptr<const NarrowedTree> NarrowedTrees::get(const TouchPart& part, do
     tree->radius = radius;
     all_[key] = tree;
     workers.add_later([tree, run = workers.runner_later()] {
-        // Nobody else holds it: nobody waits for it any more.
-        if (tree.use_count() > 1) {
-            make(*tree, run);
+        WantedByOthers is_wanted(tree);
+        if (is_wanted()) {
+            make(*tree, run, std::ref(is_wanted));
+        }
+        if (is_wanted()) {
             tree->done.store(true, std::memory_order_release);
         }
     });

@@ -277,4 +277,11 @@ ReferencePlace ReferenceDescent::settle(const Vec3& start, const Vec3& hand) {
     return place;
 }
 
+bool ReferenceDescent::is_balanced(const Vec3& start, const Vec3& hand, const SlowVec3& end, double apart) {
+    constexpr double hair = 1e-9;  // in radii
+    const Vec3 away = glm::normalize(start - Vec3(end));
+    const ReferencePlace other = settle(start, hand + hair * static_cast<double>(radius_) * away);
+    return glm::distance(other.position, end) > apart;
+}
+
 }  // namespace tactus::shared

@@ -36,6 +36,10 @@ public:
     // triangle).
     ReferencePlace settle(const Vec3& start, const Vec3& hand);
 
+    // Whether a hair decides that it settles at `end`: from a crest, with the hand a hair to the other side,
+    // it settles on the other side, farther off than `apart` (unit: meters).
+    bool is_balanced(const Vec3& start, const Vec3& hand, const SlowVec3& end, double apart);
+
 private:
     struct Constraint {
         SlowVec3 normal{0.0L};   // unit, from the triangle to the centre

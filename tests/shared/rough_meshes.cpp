@@ -19,22 +19,6 @@ namespace {
 using Index = std::uint32_t;
 constexpr double turn = 2.0 * std::numbers::pi;
 
-// Into the cube of edge 1 around the origin.
-TriangleMesh normalised(TriangleMesh mesh) {
-    Vec3 low(std::numeric_limits<double>::infinity());
-    Vec3 high(-low);
-    for (const Vec3& v : mesh.vertices) {
-        low = glm::min(low, v);
-        high = glm::max(high, v);
-    }
-    const Vec3 size = high - low;
-    const double scale = 1.0 / std::max({size.x, size.y, size.z});
-    for (Vec3& v : mesh.vertices) {
-        v = scale * (v - 0.5 * (low + high));
-    }
-    return mesh;
-}
-
 // Corners at the same place, to a billionth, become one; triangles that vanish by it are left out.
 TriangleMesh welded(const TriangleMesh& mesh) {
     std::unordered_map<std::uint64_t, Index> known;
@@ -217,7 +201,7 @@ TriangleMesh sculpted(const Field& field, int cells, int levels) {
             mesh.vertices[i] = put_onto(field, mesh.vertices[i], 0.5 / cells);
         }
     }
-    return normalised(std::move(mesh));
+    return fitted(std::move(mesh));
 }
 
 double to_line(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -283,6 +267,21 @@ bool is_within(const std::vector<Cap>& caps, const Vec3& direction) {
 
 }  // namespace
 
+TriangleMesh fitted(TriangleMesh mesh) {
+    Vec3 low(std::numeric_limits<double>::infinity());
+    Vec3 high(-low);
+    for (const Vec3& v : mesh.vertices) {
+        low = glm::min(low, v);
+        high = glm::max(high, v);
+    }
+    const Vec3 size = high - low;
+    const double scale = 1.0 / std::max({size.x, size.y, size.z});
+    for (Vec3& v : mesh.vertices) {
+        v = scale * (v - 0.5 * (low + high));
+    }
+    return mesh;
+}
+
 void append(TriangleMesh& mesh, const TriangleMesh& more) {
     const auto first = static_cast<Index>(mesh.vertices.size());
     mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
@@ -329,7 +328,7 @@ TriangleMesh scanned(int levels) {
     }
     mesh.triangles = std::move(kept);
     append(mesh, second);
-    return normalised(std::move(mesh));
+    return fitted(std::move(mesh));
 }
 
 TriangleMesh blobs(int cells, int levels) {
@@ -364,7 +363,7 @@ TriangleMesh branches(int cells, int levels) {
 }
 
 TriangleMesh displaced(int levels) {
-    return normalised(moved_sphere(levels, with_pores, 1.0));
+    return fitted(moved_sphere(levels, with_pores, 1.0));
 }
 
 TriangleMesh shell(int levels) {
@@ -374,7 +373,7 @@ TriangleMesh shell(int levels) {
         std::swap(t[1], t[2]);
     }
     append(mesh, inner);
-    return normalised(std::move(mesh));
+    return fitted(std::move(mesh));
 }
 
 TriangleMesh rounded_box(int segments) {
@@ -420,7 +419,7 @@ TriangleMesh rounded_box(int segments) {
             }
         }
     }
-    return normalised(welded(mesh));
+    return fitted(welded(mesh));
 }
 
 TriangleMesh gear(int points) {
@@ -471,7 +470,7 @@ TriangleMesh gear(int points) {
         }
         ++(at_rim ? i : k);
     }
-    return normalised(std::move(mesh));
+    return fitted(std::move(mesh));
 }
 
 TriangleMesh graded(int sectors, int rings) {
@@ -506,7 +505,7 @@ TriangleMesh graded(int sectors, int rings) {
         }
         mesh.triangles.push_back({at(rings - 2, i), last, at(rings - 2, i + 1)});
     }
-    return normalised(std::move(mesh));
+    return fitted(std::move(mesh));
 }
 
 TriangleMesh clustered(int heaps, int triangles_per_heap) {
@@ -528,7 +527,7 @@ TriangleMesh clustered(int heaps, int triangles_per_heap) {
             mesh.triangles.push_back({index, index + 1, index + 2});
         }
     }
-    return normalised(std::move(mesh));
+    return fitted(std::move(mesh));
 }
 
 TriangleMesh cavity(int levels) {
@@ -537,7 +536,7 @@ TriangleMesh cavity(int levels) {
     for (auto& t : inner.triangles) {
         std::swap(t[1], t[2]);
     }
-    mesh = normalised(std::move(mesh));
+    mesh = fitted(std::move(mesh));
     for (Vec3& v : inner.vertices) {
         v *= 0.3;
     }

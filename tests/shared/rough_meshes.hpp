@@ -13,6 +13,9 @@ namespace tactus::shared {
 // The triangles of another mesh as well.
 void append(TriangleMesh& mesh, const TriangleMesh& more);
 
+// Moved and scaled into the cube of edge 1 around the origin.
+TriangleMesh fitted(TriangleMesh mesh);
+
 // A closed shape sampled unevenly, with noise along and across the surface, holes of all sizes, and patches
 // that were scanned twice and lie over one another. About 20 * 4^levels triangles.
 TriangleMesh scanned(int levels);

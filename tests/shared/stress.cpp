@@ -166,7 +166,6 @@ private:
     void judge_side(int tick, const Vec3& local, const Vec3& hand, const ProxyTick& at, StressCounts& counts);
     void judge_end(int tick, const Vec3& hand, const Vec3& before, const Vec3& local, const ProxyTick& at,
                    StressCounts& counts);
-    bool balances(const Vec3& local, const Vec3& hand, const SlowVec3& end);
     void fail(const char* what, int tick, const Vec3& hand, const ProxyTick& at, double number,
               StressCounts& counts);
 
@@ -249,15 +248,6 @@ void StressCase::judge_side(int tick, const Vec3& local, const Vec3& hand, const
     }
 }
 
-// With the hand a hair to the other side, descent from a crest ends on the other side of it. `hand` and `end`
-// in the body's frame, like `local`.
-bool StressCase::balances(const Vec3& local, const Vec3& hand, const SlowVec3& end) {
-    constexpr double hair = 1e-9;  // in radii
-    const Vec3 away = glm::normalize(local - Vec3(end));
-    const ReferencePlace other = reference_->settle(local, hand + hair * radius() * away);
-    return glm::distance(other.position, end) > short_of_end * radius();
-}
-
 void StressCase::judge_end(int tick, const Vec3& hand, const Vec3& before, const Vec3& local,
                            const ProxyTick& at, StressCounts& counts) {
     const bool unfinished = (at.status & proxy_unfinished) != 0;
@@ -272,7 +262,7 @@ void StressCase::judge_end(int tick, const Vec3& hand, const Vec3& before, const
     const double error = static_cast<double>(glm::distance(place.position, SlowVec3(local))) / radius();
     ++counts.checked_ticks;
     const bool is_short = error > short_of_end;
-    if (is_short && balances(local, local_hand, place.position)) {
+    if (is_short && reference_->is_balanced(local, local_hand, place.position, short_of_end * radius())) {
         ++counts.balanced_ticks;
         return;
     }

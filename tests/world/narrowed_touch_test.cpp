@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <future>
+#include <thread>
 
 #include "core/geometry/surface_query.hpp"
 #include "shared/meshes.hpp"
@@ -264,6 +265,27 @@ TEST(NarrowedTouch, WhatIsGoneMeanwhileIsNotNarrowed) {
     scene.has_changed = true;
     scene.frames();
     EXPECT_EQ(scene.mirrors.of(1), nullptr);
+}
+
+// Whoever asks again, while the workers are at it for nobody, gets all of it.
+TEST(NarrowedTouch, WhatIsGivenUpIsBegunAnew) {
+    const PlacedShape placed{MeshShape{std::make_shared<TriangleMesh>(shared::rough_sphere(5, 0.5, 1.0))},
+                             {}};
+    const auto shape = make_touch_shape({&placed, 1}).shape;
+    Workers workers;
+    NarrowedTrees trees;
+    for (int i = 0; i < 20; ++i) {
+        for (int k = 0; k < i; ++k) {
+            trees.get(shape->parts.front(), fingertip, workers);
+            std::this_thread::yield();
+        }
+        const auto tree = trees.get(shape->parts.front(), fingertip, workers);
+        workers.wait();
+        ASSERT_TRUE(tree->done);
+        ASSERT_NE(tree->touchable, nullptr);
+        EXPECT_EQ(tree->touchable->tree.triangle_count(),
+                  touchable_slots(*shape->parts.front().tree(), touchable_share * fingertip).size());
+    }
 }
 
 TEST(NarrowedTouch, AFewTrianglesAreLeftAsTheyAre) {

@@ -14,6 +14,8 @@ constexpr double margin = 1e-6;
 constexpr int max_looks = 48;
 // A look that takes more (see WorkBudget) goes by what it has found.
 constexpr std::int64_t work_a_look = 2'000;
+// What is nearer to the centre than this share of the radius lies in the balls around as well as the nearest.
+constexpr double deep_enough = 0.99;
 // Patches are not cut finer than that (of the radius, and radians).
 constexpr double finest = 1e-4;
 
@@ -66,11 +68,11 @@ bool EmptyBall::is_in_all(const Vec3& point, const TouchPatch& patch) const {
     return true;
 }
 
-// The deepest in the ball, or one that is nearly so.
-bool EmptyBall::find_inside(const Vec3& center, Vec3& point) const {
+bool EmptyBall::find_inside(const Vec3& center, Vec3& point) {
     const double far = radius_ * (1.0 - margin);
     WorkBudget work(work_a_look);
-    const NearestTriangle nearest = tree_.nearest(center, far, work);
+    const NearestTriangle nearest = tree_.nearest(center, far, work, deep_enough * radius_);
+    work_ += work_a_look - work.left();
     if (!(nearest.distance < far)) {
         return false;
     }

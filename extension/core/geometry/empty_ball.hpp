@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/geometry/triangle_tree.hpp"
 
@@ -36,11 +37,13 @@ public:
 
     // False where every ball of the patch holds some of the mesh. True where one may not.
     bool may_touch(const TouchPatch& patch);
+    // What all of that has taken (see WorkBudget).
+    std::int64_t work() const { return work_; }
 
 private:
     bool holds_some(const TouchPatch& patch, int& looks);
     bool is_in_all(const Vec3& point, const TouchPatch& patch) const;
-    bool find_inside(const Vec3& center, Vec3& point) const;
+    bool find_inside(const Vec3& center, Vec3& point);
     void remember(const Vec3& point);
     bool cut(const TouchPatch& patch, TouchPatch& first, TouchPatch& second) const;
 
@@ -49,6 +52,7 @@ private:
     double rounding_;            // of a point of the mesh: one within it is p itself (unit: meters)
     std::array<Vec3, 8> found_;  // points that lay in balls before: mostly in those beside them, too
     std::size_t found_count_ = 0, next_ = 0;
+    std::int64_t work_ = 0;
 };
 
 }  // namespace tactus

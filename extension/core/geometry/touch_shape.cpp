@@ -139,13 +139,13 @@ bool is_deformation(const TouchShape& from, const TouchShape& to) {
     });
 }
 
-std::shared_ptr<const TouchShape> narrowed(const TouchShape& shape, double radius,
-                                           const ParallelRunner& run) {
+std::shared_ptr<const TouchShape> narrowed(const TouchShape& shape, double radius, const ParallelRunner& run,
+                                           const StillWanted& is_wanted) {
     auto result = std::make_shared<TouchShape>(shape);
     bool is_narrower = false;
     for (TouchPart& part : result->parts) {
         if (part.tree()) {
-            part.touchable = touchable_triangles(*part.tree(), touchable_share * radius, run);
+            part.touchable = touchable_triangles(*part.tree(), touchable_share * radius, run, is_wanted);
             is_narrower = is_narrower || part.touchable != nullptr;
         }
     }

@@ -66,9 +66,11 @@ TouchShapeResult make_touch_shape(std::span<const PlacedShape> shapes,
                                   const ParallelRunner& run = run_serially);
 
 // The same for spheres of that radius (unit: meters), and larger ones: what they can touch of each mesh
-// stands in a tree of its own. To touch it is the same, sooner. Null where that is of no use.
+// stands in a tree of its own. To touch it is the same, sooner. Null where that is of no use, or not wanted
+// any more.
 std::shared_ptr<const TouchShape> narrowed(const TouchShape& shape, double radius,
-                                           const ParallelRunner& run = run_serially);
+                                           const ParallelRunner& run = run_serially,
+                                           const StillWanted& is_wanted = is_always_wanted);
 
 // The surface of a height field as triangles, counter-clockwise from above; each cell is cut from its corner
 // (column + 1, row) to (column, row + 1), as Godot's is.

@@ -22,6 +22,11 @@ constexpr std::size_t part_size = 1024;  // triangles, or corners, for one threa
 constexpr std::size_t max_at_corner = 24;
 constexpr double least_radius = 1e-7;     // of the largest coordinate: below it rounding is not small
 constexpr double worthwhile_share = 0.9;  // where more can be touched a tree of these alone is of little use
+// So many corners tell what share of the faces can be touched, and what it takes to find out: one in six or
+// so stands for the others at its place. Meshes of few triangles take less than a second.
+constexpr std::uint64_t samples = 6'000;
+constexpr std::size_t least_sampled = 16'000;
+constexpr double max_work = 2e9;  // see WorkBudget
 
 using Marks = std::vector<std::uint8_t>;  // by triangle
 
@@ -109,57 +114,126 @@ void visit_edges(const SharedMesh& shared, std::uint32_t vertex, Visit&& visit) 
     }
 }
 
+class TouchableSearch {
+public:
+    TouchableSearch(const TriangleTree& tree, double radius, const ParallelRunner& run,
+                    const StillWanted& is_wanted)
+        : tree_(tree), radius_(radius), run_(run), is_wanted_(is_wanted), shared_(tree) {}
+
+    // What the surface around a few corners, evenly chosen, says of all.
+    bool is_worthwhile() {
+        if (shared_.slots.size() < least_sampled) {
+            return true;
+        }
+        EmptyBall of_faces(tree_, radius_), of_rest(tree_, radius_);
+        std::size_t faces = 0, touchable = 0;
+        for (std::uint64_t i = 0; i < samples; ++i) {
+            const std::uint32_t corner = sampled(i);
+            for (const std::uint32_t triangle : shared_.triangles_at(corner)) {
+                find_face(triangle, of_faces);
+                touchable += by_face_[triangle];
+                ++faces;
+            }
+            find_edges(corner, of_rest);
+            find_corner(corner, of_rest);
+        }
+        // Fewer edges than there are in the end leave more corners to look at: they are not taken over.
+        std::ranges::fill(by_corner_, 0);
+        const auto of_all = [](std::int64_t work, std::size_t looked_at, std::size_t all) {
+            return static_cast<double>(work) * static_cast<double>(all) /
+                   static_cast<double>(std::max<std::size_t>(looked_at, 1));
+        };
+        return static_cast<double>(touchable) <= worthwhile_share * static_cast<double>(faces) &&
+               of_all(of_faces.work(), faces, shared_.slots.size()) +
+                       of_all(of_rest.work(), samples, shared_.mesh.vertices.size()) <=
+                   max_work;
+    }
+
+    std::vector<std::uint32_t> slots() {
+        const std::size_t corners = shared_.mesh.vertices.size();
+        in_parts(shared_.slots.size(), [this](std::uint32_t i, EmptyBall& ball) { find_face(i, ball); });
+        in_parts(corners, [this](std::uint32_t i, EmptyBall& ball) { find_edges(i, ball); });
+        in_parts(corners, [this](std::uint32_t i, EmptyBall& ball) { find_corner(i, ball); });
+        std::vector<std::uint32_t> slots;
+        for (std::size_t t = 0; t < shared_.slots.size(); ++t) {
+            if (by_face_[t] || by_edge_[t] || by_corner_[t]) {
+                slots.push_back(shared_.slots[t]);
+            }
+        }
+        return slots;
+    }
+
+private:
+    // Evenly spread, and in step with nothing: multiples of the golden ratio, less what is whole of them.
+    std::uint32_t sampled(std::uint64_t i) const {
+        const std::uint64_t share = (i * 0x9e37'79b9'7f4a'7c15u) >> 32;
+        return static_cast<std::uint32_t>((share * shared_.mesh.vertices.size()) >> 32);
+    }
+
+    // Calls look(i, ball) for each, as long as the answer is wanted.
+    template <class Look>
+    void in_parts(std::size_t number, Look&& look) {
+        run_in_parts(run_, number, part_size, [&](std::size_t, std::size_t begin, std::size_t end) {
+            EmptyBall ball(tree_, radius_);
+            for (std::size_t i = begin; i < end && is_wanted_(); ++i) {
+                look(static_cast<std::uint32_t>(i), ball);
+            }
+        });
+    }
+    static bool is_any(const Marks& marks, std::span<const std::uint32_t> triangles) {
+        return std::ranges::any_of(triangles, [&](std::uint32_t t) { return marks[t] != 0; });
+    }
+
+    void find_face(std::uint32_t triangle, EmptyBall& ball) {
+        by_face_[triangle] = is_face_touchable(shared_, triangle, ball);
+    }
+    // Those to corners of higher numbers, once faces are known.
+    void find_edges(std::uint32_t corner, EmptyBall& ball) {
+        visit_edges(shared_, corner, [&](std::uint32_t end, std::span<const std::uint32_t> triangles) {
+            if (!is_any(by_face_, triangles) && is_edge_touchable(shared_, corner, end, triangles, ball)) {
+                mark(by_edge_, triangles.front());
+            }
+        });
+    }
+    // Once edges are known.
+    void find_corner(std::uint32_t corner, EmptyBall& ball) {
+        const std::span<const std::uint32_t> triangles = shared_.triangles_at(corner);
+        if (!triangles.empty() && !is_any(by_face_, triangles) && !is_any(by_edge_, triangles) &&
+            (triangles.size() > max_at_corner || CornerCone(shared_, corner).may_touch(ball))) {
+            mark(by_corner_, triangles.front());
+        }
+    }
+
+    const TriangleTree& tree_;
+    const double radius_;
+    const ParallelRunner& run_;
+    const StillWanted& is_wanted_;
+    const SharedMesh shared_;
+    Marks by_face_ = Marks(shared_.slots.size(), 0);
+    Marks by_edge_ = by_face_, by_corner_ = by_face_;
+};
+
 }  // namespace
 
 std::vector<std::uint32_t> touchable_slots(const TriangleTree& tree, double radius,
                                            const ParallelRunner& run) {
-    const SharedMesh shared(tree);
-    const std::size_t count = shared.slots.size();
-    Marks by_face(count, 0), by_edge(count, 0), by_corner(count, 0);
-    const auto is_any = [](const Marks& marks, std::span<const std::uint32_t> triangles) {
-        return std::ranges::any_of(triangles, [&](std::uint32_t t) { return marks[t] != 0; });
-    };
-    const auto in_parts = [&](std::size_t number, auto&& look) {
-        run_in_parts(run, number, part_size, [&](std::size_t, std::size_t begin, std::size_t end) {
-            EmptyBall ball(tree, radius);
-            for (std::size_t i = begin; i < end; ++i) {
-                look(static_cast<std::uint32_t>(i), ball);
-            }
-        });
-    };
-    in_parts(count, [&](std::uint32_t triangle, EmptyBall& ball) {
-        by_face[triangle] = is_face_touchable(shared, triangle, ball);
-    });
-    in_parts(shared.mesh.vertices.size(), [&](std::uint32_t vertex, EmptyBall& ball) {
-        visit_edges(shared, vertex, [&](std::uint32_t end, std::span<const std::uint32_t> triangles) {
-            if (!is_any(by_face, triangles) && is_edge_touchable(shared, vertex, end, triangles, ball)) {
-                mark(by_edge, triangles.front());
-            }
-        });
-    });
-    in_parts(shared.mesh.vertices.size(), [&](std::uint32_t vertex, EmptyBall& ball) {
-        const std::span<const std::uint32_t> triangles = shared.triangles_at(vertex);
-        if (!triangles.empty() && !is_any(by_face, triangles) && !is_any(by_edge, triangles) &&
-            (triangles.size() > max_at_corner || CornerCone(shared, vertex).may_touch(ball))) {
-            mark(by_corner, triangles.front());
-        }
-    });
-    std::vector<std::uint32_t> slots;
-    for (std::size_t t = 0; t < count; ++t) {
-        if (by_face[t] || by_edge[t] || by_corner[t]) {
-            slots.push_back(shared.slots[t]);
-        }
-    }
-    return slots;
+    const StillWanted is_wanted = is_always_wanted;
+    return TouchableSearch(tree, radius, run, is_wanted).slots();
 }
 
 std::shared_ptr<const TouchableTriangles> touchable_triangles(const TriangleTree& tree, double radius,
-                                                              const ParallelRunner& run) {
+                                                              const ParallelRunner& run,
+                                                              const StillWanted& is_wanted) {
     if (!(radius > least_radius * tree.magnitude())) {
         return nullptr;
     }
-    const std::vector<std::uint32_t> slots = touchable_slots(tree, radius, run);
-    if (static_cast<double>(slots.size()) > worthwhile_share * static_cast<double>(tree.triangle_count())) {
+    TouchableSearch search(tree, radius, run, is_wanted);
+    if (!search.is_worthwhile()) {
+        return nullptr;
+    }
+    const std::vector<std::uint32_t> slots = search.slots();
+    if (!is_wanted() ||
+        static_cast<double>(slots.size()) > worthwhile_share * static_cast<double>(tree.triangle_count())) {
         return nullptr;
     }
     TriangleMesh mesh;

@@ -13,6 +13,10 @@
 //   clear of these, and is nowhere nearer than R to the others, is clear of all.
 #pragma once
 
+#include <functional>
+#include <memory>
+#include <vector>
+
 #include "core/geometry/parallel.hpp"
 #include "core/geometry/triangle_tree.hpp"
 
@@ -35,8 +39,16 @@ constexpr double touchable_share = 0.95;
 std::vector<std::uint32_t> touchable_slots(const TriangleTree& tree, double radius,
                                            const ParallelRunner& run = run_serially);
 
-// Null where nearly all can be touched, or where rounding is not small beside the radius.
-std::shared_ptr<const TouchableTriangles> touchable_triangles(const TriangleTree& tree, double radius,
-                                                              const ParallelRunner& run = run_serially);
+// Asked again and again, on any of the runner's threads: what is not wanted any more is given up.
+using StillWanted = std::function<bool()>;
+inline bool is_always_wanted() {
+    return true;
+}
+
+// Null where nearly all can be touched, where it would take too long to find out (more than some ten seconds
+// of two threads), where rounding is not small beside the radius, and where it is given up.
+std::shared_ptr<const TouchableTriangles> touchable_triangles(
+    const TriangleTree& tree, double radius, const ParallelRunner& run = run_serially,
+    const StillWanted& is_wanted = is_always_wanted);
 
 }  // namespace tactus

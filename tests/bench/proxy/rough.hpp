@@ -1,4 +1,5 @@
-// Rough meshes: what the proxy costs and does where nothing is even. See tests/shared/rough_meshes.hpp.
+// Rough meshes: what the proxy costs and does where nothing is even. See tests/shared/rough_meshes.hpp, and
+// unseen_meshes.hpp for those of kinds that nothing was tuned on.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,8 @@ struct RoughSettings {
     bool narrowed = true;
 };
 
-// Sets rough_NAME_TRIANGLES_rR_PATH.*, rough_NAME_TRIANGLES_rR.* and, over all of them, rough.*.
+// Sets rough_NAME_TRIANGLES_rR_PATH.*, rough_NAME_TRIANGLES_rR.* and, over all of them, rough.*; the same
+// with unseen.
 void measure_rough(const shared::SpanClock& clock, const RoughSettings& settings, shared::Report& report);
 
 }  // namespace tactus::bench

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,6 +17,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 #include "shared/rough_meshes.hpp"
+#include "shared/unseen_meshes.hpp"
 
 namespace tactus {
 namespace {
@@ -163,6 +166,40 @@ TEST(Touchable, ItsTrianglesAreThoseOfTheWhole) {
 TEST(Touchable, TheRunnerDoesNotMatter) {
     const TriangleTree whole = TriangleTree::build(shared::scanned(5));
     EXPECT_EQ(touchable_slots(whole, 0.05), touchable_slots(whole, 0.05, shared::run_on_two_threads));
+}
+
+// Whether it is still wanted is asked for each face, edge and corner: so often they are looked at.
+struct CountedLooks {
+    int asked = 0, until = std::numeric_limits<int>::max();
+
+    std::shared_ptr<const TouchableTriangles> find(const TriangleTree& tree, double radius) {
+        return touchable_triangles(tree, radius, run_serially, [this] { return ++asked <= until; });
+    }
+};
+
+TEST(Touchable, WhatIsNotWantedAnyMoreIsGivenUp) {
+    const TriangleTree whole = TriangleTree::build(shared::scanned(5));
+    CountedLooks all;
+    EXPECT_NE(all.find(whole, 0.05), nullptr);
+    EXPECT_GT(all.asked, 20'000);
+    CountedLooks some{.until = 100};
+    EXPECT_EQ(some.find(whole, 0.05), nullptr);
+    EXPECT_LT(some.asked, 300) << "once a part, and at the end";
+}
+
+// A ball in a socket that is wider by a hundredth touches all of it, and each face takes a thousand looks.
+TEST(Touchable, WhereNearlyAllCanBeTouchedAFewTell) {
+    CountedLooks looks;
+    EXPECT_EQ(looks.find(TriangleTree::build(shared::icosphere(6, 0.202)), 0.2), nullptr);
+    EXPECT_EQ(looks.asked, 0);
+}
+
+// Of needles that all point at the same place thousands lie in every ball: to look at all takes a minute.
+TEST(Touchable, WhatWouldTakeTooLongIsNotBegun) {
+    CountedLooks looks;
+    EXPECT_EQ(looks.find(TriangleTree::build(shared::urchin(25'000, 12)), 0.19), nullptr);
+    EXPECT_EQ(looks.asked, 0);
+    EXPECT_NE(looks.find(TriangleTree::build(shared::urchin(1'500, 12)), 0.19), nullptr);
 }
 
 // Where rounding is not small beside the radius nothing is claimed.
