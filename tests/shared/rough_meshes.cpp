@@ -8,6 +8,7 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "core/geometry/shared_mesh.hpp"
 #include "shared/meshes.hpp"
 #include "shared/noise.hpp"
 #include "shared/random_values.hpp"
@@ -518,13 +519,10 @@ TriangleMesh clustered(int heaps, int triangles_per_heap) {
         const Vec3 center = 0.47 * (std::cos(angle) * first + std::sin(angle) * second);
         const double size = 0.01 * (1.0 + heap % 3);
         for (int i = 0; i < triangles_per_heap; ++i) {
-            const auto index = static_cast<Index>(mesh.vertices.size());
             const Vec3 place = center + random.in_ball(size);
             const double edge = random.magnitude(1e-4, 2.5e-3);
-            for (int k = 0; k < 3; ++k) {
-                mesh.vertices.push_back(place + random.in_ball(edge));
-            }
-            mesh.triangles.push_back({index, index + 1, index + 2});
+            add_loose(mesh, {place + random.in_ball(edge), place + random.in_ball(edge),
+                             place + random.in_ball(edge)});
         }
     }
     return fitted(std::move(mesh));

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/geometry/shared_mesh.hpp"
 #include "shared/meshes.hpp"
 #include "shared/noise.hpp"
 #include "shared/random_values.hpp"
@@ -109,11 +110,8 @@ TriangleMesh scattered(int triangles) {
     for (int i = 0; i < triangles; ++i) {
         const Vec3 place = random.in_box(0.5);
         const double size = random.magnitude(1e-4, 0.3) * (i % 50 == 0 ? 1.0 : 0.05);
-        const auto first = static_cast<Index>(mesh.vertices.size());
-        for (int k = 0; k < 3; ++k) {
-            mesh.vertices.push_back(place + random.in_ball(size));
-        }
-        mesh.triangles.push_back({first, first + 1, first + 2});
+        add_loose(mesh,
+                  {place + random.in_ball(size), place + random.in_ball(size), place + random.in_ball(size)});
     }
     return fitted(std::move(mesh));
 }
