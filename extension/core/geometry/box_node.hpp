@@ -143,22 +143,24 @@ struct FloatWay {
 };
 
 namespace box_detail {
+// From the closest point of each box to the point.
+inline FloatPoint beyond_straight(const BoxNode& node, const FloatPoint& p) {
+    const auto beyond = [&](int axis, FloatLanes x) {
+        return most(x - node.high[axis], least(x - node.low[axis], splat_float(0.0f)));
+    };
+    return {beyond(0, p.x), beyond(1, p.y), beyond(2, p.z)};
+}
+
 // Gap between the sphere and each box, and how fast it shrinks.
 struct Nearing {
     FloatLanes gap, rate;
 };
 
 inline Nearing nearing(const BoxNode& node, const FloatWay& way, const FloatPoint& center) {
-    const FloatLanes zero = splat_float(0.0f);
-    const auto offset = [&](int axis, FloatLanes p) {
-        return most(p - node.high[axis], least(p - node.low[axis], zero));
-    };
-    const FloatLanes x = offset(0, center.x);
-    const FloatLanes y = offset(1, center.y);
-    const FloatLanes z = offset(2, center.z);
-    const FloatLanes distance = float_sqrt(x * x + y * y + z * z);
+    const FloatPoint beyond = beyond_straight(node, center);
+    const FloatLanes distance = float_sqrt(dot(beyond, beyond));
     return {distance * splat_float(1.0f - 1e-6f) - splat_float(way.distance),
-            (x * way.motion.x + y * way.motion.y + z * way.motion.z) / -distance};
+            dot(beyond, way.motion) / -distance};
 }
 }  // namespace box_detail
 

@@ -92,11 +92,15 @@ inline bool may_come_within(const PackBound& first, const PackBound& last, const
     return any(may_come_within(height(first), height(last), first.normal, last.normal, splat(distance)));
 }
 
-// Whether the tangents let the point come within the distance at either end of its motion, and so anywhere.
+// The least distances from a point that goes on from there: a plane is nearest at either end of a way.
+inline Lanes lowest_on_way(const PackBound& bound, const Lanes& start, const LanesVec3& motion) {
+    return start + lanes_min(splat(0.0), dot(bound.normal, motion));
+}
+
+// Whether the tangents let the point come within the distance on its way.
 inline bool comes_below(const PackBound& bound, const LanesVec3& from, const LanesVec3& motion,
                         double distance) {
-    const Lanes start = least_distances(bound, from);
-    return any(start + lanes_min(splat(0.0), dot(bound.normal, motion)) <= splat(distance));
+    return any(lowest_on_way(bound, least_distances(bound, from), motion) <= splat(distance));
 }
 
 // No earlier than this (a share of the way) does a point come within `distance` of a triangle of the pack;

@@ -59,6 +59,16 @@ inline PackOffset nearer(const PackOffset& p, const PackOffset& q) {
     return {select(first, p.offset, q.offset), select(first, p.squared, q.squared)};
 }
 
+// Twice the signed areas of (p, a, b), (p, c, a), (p, b, c) seen along the normal, each times the normal's
+// length, all have its sign.
+inline LaneMask projects_inside(const LanesVec3& ab, const LanesVec3& ac, const LanesVec3& ap,
+                                const LanesVec3& normal, const Lanes& squared_normal) {
+    const Lanes zero = splat(0.0);
+    const Lanes area_ab = dot(normal, cross(ab, ap));
+    const Lanes area_ca = dot(normal, cross(ap, ac));
+    return (area_ab >= zero) & (area_ca >= zero) & (squared_normal - area_ab - area_ca >= zero);
+}
+
 }  // namespace pack_detail
 
 // The point is measured against the three edges, each well-conditioned by itself, and against the plane where
@@ -78,22 +88,24 @@ inline PackOffset nearer(const PackOffset& p, const PackOffset& q) {
     PackOffset best = nearer(offset_from_segment(ap, ab), offset_from_segment(ap, ac));
     best = nearer(best, offset_from_segment(bp, t.c - t.b));
 
-    // Twice the signed areas of (p, a, b), (p, c, a), (p, b, c) seen along the normal, each times the
-    // normal's length.
     const LanesVec3 normal = cross(ab, ac);
     const Lanes squared_normal = dot(normal, normal);
-    const Lanes area_ab = dot(normal, cross(ab, ap));
-    const Lanes area_ca = dot(normal, cross(ap, ac));
-    const Lanes area_bc = squared_normal - area_ab - area_ca;
-    const Lanes zero = splat(0.0);
     const Lanes squared_sides = dot(ab, ab) * dot(ac, ac);
-    const LaneMask inside = (area_ab >= zero) & (area_ca >= zero) & (area_bc >= zero) &
+    const LaneMask inside = projects_inside(ab, ac, ap, normal, squared_normal) &
                             (squared_normal > squared_sides * splat(flat_area * flat_area));
 
     const Lanes height = dot(normal, best.offset) / lanes_max(squared_normal, splat(1e-300));
     const LanesVec3 offset = normal * height;
     return {select(inside, offset, best.offset), select(inside, dot(offset, offset), best.squared),
             inside & (squared_normal > squared_sides * splat(sliver_area * sliver_area))};
+}
+
+// The lanes whose closest point is inside the triangle, where that is no sliver.
+inline LaneMask is_above_faces(const TrianglePack& t, const LanesVec3& point) {
+    const LanesVec3 ab = t.b - t.a;
+    const LanesVec3 ac = t.c - t.a;
+    const LanesVec3 normal = cross(ab, ac);
+    return pack_detail::projects_inside(ab, ac, point - t.a, normal, dot(normal, normal));
 }
 
 inline PackBound bound_from(const PackOffset& seen, const LanesVec3& from) {

@@ -25,21 +25,27 @@ FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudg
                                       std::span<FoundPack> out) const {
     const Vec3 relative = point - origin_;
     const double slack = float_slack(relative);
+    const float lost = round_up(slack);
     const FloatPoint at = to_float_point(relative);
     const auto rounding = static_cast<float>(point_rounding(relative));
-    const auto distance = [&](float squared) {
-        return std::max(0.0, std::sqrt(static_cast<double>(squared)) * (1.0 - 1e-6) - slack);
-    };
     FoundPacks found;
+    BoxPlanes planes;  // of the last node
     float limit = square_up(radius + slack);
     const float left_out = visit_best_first<PackUse::tell>(
         limit, work,
-        [&](std::uint32_t node) { return squared_distance(nodes_[node], turned_[node], at, rounding); },
-        [&](std::uint32_t pack, float squared) {
-            out[found.count++] = {pack, static_cast<float>(distance(squared) * (1.0 - 1e-7))};
+        [&](std::uint32_t node) {
+            planes = planes_before(nodes_[node], turned_[node], at, rounding);
+            return planes.squared_distance;
+        },
+        [&](std::uint32_t pack, float, int slot) {
+            const FloatPoint& normal = planes.normal;
+            out[found.count++] = {pack,
+                                  std::max(0.0f, planes.distance[slot] * (1.0f - 2e-6f) - lost),
+                                  {normal.x[slot], normal.y[slot], normal.z[slot]}};
             limit = found.count < out.size() ? limit : -1.0f;
         });
-    found.radius = std::min(radius, distance(left_out));
+    const double farthest = std::sqrt(static_cast<double>(left_out)) * (1.0 - 1e-6) - slack;
+    found.radius = std::min(radius, std::max(0.0, farthest));
     return found;
 }
 

@@ -25,10 +25,12 @@
 
 namespace tactus {
 
-// A pack whose box is near a point. Its triangles are no nearer than `distance` (unit: meters).
+// A pack whose box is near a point. Its triangles lie behind the plane across `normal` that is `distance`
+// before the point.
 struct FoundPack {
     std::uint32_t pack;
-    float distance;
+    float distance;   // (unit: meters)
+    float normal[3];  // to the point, no longer than 1; all to 1e-6
 };
 
 // The square of a length as the boxes compare it, and a little more; at most the largest float, so that no
@@ -169,7 +171,8 @@ private:
                            double& least, WorkBudget& work) const;
     std::uint32_t pack_down_nearest_boxes(const Vec3& point, WorkBudget& work) const;
     double distance_to_pack(std::uint32_t pack, const Vec3& point, WorkBudget& work) const;
-    // Whether the packs of a node are looked at, or only told.
+    // Whether the packs of a node are looked at, or only told: at once, with their place in the node that was
+    // asked for its keys last.
     enum class PackUse { look, tell };
     template <PackUse use = PackUse::look, class Keys, class Visit>
     float visit_best_first(const float& limit, WorkBudget& work, Keys&& keys, Visit&& visit) const;
@@ -220,9 +223,11 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
             left_out = std::min(left_out, entry.key);
             break;
         }
-        if (entry.node & BoxNode::leaf_bit) {
-            visit(entry.node & ~BoxNode::leaf_bit, entry.key);
-            continue;
+        if constexpr (use == PackUse::look) {
+            if (entry.node & BoxNode::leaf_bit) {
+                visit(entry.node & ~BoxNode::leaf_bit, entry.key);
+                continue;
+            }
         }
         work.spend(cost::box_node);
         const BoxNode& node = nodes_[entry.node];
@@ -230,6 +235,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
         const auto within = key <= splat_float(limit);
         beyond = within ? beyond : box_detail::least(beyond, key);
         VisitQueue::Entry packs[node_width];
+        int slots[node_width];
         int count = 0;
         for (unsigned bits = lanes_up_to(key, limit); bits != 0; bits &= bits - 1) {
             const int i = std::countr_zero(bits);
@@ -243,6 +249,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
                     }
                 }
                 packs[place] = child;
+                slots[place] = i;
             } else {
                 fetch_early(&nodes_[child.node], sizeof(BoxNode));
                 fetch_early(&turned_[child.node], sizeof(TurnedNode));
@@ -256,6 +263,8 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
                 left_out = std::min(left_out, packs[i].key);
             } else if (use == PackUse::look && queue.can_wait(packs[i].key)) {
                 queue.push(packs[i]);
+            } else if constexpr (use == PackUse::tell) {
+                visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key, slots[i]);
             } else {
                 visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key);
             }

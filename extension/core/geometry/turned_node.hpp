@@ -145,6 +145,41 @@ inline FloatLanes squared_distance(const BoxNode& boxes, const TurnedNode& turne
         squared_distance_to_boxes(boxes, p));
 }
 
+// The same, and of each box the plane that it lies behind, as seen from the point: `normal` is a vector to
+// the point no longer than 1 but for rounding, 0 where the point is inside.
+struct BoxPlanes {
+    FloatPoint normal;
+    FloatLanes distance;  // of the point (unit: meters)
+    FloatLanes squared_distance;
+};
+
+// A turned box is what lies between its planes: over it the sum of beyond * axis is largest at the sides that
+// the point is beyond of, and there it is by the squared length of beyond less than at the point. The sum's
+// axis is no longer than beyond.
+inline BoxPlanes planes_before(const BoxNode& boxes, const TurnedNode& turned, const FloatPoint& p,
+                               float rounding) {
+    using namespace box_detail;
+    const TurnedAxes axes = axes_of(turned);
+    const Beyond beyond = beyond_turned(boxes, turned, axes, p, rounding);
+    const FloatPoint straight = beyond_straight(boxes, p);
+    const FloatLanes squared_straight = dot(straight, straight);
+    const FloatLanes squared_turned = squared_length(beyond);
+    const auto is_turned = squared_turned > squared_straight;
+    const FloatLanes squared = is_turned ? squared_turned : squared_straight;
+    const FloatLanes distance = float_sqrt(squared);
+    const FloatLanes scale = splat_float(1.0f) / most(distance, splat_float(1e-15f));
+    const auto along = [&](const FloatLanes& normal, const FloatLanes& first, const FloatLanes& third,
+                           const FloatLanes& other) {
+        const FloatLanes sum = beyond.normal * normal + beyond.along * first + beyond.third * third;
+        return (is_turned ? sum : other) * scale;
+    };
+    return {{along(turned.normal.x, axes.along.x, axes.third.x, straight.x),
+             along(turned.normal.y, axes.along.y, axes.third.y, straight.y),
+             along(turned.normal.z, axes.along.z, axes.third.z, straight.z)},
+            distance,
+            squared};
+}
+
 // Lower bounds of the t up to the limit at which the sphere meets what is in each box; infinite for boxes
 // that it passes by or leaves behind, and for unused slots. They are convex, so their distance as a function
 // of t lies above its tangents at both ends of the way: the first falls to the sphere's radius no earlier

@@ -60,7 +60,10 @@ private:
 
     // descent_arrival.cpp
     bool has_come_to_rest(const Vec3& from);
+    bool settles();
     bool stays_on_planes();
+    bool finds_same_planes();
+    void leave_slide();
     bool drops_onto_one();
     bool leads_clear_of_others(const Vec3& way);
 

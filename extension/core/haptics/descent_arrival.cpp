@@ -1,5 +1,6 @@
 // Whether a way has ended where the sphere rests, told without a look around.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
@@ -17,14 +18,23 @@ bool Descent::has_come_to_rest(const Vec3& from) {
     const auto is_within_seen = [&] {
         return glm::distance(sphere_.position, from) <= sphere_.surroundings.unseen_gap();
     };
-    if (step_.pressing_count == 0 || hold_.crowd.is_around() || !is_within_seen()) {
+    if (step_.pressing_count == 0 || hold_.crowd.is_around()) {
         return false;
+    }
+    if (!is_within_seen()) {
+        return !step_.bent && finds_same_planes() && settles();
     }
     // To drop leads on, so that it is asked again how far it is.
     const bool has_settled = step_.bent ? drops_onto_one() && is_within_seen() : stays_on_planes();
     if (!has_settled || !leads_clear_of_others(sphere_.position - from)) {
         return false;
     }
+    return settles();
+}
+
+// Nothing holds the sphere but what did so on its way: what is left of the step, and whether that is all but
+// nothing.
+bool Descent::settles() {
     step_.drop = Vec3(0.0);
     if (grips_) {
         hold_.friction.brake(step_, sphere_, dropped_);
@@ -52,9 +62,49 @@ bool Descent::stays_on_planes() {
         }
         held.gap += glm::dot(held.normal, step_.motion);
     }
+    leave_slide();
+    return true;
+}
+
+// The same after a way longer than what had been seen: all contacts are found at its end, as the next step
+// needs them. Those that pressed are as far as their planes say, and the sphere is below none.
+bool Descent::finds_same_planes() {
+    if (sphere_.work().is_gone()) {
+        return false;
+    }
+    struct Held {
+        FeatureId feature;
+        double gap;
+    };
+    std::array<Held, TouchList::capacity> held;
+    ContactList& contacts = sphere_.contacts;
+    for (int i = 0; i < step_.pressing_count; ++i) {
+        const Contact& contact = contacts[step_.pressing[i]];
+        held[static_cast<std::size_t>(i)] = {contact.feature,
+                                             contact.gap + glm::dot(contact.normal, step_.motion)};
+    }
+    sphere_.contacts_hold = look_around();
+    const double same = tolerances().same;
+    if (!sphere_.contacts_hold || hold_.crowd.is_around() || contacts.min_gap() < -same) {
+        return false;
+    }
+    for (int i = 0; i < step_.pressing_count; ++i) {
+        const Held& before = held[static_cast<std::size_t>(i)];
+        const auto now = std::ranges::find(contacts.all(), before.feature, &Contact::feature);
+        if (now == contacts.all().end() || now->state != ContactState::face ||
+            std::abs(now->gap - before.gap) > same) {
+            return false;
+        }
+        step_.pressing[i] = static_cast<int>(now - contacts.all().begin());
+    }
+    leave_slide();
+    return true;
+}
+
+// Of the step, after all of it was gone.
+void Descent::leave_slide() {
     step_.slide -= step_.motion - step_.drop;
     step_.motion = step_.slide;
-    return true;
 }
 
 // After a free way over one bent surface, which ends above it: where nothing is left to slide, to drop onto

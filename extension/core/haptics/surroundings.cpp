@@ -12,7 +12,7 @@ namespace {
 
 // A mesh is remembered this many ticks' travel around the sphere: fewer means gathering more often, more
 // means looking at more packs in between. Chosen by the bench `proxy`.
-constexpr double ticks_remembered = 2.5;
+constexpr double ticks_remembered = 3.0;
 constexpr double strides_remembered = 2.0;
 // Share of that by which its ball is put ahead of the sphere: most ways go on as they began.
 constexpr double ahead_share = 0.6;
@@ -109,7 +109,10 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const TriangleTree&
     const double needed = rest() + tolerances().reach + way;
     Owner& owner = owner_of(index, tree);
     PackMemory& memory = memories_[static_cast<std::size_t>(&owner - owners_.data())];
-    if (memory.covered_around(local) < needed && owner.crowded_at != ticks_) {
+    if (memory.covered_around(local) >= needed) {
+        return &memory;
+    }
+    if (owner.crowded_at != ticks_) {
         const ScenePart& placed = scene_->parts()[index];
         const Vec3& last_way = broad_phase_.last_way();
         const double length = glm::length(last_way);
@@ -118,12 +121,12 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const TriangleTree&
         const Vec3 heading = direction_to_local(placed.pose, last_way / std::max(length, 1e-300));
         memory.gather(tree, local + heading * ahead, needed + 2.0 * margin, ahead,
                       broad_phase_.reading(index), work_);
+        if (memory.covered_around(local) >= needed) {
+            return &memory;
+        }
     }
-    if (memory.covered_around(local) < needed) {
-        owner.crowded_at = ticks_;
-        return nullptr;
-    }
-    return &memory;
+    owner.crowded_at = ticks_;
+    return nullptr;
 }
 
 bool Surroundings::is_clear(double length) const {
@@ -136,8 +139,10 @@ bool Surroundings::is_clear(double length) const {
 Hit Surroundings::sweep_tree(std::uint32_t index, const SphereWay& way, double limit) {
     const TriangleTree& tree = tree_of(index);
     const double length = glm::length(way.motion) * limit;
-    if (PackMemory* const memory = memory_around(index, tree, way.start, std::min(length, wanted_margin()))) {
-        const double known = memory->covered_share(way.start, way.motion, way.distance + way.slack);
+    const double margin = wanted_margin();
+    if (PackMemory* const memory = memory_around(index, tree, way.start, std::min(length, margin))) {
+        const double known =
+            length <= margin ? limit : memory->covered_share(way.start, way.motion, way.distance + way.slack);
         const Hit hit = memory->sweep(tree, way, std::min(limit, known), broad_phase_.reading(index), work_);
         if (!hit.is_free() || known >= limit) {
             return hit;

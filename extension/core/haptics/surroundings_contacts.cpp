@@ -140,8 +140,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
     Lanes passed_by = none;  // beyond the limit
     std::uint32_t last_id = Hit::no_triangle;
     const LanesVec3 center = splat(local);
-    const auto take = [&](std::uint32_t pack, const PackBound& tangents, unsigned faces) {
-        const Lanes distances = least_distances(tangents, center);
+    const auto take = [&](std::uint32_t pack, const LanesVec3& normals, const Lanes& distances,
+                          unsigned faces) {
         nearest = lanes_min(nearest, distances);
         out.heed(smallest(distances));
         const LaneMask within = distances <= splat(out.limit());
@@ -154,7 +154,7 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
                 continue;
             }
             last_id = id;
-            const Vec3 normal = direction_to_parent(placed.pose, lane(tangents.normal, k));
+            const Vec3 normal = direction_to_parent(placed.pose, lane(normals, k));
             const FeatureId feature{index, slot_in_whole(index, tree, slot)};
             const auto state = faces & 1u << k ? ContactState::face : ContactState::seen;
             add_seen({normal, distances[k] - rest(), feature, state}, out);
@@ -180,7 +180,8 @@ void Surroundings::find_tree_contacts(std::uint32_t index, const Vec3& local, do
         others = tree.visit_near(local, out.limit(), work_, [&](std::uint32_t pack) {
             work_.spend(cost::contact_look);
             const PackOffset offset = tree.offset_from_pack(pack, center);
-            take(pack, bound_from(offset, center), lane_bits(offset.is_face));
+            const PackBound tangents = bound_from(offset, center);
+            take(pack, tangents.normal, least_distances(tangents, center), lane_bits(offset.is_face));
         });
     }
     seen_gap_ = std::min({seen_gap_, others - rest(), smallest(passed_by) - rest()});

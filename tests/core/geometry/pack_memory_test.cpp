@@ -100,15 +100,21 @@ TEST(PackMemory, WhatIsNotVisitedIsFartherThanSaid) {
             sphere.remember(0.0);
             const double limit = radius + sphere.random.magnitude(1e-8, 1e-2);
             std::vector<bool> visited(sphere.tree.pack_count());
-            const double others = std::min(
-                sphere.memory.covered_around(sphere.center),
-                sphere.memory.visit_near(
-                    sphere.tree, sphere.center, limit, sphere.odometer, sphere.work,
-                    [&](std::uint32_t pack, const PackBound& tangents, unsigned) {
-                        visited[pack] = true;
-                        const double least = smallest(least_distances(tangents, splat(sphere.center)));
-                        EXPECT_NEAR(least, distance_to_pack(sphere.tree, pack, sphere.center), 1e-14);
-                    }));
+            const double others =
+                std::min(sphere.memory.covered_around(sphere.center),
+                         sphere.memory.visit_near(
+                             sphere.tree, sphere.center, limit, sphere.odometer, sphere.work,
+                             [&](std::uint32_t pack, const LanesVec3&, const Lanes& distances, unsigned) {
+                                 visited[pack] = true;
+                                 const Lanes squared =
+                                     sphere.tree.offset_from_pack(pack, splat(sphere.center)).squared;
+                                 for (int k = 0; k < lane_count; ++k) {
+                                     const double exact = std::sqrt(squared[k]);
+                                     EXPECT_LE(distances[k], exact + 1e-14);
+                                     EXPECT_TRUE(distances[k] > limit || distances[k] > exact - 1e-14);
+                                 }
+                                 EXPECT_NEAR(smallest(distances), std::sqrt(smallest(squared)), 1e-14);
+                             }));
             EXPECT_GT(others, std::min(limit, sphere.memory.covered_around(sphere.center)) - 1e-12) << step;
             for (std::uint32_t pack = 0; pack < visited.size(); ++pack) {
                 if (!visited[pack]) {

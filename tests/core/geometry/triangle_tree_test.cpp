@@ -55,12 +55,17 @@ TEST(TriangleTree, FindsEveryPackWithinReach) {
             const double reach = extent.radius * random.magnitude(1e-3, 1.0);
             const FoundPacks result = tree.packs_around(p, reach, work, found);
             ASSERT_GE(result.radius, reach * (1.0 - 1e-6));
+            const Vec3 elsewhere = p + random.in_ball(reach);
             std::set<std::uint32_t> ids;
             for (std::size_t k = 0; k < result.count; ++k) {
+                const Vec3 normal(found[k].normal[0], found[k].normal[1], found[k].normal[2]);
+                const double height = found[k].distance + glm::dot(normal, elsewhere - p);
                 const auto lanes = tree.triangle_ids(found[k].pack);
                 for (const std::uint32_t id : lanes) {
-                    ASSERT_GE(shared::slow_distance(p, shared::corners_of(sample.mesh, id)),
-                              found[k].distance - rounding(tree));
+                    const auto corners = shared::corners_of(sample.mesh, id);
+                    ASSERT_GE(shared::slow_distance(p, corners), found[k].distance - rounding(tree));
+                    ASSERT_GE(shared::slow_distance(elsewhere, corners),
+                              height - rounding(tree) - 1e-6 * reach);
                 }
                 ids.insert(lanes.begin(), lanes.end());
             }
