@@ -108,7 +108,7 @@ struct TouchList {
     int count = 0;
 
     void clear() { count = 0; }
-    void add(const Touch& touch) { items[static_cast<std::size_t>(count++)] = touch; }
+    Touch& add() { return items[static_cast<std::size_t>(count++)]; }
     std::span<const Touch> all() const { return {items.data(), static_cast<std::size_t>(count)}; }
 };
 

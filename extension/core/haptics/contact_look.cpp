@@ -274,9 +274,8 @@ Curvature ContactLook::curvature_of(const ContactList& contacts, int index) cons
     return result;
 }
 
-Touch ContactLook::touch_of(const Contact& contact, double pressure) const {
+void ContactLook::describe(const Contact& contact, double pressure, Touch& touch) const {
     const ScenePart& part = placed(contact.feature);
-    Touch touch;
     touch.point = center_ - contact.normal * (contact.gap + rest_);
     touch.normal = touch.force_direction = contact.normal;
     touch.pressure = pressure;
@@ -290,7 +289,6 @@ Touch ContactLook::touch_of(const Contact& contact, double pressure) const {
             to_local(part.pose, touch.point), direction_to_local(part.pose, contact.normal));
         touch.force_direction = direction_to_parent(part.pose, smooth);
     }
-    return touch;
 }
 
 }  // namespace tactus

@@ -42,7 +42,8 @@ public:
     double max_bend(const Contact& contact) const;
     // Likewise, and in which directions.
     Curvature curvature_of(const ContactList& contacts, int index) const;
-    Touch touch_of(const Contact& contact, double pressure) const;
+    // Every field of `touch`.
+    void describe(const Contact& contact, double pressure, Touch& touch) const;
 
 private:
     const ScenePart& placed(const FeatureId& feature) const { return scene_.parts()[feature.part]; }

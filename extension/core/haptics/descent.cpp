@@ -137,7 +137,7 @@ void Descent::keep_touching() {
         // Where moving bodies squeeze the proxy it cannot get out of their way: what they overlap it by
         // presses, too.
         const double overlap = std::max(0.0, -contact.gap - tolerances().skin);
-        hold_.touching.add(look.touch_of(contact, step_.pressure[i] + overlap));
+        look.describe(contact, step_.pressure[i] + overlap, hold_.touching.add());
     }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 // A mesh is remembered this many ticks' travel around the sphere: fewer means gathering more often, more
 // means looking at more packs in between. Chosen by the bench `proxy`.
-constexpr double ticks_remembered = 3.0;
+constexpr double ticks_remembered = 2.5;
 constexpr double strides_remembered = 2.0;
 // Share of that by which its ball is put ahead of the sphere: most ways go on as they began.
 constexpr double ahead_share = 0.6;
