@@ -12,7 +12,7 @@ namespace {
 
 // Corners that stand before a plane by this many times `same` are in it: a sixteenth of the skin, of which
 // sweeps leave the sphere half.
-constexpr double flat = 64.0;
+constexpr double flat = 32.0;
 
 ContactState state_of(TriangleFeature feature) {
     constexpr ContactState states[] = {ContactState::face, ContactState::edge, ContactState::corner};

@@ -1,4 +1,4 @@
-// Whether a way has ended where the sphere rests, told without a look around.
+// Whether a way has ended where the sphere rests, told without another plan, mostly without a look around.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -32,8 +32,8 @@ struct Tolerances {
 
 inline Tolerances make_tolerances(double radius, double largest_coordinate) {
     constexpr double rounding_unit = 0x1p-53;
-    const double skin = std::max(1e-8 * radius, 512.0 * rounding_unit * largest_coordinate);
-    return {skin, 0.5 * skin, 0.125 * skin, 2.0 * skin + 1e-5 * radius, 0.125 * skin, 1e-3 * skin};
+    const double skin = std::max(5e-9 * radius, 512.0 * rounding_unit * largest_coordinate);
+    return {skin, 0.5 * skin, 0.125 * skin, 2.0 * skin + 1e-5 * radius, 0.125 * skin, 2e-3 * skin};
 }
 
 }  // namespace tactus
