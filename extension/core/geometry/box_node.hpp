@@ -74,8 +74,12 @@ inline FloatLanes least(FloatLanes a, FloatLanes b) {
 inline FloatLanes most(FloatLanes a, FloatLanes b) {
     return a > b ? a : b;
 }
-inline FloatLanes outside(FloatLanes low, FloatLanes high, FloatLanes p) {
-    return most(most(low - p, p - high), splat_float(0.0f));
+// From the closest point of each box to the point.
+inline FloatPoint beyond_straight(const BoxNode& node, const FloatPoint& p) {
+    const auto beyond = [&](int axis, FloatLanes x) {
+        return most(x - node.high[axis], least(x - node.low[axis], splat_float(0.0f)));
+    };
+    return {beyond(0, p.x), beyond(1, p.y), beyond(2, p.z)};
 }
 }  // namespace box_detail
 
@@ -124,10 +128,8 @@ inline unsigned lanes_up_to(FloatLanes values, float limit) {
 
 // Squared distance from the point to each box; infinite for unused slots.
 inline FloatLanes squared_distance_to_boxes(const BoxNode& node, const FloatPoint& p) {
-    const FloatLanes dx = box_detail::outside(node.low[0], node.high[0], p.x);
-    const FloatLanes dy = box_detail::outside(node.low[1], node.high[1], p.y);
-    const FloatLanes dz = box_detail::outside(node.low[2], node.high[2], p.z);
-    return dx * dx + dy * dy + dz * dz;
+    const FloatPoint beyond = box_detail::beyond_straight(node, p);
+    return dot(beyond, beyond);
 }
 
 // A sphere's way as the boxes see it: `distance` is more by what rounding may hide, `blur` is how much the
@@ -143,14 +145,6 @@ struct FloatWay {
 };
 
 namespace box_detail {
-// From the closest point of each box to the point.
-inline FloatPoint beyond_straight(const BoxNode& node, const FloatPoint& p) {
-    const auto beyond = [&](int axis, FloatLanes x) {
-        return most(x - node.high[axis], least(x - node.low[axis], splat_float(0.0f)));
-    };
-    return {beyond(0, p.x), beyond(1, p.y), beyond(2, p.z)};
-}
-
 // Gap between the sphere and each box, and how fast it shrinks.
 struct Nearing {
     FloatLanes gap, rate;

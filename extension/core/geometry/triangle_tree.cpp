@@ -37,7 +37,7 @@ FoundPacks TriangleTree::packs_around(const Vec3& point, double radius, WorkBudg
             planes = planes_before(nodes_[node], turned_[node], at, rounding);
             return planes.squared_distance;
         },
-        [&](std::uint32_t pack, float, int slot) {
+        [&](std::uint32_t pack, int slot) {
             const FloatPoint& normal = planes.normal;
             out[found.count++] = {pack,
                                   std::max(0.0f, planes.distance[slot] * (1.0f - 2e-6f) - lost),

@@ -264,7 +264,7 @@ float TriangleTree::visit_best_first(const float& limit, WorkBudget& work, Keys&
             } else if (use == PackUse::look && queue.can_wait(packs[i].key)) {
                 queue.push(packs[i]);
             } else if constexpr (use == PackUse::tell) {
-                visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key, slots[i]);
+                visit(packs[i].node & ~BoxNode::leaf_bit, slots[i]);
             } else {
                 visit(packs[i].node & ~BoxNode::leaf_bit, packs[i].key);
             }

@@ -26,10 +26,7 @@ bool Descent::has_come_to_rest(const Vec3& from) {
     }
     // To drop leads on, so that it is asked again how far it is.
     const bool has_settled = step_.bent ? drops_onto_one() && is_within_seen() : stays_on_planes();
-    if (!has_settled || !leads_clear_of_others(sphere_.position - from)) {
-        return false;
-    }
-    return settles();
+    return has_settled && leads_clear_of_others(sphere_.position - from) && settles();
 }
 
 // Nothing holds the sphere but what did so on its way: what is left of the step, and whether that is all but

@@ -200,25 +200,47 @@ void judge_ends(const std::vector<Played>& ticks, const JudgeTree& tree, double 
     verdict.error_rms = held > 0 ? std::sqrt(sum / held) : 0.0;
 }
 
+// What is reported of a case, and of all cases of a kind.
+struct Count {
+    int Verdict::* figure;
+    const char* name;
+};
+constexpr Count counts[] = {
+    {&Verdict::contact_ticks, "contact_ticks"},
+    {&Verdict::penetrations, "penetrations"},
+    {&Verdict::passes, "passes"},
+    {&Verdict::unjudged, "unjudged_ways"},
+    {&Verdict::frozen, "frozen_ticks"},
+    {&Verdict::unfinished, "unfinished_ticks"},
+    {&Verdict::checked, "checked_ticks"},
+    {&Verdict::unsettled, "reference_unsettled"},
+    {&Verdict::balanced, "balanced_ticks"},
+    {&Verdict::other_replays, "other_replays"},
+};
+struct Size {
+    double Verdict::* figure;
+    const char* of_case;
+    const char* of_kind;  // the largest
+};
+constexpr Size sizes[] = {
+    {&Verdict::mean, "mean_us", "worst_mean_us"},
+    {&Verdict::p95, "p95_us", "worst_p95_us"},
+    {&Verdict::p99, "p99_us", "worst_p99_us"},
+    {&Verdict::max, "max_us", "worst_max_us"},
+    {&Verdict::error_rms, "error_rms", "error_rms_max"},
+    {&Verdict::error_max, "error_max", "error_max"},
+    {&Verdict::unfinished_error_max, "unfinished_error_max", "unfinished_error_max"},
+    {&Verdict::thrown_max, "thrown_max_radii", "thrown_max_radii"},
+};
+
 void tell(const std::string& name, const Verdict& v, int ticks, shared::Report& report) {
-    report.set(name + ".mean_us", v.mean);
-    report.set(name + ".p95_us", v.p95);
-    report.set(name + ".p99_us", v.p99);
-    report.set(name + ".max_us", v.max);
     report.set(name + ".ticks", ticks);
-    report.set(name + ".contact_ticks", v.contact_ticks);
-    report.set(name + ".penetrations", v.penetrations);
-    report.set(name + ".passes", v.passes);
-    report.set(name + ".unjudged_ways", v.unjudged);
-    report.set(name + ".frozen_ticks", v.frozen);
-    report.set(name + ".unfinished_ticks", v.unfinished);
-    report.set(name + ".unfinished_error_max", v.unfinished_error_max);
-    report.set(name + ".thrown_max_radii", v.thrown_max);
-    report.set(name + ".error_rms", v.error_rms);
-    report.set(name + ".error_max", v.error_max);
-    report.set(name + ".checked_ticks", v.checked);
-    report.set(name + ".reference_unsettled", v.unsettled);
-    report.set(name + ".balanced_ticks", v.balanced);
+    for (const Count& count : counts) {
+        report.set(name + "." + count.name, v.*count.figure);
+    }
+    for (const Size& size : sizes) {
+        report.set(name + "." + size.of_case, v.*size.figure);
+    }
     std::printf("%-38s %7d %8.2f %8.2f %8.2f %9.2f %6d %5d %5d %5d %7d %7d %9.1e %9.1e %9.1e %7.1e\n",
                 name.c_str(), v.contact_ticks, v.mean, v.p95, v.p99, v.max, v.slowest_tick, v.penetrations,
                 v.passes, v.unjudged, v.frozen, v.unfinished, v.error_rms, v.error_max,
@@ -231,19 +253,14 @@ struct Total {
     double ticks = 0.0;
     Verdict sum;  // counts added, times and errors the largest
 
-    void add(const Verdict& v, int count) {
+    void add(const Verdict& v, int ticks_of_case) {
         ++cases;
-        ticks += count;
-        for (int Verdict::* const figure :
-             {&Verdict::contact_ticks, &Verdict::penetrations, &Verdict::passes, &Verdict::unjudged,
-              &Verdict::unfinished, &Verdict::frozen, &Verdict::checked, &Verdict::unsettled,
-              &Verdict::balanced, &Verdict::other_replays}) {
-            sum.*figure += v.*figure;
+        ticks += ticks_of_case;
+        for (const Count& count : counts) {
+            sum.*count.figure += v.*count.figure;
         }
-        for (double Verdict::* const figure :
-             {&Verdict::error_rms, &Verdict::error_max, &Verdict::unfinished_error_max, &Verdict::thrown_max,
-              &Verdict::mean, &Verdict::p95, &Verdict::p99, &Verdict::max}) {
-            sum.*figure = std::max(sum.*figure, v.*figure);
+        for (const Size& size : sizes) {
+            sum.*size.figure = std::max(sum.*size.figure, v.*size.figure);
         }
     }
 };
@@ -252,24 +269,13 @@ void tell_total(const std::string& kind, const Total& total, shared::Report& rep
     const Verdict& v = total.sum;
     report.set(kind + ".cases", total.cases);
     report.set(kind + ".ticks", total.ticks);
-    report.set(kind + ".contact_ticks", v.contact_ticks);
-    report.set(kind + ".penetrations", v.penetrations);
-    report.set(kind + ".passes", v.passes);
-    report.set(kind + ".unjudged_ways", v.unjudged);
-    report.set(kind + ".frozen_ticks", v.frozen);
     report.set(kind + ".unfinished_share", v.unfinished / std::max(1.0, total.ticks));
-    report.set(kind + ".unfinished_error_max", v.unfinished_error_max);
-    report.set(kind + ".thrown_max_radii", v.thrown_max);
-    report.set(kind + ".error_rms_max", v.error_rms);
-    report.set(kind + ".error_max", v.error_max);
-    report.set(kind + ".checked_ticks", v.checked);
-    report.set(kind + ".reference_unsettled", v.unsettled);
-    report.set(kind + ".balanced_ticks", v.balanced);
-    report.set(kind + ".other_replays", v.other_replays);
-    report.set(kind + ".worst_mean_us", v.mean);
-    report.set(kind + ".worst_p95_us", v.p95);
-    report.set(kind + ".worst_p99_us", v.p99);
-    report.set(kind + ".worst_max_us", v.max);
+    for (const Count& count : counts) {
+        report.set(kind + "." + count.name, v.*count.figure);
+    }
+    for (const Size& size : sizes) {
+        report.set(kind + "." + size.of_kind, v.*size.figure);
+    }
     std::printf(
         "%d %s cases, %.0f ticks: %d penetrations, %d passes (%d ways too long to judge), %d "
         "frozen, %.2e unfinished (off by %.1e at most), thrown by %.1e radii at most, error rms %.1e max "
