@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/safety/limited_force.hpp"
 #include "session/operator_side.hpp"
 
 namespace tactus {

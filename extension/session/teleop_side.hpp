@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/haptics/proxy.hpp"
 #include "core/haptics/surface_effects.hpp"
 #include "core/math/body_motion.hpp"
+#include "core/proxy/proxy.hpp"
 #include "core/safety/force_exit.hpp"
 #include "session/session_types.hpp"
 

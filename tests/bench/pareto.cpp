@@ -14,7 +14,7 @@
 //                 with an exact solution (shared/physics_checks.hpp) against the run time of a second
 //   at D          everything D metres from the origin: the proxy's tolerances grow with the largest
 //   coordinate
-//                 (core/haptics/tolerances.hpp), so these are the rows of looser tolerances
+//                 (core/proxy/tolerances.hpp), so these are the rows of looser tolerances
 // Errors: `facets` against exact descent on the same facets, `sphere` against the place on the smooth sphere
 // that is nearest to the hand; `deg`: largest angle between the pull and the right pull, from a depth of 1e-4
 // on (degrees). `force`: angle between the force on the hand and that of the smooth sphere, likewise.

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/haptics/proxy.hpp"
+#include "core/proxy/proxy.hpp"
 
 namespace tactus::shared {
 

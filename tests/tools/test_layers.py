@@ -1,5 +1,6 @@
-"""The build itself forbids what a layer may not include."""
+"""The build itself forbids what a layer may not include; the folders of one are in an order, too."""
 
+import graphlib
 import re
 import shutil
 import subprocess
@@ -91,3 +92,15 @@ def test_no_include_climbs_out_of_its_folder():
     sources = [path for path in (cache.clone() / "extension").rglob("*.[hc]pp")]
     climbing = [str(path) for path in sources if re.search(r'^\s*#\s*include\s*["<][^">]*\.\./', path.read_text(), re.M)]
     assert climbing == []
+
+
+@pytest.mark.parametrize("layer", LAYERS)
+def test_folders_of_a_layer_do_not_include_each_other_in_circles(layer):
+    top = cache.clone() / "extension" / layer
+    stands_on = {}
+    for source in top.rglob("*.[hc]pp"):
+        folder = source.relative_to(top).parts[0]
+        included = re.findall(rf'#include "{layer}/([^/"]+)/', source.read_text())
+        if source.parent != top:
+            stands_on.setdefault(folder, set()).update(set(included) - {folder})
+    list(graphlib.TopologicalSorter(stands_on).static_order())  # raises CycleError, which names them

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/haptics/force_law.hpp"
+#include "core/safety/limited_force.hpp"
 
 namespace tactus {
 

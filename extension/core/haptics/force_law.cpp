@@ -1,8 +1,8 @@
 #include "core/haptics/force_law.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/haptics/surface_feel.hpp"
 #include "core/haptics/surface_spring.hpp"
@@ -94,14 +94,6 @@ void smooth(HandForce& force, const Vec3& before) {
         force.contacts[i].on_hand += change * (glm::length(force.contacts[i].on_hand) / all);
     }
     force.total += change;
-}
-
-Vec3 limited_force(const Vec3& force, double limit) {
-    const double length = glm::length(force);
-    if (!std::isfinite(length)) {
-        return Vec3(0.0);
-    }
-    return length > limit ? force * (limit / length) : force;
 }
 
 }  // namespace tactus

@@ -57,7 +57,4 @@ HandForce contact_force(const TouchScene& scene, std::span<const Touch> touching
 // how hard each pushes, so that hand and bodies still feel opposite forces.
 void smooth(HandForce& force, const Vec3& before);
 
-// The force, shortened to `limit` where it is longer; zero where it is not a number.
-Vec3 limited_force(const Vec3& force, double limit);
-
 }  // namespace tactus

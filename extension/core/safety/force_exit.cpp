@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/haptics/force_law.hpp"
+#include "core/safety/limited_force.hpp"
 
 namespace tactus {
 

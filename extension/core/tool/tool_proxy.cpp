@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/haptics/hand_place.hpp"
-#include "core/haptics/tolerances.hpp"
+#include "core/proxy/tolerances.hpp"
+#include "core/safety/hand_place.hpp"
 #include "core/tool/tool_pair.hpp"
 #include "core/tool/tool_steps.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/haptics/force_law.hpp"
-#include "core/haptics/proxy.hpp"
+#include "core/proxy/proxy.hpp"
 #include "shared/many_bodies.hpp"
 
 namespace tactus::bench {

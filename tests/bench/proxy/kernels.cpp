@@ -8,9 +8,9 @@
 
 #include "core/geometry/pack_memory.hpp"
 #include "core/geometry/triangle_tree.hpp"
-#include "core/haptics/constrained_step.hpp"
-#include "core/haptics/nearest_in_halfspaces.hpp"
-#include "core/haptics/tolerances.hpp"
+#include "core/proxy/constrained_step.hpp"
+#include "core/proxy/nearest_in_halfspaces.hpp"
+#include "core/proxy/tolerances.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/haptics/proxy.hpp"
+#include "core/proxy/proxy.hpp"
 #include "shared/bench_kit.hpp"
 
 namespace tactus::bench {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
@@ -153,18 +152,6 @@ TEST(ForceLaw, SmoothedFadesAfterContact) {
     HandForce nothing;
     smooth(nothing, {0.0, 8.0, 0.0});
     EXPECT_EQ(nothing.total, Vec3(0.0, 4.0, 0.0));
-}
-
-TEST(ForceLaw, LimitShortensAndKeepsTheDirection) {
-    EXPECT_EQ(limited_force({0.0, 3.0, 0.0}, 8.0), Vec3(0.0, 3.0, 0.0));
-    EXPECT_LT(glm::length(limited_force({0.0, 30.0, 40.0}, 5.0) - Vec3(0.0, 3.0, 4.0)), 1e-12);
-}
-
-TEST(ForceLaw, AForceThatIsNoNumberIsNone) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(limited_force({nan, 0.0, 0.0}, 8.0), Vec3(0.0));
-    EXPECT_EQ(limited_force({infinity, 0.0, 0.0}, 8.0), Vec3(0.0));
 }
 
 }  // namespace
