@@ -138,8 +138,8 @@ double Crowd::go_on(ProxySphere& sphere) {
         return way;
     }
     hold_.next = CrowdHold::Next::no_more;
-    sphere.surroundings.keep_in_mind(stopped_by);
-    sphere.surroundings.insist_on(stopped_by, sphere.position);
+    sphere.surroundings.mind().keep(stopped_by);
+    sphere.surroundings.mind().insist_on(stopped_by, sphere.position);
     return way;
 }
 

@@ -37,7 +37,7 @@ DescentEnd Descent::go(double seconds) {
     hold_.crowd.begin_tick();
     if (!sphere_.contacts_hold) {  // what held it then may be what a search in a crowd does not find
         for (const Touch& touch : hold_.touching.all()) {
-            sphere_.surroundings.keep_in_mind(touch.feature);
+            sphere_.surroundings.mind().keep(touch.feature);
         }
     }
     go_on_through_crowd();
@@ -173,15 +173,15 @@ Hit Descent::take() {
     recalls_ = hit.found && length > 0.0 && holds && !grips_ && !crowd.is_around();
     strays_ = stopped_at_once && strays(glm::length(step_.motion), radius());
     if (is_stopper_known) {
-        surroundings.keep_in_mind(stopped_by);
+        surroundings.mind().keep(stopped_by);
     } else if (!crowd.is_around()) {
-        surroundings.clear_mind();
+        surroundings.mind().let_go();
     }
     beyond_ = drop_after(length, slope, radius());
     dropped_ = holds ? beyond_ : 0.0;
     trust_.taken(step_, pull_, length, hit.found);
     // Stopped at once by something that is no contact: it is one now.
-    is_stuck_ = stopped_at_once && !surroundings.insist_on(stopped_by, sphere_.position);
+    is_stuck_ = stopped_at_once && !surroundings.mind().insist_on(stopped_by, sphere_.position);
     return hit;
 }
 

@@ -79,7 +79,7 @@ void Descent::plan_in_share() {
     bool is_flat = true;
     for (int i = 0; i < step_.pressing_count; ++i) {
         const Contact& contact = contacts[step_.pressing[i]];
-        sphere_.surroundings.keep_in_mind(contact.feature);
+        sphere_.surroundings.mind().keep(contact.feature);
         is_flat = is_flat && contact.state == ContactState::face;
     }
     if (step_.pressing_count == 0 || (is_flat && is_end())) {

@@ -19,21 +19,18 @@ constexpr double ahead_share = 0.6;
 
 }  // namespace
 
-Surroundings::Surroundings(std::size_t max_parts)
-    : broad_phase_(max_parts), memories_(std::make_unique<PackMemory[]>(max_memories)) {}
-
 bool Surroundings::begin_tick(const TouchScene& scene, const Vec3& center, double radius, std::uint32_t mask,
                               const WorkBudget& work) {
     scene_ = &scene;
     radius_ = radius;
     work_ = work;
-    in_mind_count_ = 0;
-    ++ticks_;
+    mind_.let_go();
+    memories_.begin_tick();
     const bool changed = broad_phase_.begin_tick(scene, center, radius, mask);
     is_sure_ = is_sure_ && !broad_phase_.has_forgotten();
     const bool passes = !passed_.empty();
     if (changed || passes) {
-        insisted_count_ = 0;
+        mind_.scene_has_changed();
     }
     if (passes) {
         passed_.update(scene, center, rest(), work_);
@@ -79,23 +76,6 @@ bool Surroundings::fits_everywhere(const Vec3& center) {
            std::ranges::all_of(near, [&](std::uint32_t part) { return fits(part, center); });
 }
 
-// Who has a part's memory: its own, or the one that was least recently used.
-Surroundings::Owner& Surroundings::owner_of(std::uint32_t part, const TriangleTree& tree) {
-    const std::uint32_t stamp = broad_phase_.stamp(part);
-    auto owner = std::ranges::find_if(
-        owners_, [&](const Owner& own) { return own.part == part && own.stamp == stamp; });
-    if (owner == owners_.end()) {
-        owner = std::ranges::min_element(owners_, {}, &Owner::used_at);
-        *owner = {part, stamp};
-    }
-    owner->used_at = ticks_;
-    if (owner->tree != &tree) {
-        owner->tree = &tree;
-        memories_[static_cast<std::size_t>(owner - owners_.begin())].clear();
-    }
-    return *owner;
-}
-
 // A ball that holds for some ticks; over rough ground, for some strides.
 double Surroundings::wanted_margin() const {
     return std::max(std::min(ticks_remembered * broad_phase_.pace(), strides_remembered * stride_),
@@ -107,12 +87,11 @@ double Surroundings::wanted_margin() const {
 PackMemory* Surroundings::memory_around(std::uint32_t index, const TriangleTree& tree, const Vec3& local,
                                         double way) {
     const double needed = rest() + tolerances().reach + way;
-    Owner& owner = owner_of(index, tree);
-    PackMemory& memory = memories_[static_cast<std::size_t>(&owner - owners_.data())];
+    const auto [memory, is_crowded] = memories_.of(index, broad_phase_.stamp(index), tree);
     if (memory.covered_around(local) >= needed) {
         return &memory;
     }
-    if (owner.crowded_at != ticks_) {
+    if (!is_crowded) {
         const ScenePart& placed = scene_->parts()[index];
         const Vec3& last_way = broad_phase_.last_way();
         const double length = glm::length(last_way);
@@ -125,7 +104,7 @@ PackMemory* Surroundings::memory_around(std::uint32_t index, const TriangleTree&
             return &memory;
         }
     }
-    owner.crowded_at = ticks_;
+    is_crowded = true;
     return nullptr;
 }
 

@@ -2,16 +2,15 @@
 // are asked, each through what is remembered of its triangles, through its tree, or in closed form.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 
-#include "core/geometry/pack_memory.hpp"
 #include "core/proxy/broad_phase.hpp"
 #include "core/proxy/contact_gathering.hpp"
 #include "core/proxy/contact_look.hpp"
+#include "core/proxy/features_in_mind.hpp"
 #include "core/proxy/passed_bodies.hpp"
+#include "core/proxy/tree_memories.hpp"
 
 namespace tactus {
 
@@ -26,7 +25,7 @@ struct LongSweep {
 
 class Surroundings {
 public:
-    explicit Surroundings(std::size_t max_parts);
+    explicit Surroundings(std::size_t max_parts) : broad_phase_(max_parts) {}
 
     // Opens a tick, in which no more work is done than `work` has left. `center` is where the sphere is.
     // False where nothing near it has changed since the last tick.
@@ -75,12 +74,8 @@ public:
     Hit sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except = -1);
     // The same over several ticks, as long as nothing moves: nothing is known until it is done.
     Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& crowd, FeatureId& stopped_by);
-    // A feature that has just held the sphere back or stopped it counts as a contact in what is found next,
-    // as far above it as the sphere may be: in a groove it is the other wall. What stops the sphere at once,
-    // although no contact does, counts until the sphere has moved; false where it did so already.
-    void keep_in_mind(const FeatureId& feature);
-    void clear_mind() { in_mind_count_ = 0; }
-    bool insist_on(const FeatureId& feature, const Vec3& center);
+    // What counts as a contact in what is found next.
+    FeaturesInMind& mind() { return mind_; }
 
     // The next part near the sphere, counting from `from`, that has run into it since the last tick; false
     // where there is none. `displacement` is what keeps the sphere from being passed. The body `carrier` does
@@ -113,18 +108,6 @@ private:
     // holds: at a fifth of the radius the two cost about the same over fine meshes.
     static constexpr double least_stride = 0.02;
     static constexpr double first_stride_max = 0.2;
-    static constexpr std::size_t max_memories = 12;  // meshes near one sphere whose triangles it remembers
-    static constexpr std::size_t max_insisted = 16;
-    static constexpr std::size_t max_in_mind = 6;
-
-    // Whose triangles a PackMemory holds.
-    struct Owner {
-        std::uint32_t part = 0;
-        std::uint32_t stamp = 0;       // of the part, when it was asked; another: the memory is void
-        std::uint64_t used_at = 0;     // tick
-        std::uint64_t crowded_at = 0;  // tick in which more were near than it holds
-        const TriangleTree* tree = nullptr;
-    };
 
     bool counts(std::uint32_t part, double length, int except) const;
     double rest() const { return radius_ + tolerances().skin; }
@@ -137,7 +120,6 @@ private:
     bool has_room_beside(std::uint32_t part, const Vec3& center, double room);
     bool fits(std::uint32_t part, const Vec3& center);
     bool fits_everywhere(const Vec3& center);
-    Owner& owner_of(std::uint32_t part, const TriangleTree& tree);
     double wanted_margin() const;
     PackMemory* memory_around(std::uint32_t part, const TriangleTree& tree, const Vec3& local, double way);
     SphereWay way_in(std::uint32_t part, const Vec3& center, const Vec3& motion) const;
@@ -162,15 +144,9 @@ private:
     WorkBudget work_{0};
     double seen_gap_ = 0.0;  // up to there above rest all is among the contacts found last (unit: meters)
     bool is_sure_ = false;   // no triangle is nearer than touchable_share of the radius
-    std::uint64_t ticks_ = 0;
     PassedBodies passed_;
-    std::array<FeatureId, max_in_mind> in_mind_{};
-    std::size_t in_mind_count_ = 0;
-    std::array<FeatureId, max_insisted> insisted_{};
-    std::size_t insisted_count_ = 0;
-    Vec3 insisted_at_{0.0};
-    std::array<Owner, max_memories> owners_{};
-    std::unique_ptr<PackMemory[]> memories_;
+    FeaturesInMind mind_;
+    TreeMemories memories_;
 };
 
 }  // namespace tactus

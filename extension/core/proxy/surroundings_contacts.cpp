@@ -73,8 +73,8 @@ void Surroundings::recall_contacts(const Vec3& center, ContactList& out, double 
     out.clear();
     seen_gap_ = nothing_seen;
     const ContactLook look = look_from(center);
-    for (std::size_t i = 0; i < in_mind_count_; ++i) {
-        const Contact contact = look.exact_contact(in_mind_[i]);
+    for (const FeatureId& feature : mind_.kept()) {
+        const Contact contact = look.exact_contact(feature);
         if (contact.gap <= tolerances().reach + beyond) {
             out.add(contact);
         }
@@ -202,49 +202,24 @@ void Surroundings::add_seen(const Contact& contact, ContactGathering& out) {
     out.add(added);
 }
 
-void Surroundings::keep_in_mind(const FeatureId& feature) {
-    const auto end = in_mind_.begin() + static_cast<std::ptrdiff_t>(in_mind_count_);
-    if (std::find(in_mind_.begin(), end, feature) != end) {
-        return;
-    }
-    if (in_mind_count_ == max_in_mind) {
-        std::shift_left(in_mind_.begin(), in_mind_.end(), 1);
-        --in_mind_count_;
-    }
-    in_mind_[in_mind_count_++] = feature;
-}
-
 // What is within the limit was found already; what is covered does not count, whatever the distance.
 void Surroundings::add_in_mind(const Vec3& center, double max_gap, ContactList& out) {
     const ContactLook look = look_from(center);
-    for (std::size_t i = 0; i < in_mind_count_; ++i) {
-        const auto is_it = [&](const Contact& other) { return other.feature == in_mind_[i]; };
-        if (in_mind_[i].triangle == Hit::no_triangle || std::ranges::any_of(out.all(), is_it)) {
+    for (const FeatureId& feature : mind_.kept()) {
+        const auto is_it = [&](const Contact& other) { return other.feature == feature; };
+        if (feature.triangle == Hit::no_triangle || std::ranges::any_of(out.all(), is_it)) {
             continue;
         }
-        const Contact contact = look.exact_contact(in_mind_[i]);
+        const Contact contact = look.exact_contact(feature);
         if (contact.gap <= max_gap && !look.is_covered_by_any(contact)) {
             out.add(contact);
         }
     }
 }
 
-bool Surroundings::insist_on(const FeatureId& feature, const Vec3& center) {
-    if (center != insisted_at_) {
-        insisted_count_ = 0;
-        insisted_at_ = center;
-    }
-    const auto end = insisted_.begin() + static_cast<std::ptrdiff_t>(insisted_count_);
-    if (insisted_count_ == max_insisted || std::find(insisted_.begin(), end, feature) != end) {
-        return false;
-    }
-    insisted_[insisted_count_++] = feature;
-    return true;
-}
-
 void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
-    for (std::size_t i = 0; i < insisted_count_ && center == insisted_at_; ++i) {
-        const Contact contact = look_from(center).exact_contact(insisted_[i]);
+    for (const FeatureId& feature : mind_.insisted_at(center)) {
+        const Contact contact = look_from(center).exact_contact(feature);
         const auto end = out.items.begin() + out.count;
         const auto same = std::find_if(
             out.items.begin(), end, [&](const Contact& other) { return other.feature == contact.feature; });
@@ -261,7 +236,7 @@ void Surroundings::add_insisted(const Vec3& center, ContactList& out) {
 void Surroundings::make_room(ContactList& out) {
     if (out.is_full()) {
         seen_gap_ = std::min(seen_gap_, 0.0);
-        out.count -= static_cast<int>(in_mind_count_ + insisted_count_);
+        out.count -= mind_.count();
     }
 }
 
