@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <span>
+#include <thread>
 
 #include "scene.hpp"
 #include "sensing/openni/camera.hpp"
@@ -82,6 +85,35 @@ TEST_F(Recording, PlaysBackEveryFrameAndEnds) {
     }
     EXPECT_EQ(last, Camera::Reading::ended);
     EXPECT_EQ(next, images_.size());
+}
+
+// OpenNI2's player looks for more without a pause.
+TEST_F(Recording, AtItsEndItTakesNoProcessorTime) {
+    Camera camera(testing::openni());
+    ASSERT_EQ(camera.open({.uri = path_.string(), .repeats = false, .as_fast_as_read = true}), "");
+    DepthImage image;
+    for (int i = 0; i < 100 && camera.read(image, 100) != Camera::Reading::ended; ++i) {
+    }
+    ASSERT_EQ(camera.read(image, 100), Camera::Reading::ended);
+    const auto begin = std::chrono::steady_clock::now();
+    const std::clock_t used = std::clock();
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    const double share = static_cast<double>(std::clock() - used) / CLOCKS_PER_SEC /
+                         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    EXPECT_LT(share, 0.5);
+}
+
+TEST_F(Recording, IsClosedAndOpenedOverAndOver) {
+    DepthImage image;
+    for (int round = 0; round < 30; ++round) {
+        Camera camera(testing::openni());
+        ASSERT_EQ(
+            camera.open({.uri = path_.string(), .repeats = round % 2 == 0, .as_fast_as_read = round % 3 > 0}),
+            "");
+        for (int i = 0; i < round % 5; ++i) {
+            ASSERT_EQ(camera.read(image, 2000), Camera::Reading::frame) << round;
+        }
+    }
 }
 
 TEST_F(Recording, BeginsAgainWhereItRepeats) {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/mesh_check.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "sensing/image/depth_renderer.hpp"
 
 namespace tactus {

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/closed_mesh.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

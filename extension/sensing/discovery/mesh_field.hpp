@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "core/geometry/parallel.hpp"
 #include "core/math/pose.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "core/tree/parallel.hpp"
 
 namespace tactus {
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <span>
+#include <thread>
+#include <utility>
 
 #include "sensing/openni/recording_check.hpp"
 
@@ -37,6 +40,12 @@ bool is_recording_path(const std::string& uri) {
     return uri.ends_with(".oni") || uri.ends_with(".ONI");
 }
 
+// OpenNI2's player of recordings looks through its streams without a lock: all the time while it plays, and
+// once its file is at its end without anything else to do; while none is started, for some nanoseconds every
+// 10 ms. A stream that is destroyed meanwhile ends the program. So long after it was stopped the player has
+// seen that it is, and rests.
+constexpr std::chrono::milliseconds until_player_rests(30);
+
 bool is_view(float angle) {
     return angle > 0.01f && angle < 3.1f;
 }
@@ -48,6 +57,7 @@ std::string Camera::open(const Choice& choice) {
     is_gone_ = false;
     last_frame_ = 0;
     repeats_ = choice.repeats;
+    is_file_ = is_recording_path(choice.uri);
     std::string error = open_device(choice.uri);
     // Not before info_ is known, which the callback reads.
     OniDeviceCallbacks callbacks{nullptr, on_disconnected, nullptr};
@@ -63,7 +73,8 @@ std::string Camera::open(const Choice& choice) {
         return error;
     }
     play_recording(choice);
-    if (openni_->stream_start(stream_) != ONI_STATUS_OK) {
+    is_started_ = openni_->stream_start(stream_) == ONI_STATUS_OK;
+    if (!is_started_) {
         error = name_ + " gives no depth: " + openni_.last_error();
         close();
     }
@@ -203,7 +214,10 @@ void Camera::close() {
         recorder_ = nullptr;
     }
     if (stream_ != nullptr) {
-        openni_->stream_stop(stream_);
+        stop();
+        if (is_file_) {
+            std::this_thread::sleep_for(until_player_rests);
+        }
         openni_->stream_destroy(stream_);
         stream_ = nullptr;
     }
@@ -214,6 +228,12 @@ void Camera::close() {
     if (callbacks_ != nullptr) {
         openni_->unregister_device_callbacks(callbacks_);
         callbacks_ = nullptr;
+    }
+}
+
+void Camera::stop() {
+    if (std::exchange(is_started_, false)) {
+        openni_->stream_stop(stream_);
     }
 }
 
@@ -237,6 +257,7 @@ Camera::Reading Camera::read(DepthImage& image, int wait_ms) {
         return Reading::lost;
     }
     if (without_frame() == Reading::ended) {
+        stop();  // or its player takes all of a processor
         return Reading::ended;
     }
     int index = 0;

@@ -55,6 +55,7 @@ private:
     std::string choose_mode(int width);
     std::string read_geometry();
     void play_recording(const Choice& choice);
+    void stop();
     bool take(const OniFrame& frame, DepthImage& image) const;
     Reading without_frame();
 
@@ -68,6 +69,8 @@ private:
     OniDeviceInfo info_{};
     std::string name_;
     DepthCamera view_;
+    bool is_file_ = false;     // what is open, a recording
+    bool is_started_ = false;  // the stream
     bool is_mirrored_ = false;
     int frame_count_ = 0;  // of a recording; 0: a camera
     int last_frame_ = 0;
