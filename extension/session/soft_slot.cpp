@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/geometry/deform_sweep.hpp"
+#include "core/tree/deform_sweep.hpp"
 
 namespace tactus {
 

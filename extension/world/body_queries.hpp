@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/geometry/surface_query.hpp"
-#include "core/geometry/tree_boxes.hpp"
+#include "core/tree/tree_boxes.hpp"
 
 namespace tactus {
 

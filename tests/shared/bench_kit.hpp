@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus::shared {
 

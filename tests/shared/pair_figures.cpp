@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/meshes.hpp"
 

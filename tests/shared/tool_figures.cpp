@@ -9,8 +9,8 @@
 #include <random>
 #include <utility>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
 #include "core/math/small_matrix.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
 #include "shared/bench_kit.hpp"
 
 namespace tactus::shared {

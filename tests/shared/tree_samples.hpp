@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 

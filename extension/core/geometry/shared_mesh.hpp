@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

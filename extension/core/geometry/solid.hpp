@@ -6,10 +6,10 @@
 #include <array>
 #include <variant>
 
-#include "core/geometry/hit.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/surface_end.hpp"
-#include "core/geometry/work.hpp"
+#include "core/tree/hit.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

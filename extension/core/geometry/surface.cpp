@@ -3,7 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/triangle_pack.hpp"
+#include "core/tree/triangle_pack.hpp"
 
 namespace tactus {
 

@@ -2,9 +2,9 @@
 // frame. A body of several spheres asks for each in turn, with the same budget.
 #pragma once
 
-#include "core/geometry/closest_point_on_triangle.hpp"
-#include "core/geometry/hit.hpp"
 #include "core/geometry/touch_shape.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
+#include "core/tree/hit.hpp"
 
 namespace tactus {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/geometry/touch_shape.hpp"
-#include "core/geometry/work.hpp"
 #include "core/math/pose.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

@@ -11,8 +11,8 @@
 #include "core/geometry/shape.hpp"
 #include "core/geometry/solid.hpp"
 #include "core/geometry/touchable.hpp"
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/smooth_normals.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -17,8 +17,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/parallel.hpp"
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/parallel.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry/hit.hpp"
 #include "core/geometry/surface_end.hpp"
 #include "core/math/types.hpp"
+#include "core/tree/hit.hpp"
 
 namespace tactus {
 

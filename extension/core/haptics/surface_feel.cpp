@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/deform_sweep.hpp"
+#include "core/tree/deform_sweep.hpp"
 
 namespace tactus {
 

@@ -1,6 +1,6 @@
 #include "core/haptics/surface_way.hpp"
 
-#include "core/geometry/deform_sweep.hpp"
+#include "core/tree/deform_sweep.hpp"
 
 namespace tactus {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/work.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

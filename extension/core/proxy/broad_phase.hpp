@@ -13,9 +13,9 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/work.hpp"
 #include "core/haptics/touch_scene.hpp"
 #include "core/proxy/tolerances.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

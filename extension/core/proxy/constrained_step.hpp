@@ -8,8 +8,8 @@
 
 #include <span>
 
-#include "core/geometry/work.hpp"
 #include "core/haptics/contact.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

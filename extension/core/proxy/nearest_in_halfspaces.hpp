@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <span>
 
-#include "core/geometry/work.hpp"
 #include "core/math/types.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

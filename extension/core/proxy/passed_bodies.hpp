@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/geometry/triangle_tree.hpp"
 #include "core/haptics/touch_scene.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

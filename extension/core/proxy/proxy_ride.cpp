@@ -4,10 +4,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/geometry/deform_sweep.hpp"
 #include "core/math/shortened.hpp"
 #include "core/proxy/constrained_step.hpp"
 #include "core/proxy/proxy.hpp"
+#include "core/tree/deform_sweep.hpp"
 
 namespace tactus {
 

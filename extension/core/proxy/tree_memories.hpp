@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/geometry/pack_memory.hpp"
+#include "core/tree/pack_memory.hpp"
 
 namespace tactus {
 

@@ -8,10 +8,10 @@
 #include <map>
 #include <set>
 
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/closed_mesh.hpp"
 #include "core/mesh/mesh_check.hpp"
 #include "core/soft/soft_draft.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

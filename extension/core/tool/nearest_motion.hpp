@@ -18,9 +18,9 @@
 
 #include <span>
 
-#include "core/geometry/work.hpp"
 #include "core/math/types.hpp"
 #include "core/tool/dual_method.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/box_node.hpp"
-#include "core/geometry/work.hpp"
+#include "core/tree/box_node.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/closed_mesh.hpp"
 #include "core/mesh/mesh_check.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

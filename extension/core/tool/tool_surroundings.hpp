@@ -11,12 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/deform_sweep.hpp"
 #include "core/haptics/contact.hpp"
 #include "core/tool/nearest_motion.hpp"
 #include "core/tool/part_balls.hpp"
 #include "core/tool/sphere_hood.hpp"
 #include "core/tool/tool_shape.hpp"
+#include "core/tree/deform_sweep.hpp"
 
 namespace tactus {
 

@@ -6,11 +6,11 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "core/geometry/pack_memory.hpp"
-#include "core/geometry/triangle_tree.hpp"
 #include "core/proxy/constrained_step.hpp"
 #include "core/proxy/nearest_in_halfspaces.hpp"
 #include "core/proxy/tolerances.hpp"
+#include "core/tree/pack_memory.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 

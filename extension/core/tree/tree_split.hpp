@@ -6,8 +6,8 @@
 #include <limits>
 #include <span>
 
-#include "core/geometry/box_node.hpp"
 #include "core/math/lanes.hpp"
+#include "core/tree/box_node.hpp"
 
 namespace tactus {
 

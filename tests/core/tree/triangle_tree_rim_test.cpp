@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/closest_point_on_triangle.hpp"
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 
 namespace tactus {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

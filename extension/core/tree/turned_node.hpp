@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/geometry/box_node.hpp"
+#include "core/tree/box_node.hpp"
 
 namespace tactus {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <atomic>
 
-#include "core/geometry/tree_cells.hpp"
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/tree_cells.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

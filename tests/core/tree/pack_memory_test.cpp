@@ -1,5 +1,5 @@
 // What is remembered answers as the tree it was taken from, however long ago it was looked at.
-#include "core/geometry/pack_memory.hpp"
+#include "core/tree/pack_memory.hpp"
 
 #include <gtest/gtest.h>
 

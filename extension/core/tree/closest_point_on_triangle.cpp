@@ -1,8 +1,8 @@
-#include "core/geometry/closest_point_on_triangle.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "core/geometry/triangle_pack.hpp"
+#include "core/tree/triangle_pack.hpp"
 
 namespace tactus {
 

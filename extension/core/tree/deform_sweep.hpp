@@ -5,7 +5,7 @@
 // In the mesh's frame, in metres. Queries allocate nothing.
 #pragma once
 
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/closed_mesh.hpp"
+#include "core/tree/triangle_tree.hpp"
 #include "shared/judge_tree.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"

@@ -1,4 +1,4 @@
-#include "core/geometry/tree_cells.hpp"
+#include "core/tree/tree_cells.hpp"
 
 #include <algorithm>
 #include <utility>

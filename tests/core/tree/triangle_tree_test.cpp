@@ -1,4 +1,4 @@
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 #include <gtest/gtest.h>
 

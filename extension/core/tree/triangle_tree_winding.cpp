@@ -15,7 +15,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "core/geometry/parallel.hpp"
-#include "core/geometry/tree_split.hpp"
-#include "core/geometry/triangle_tree.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "core/tree/parallel.hpp"
+#include "core/tree/tree_split.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-#include "core/geometry/deform_sweep.hpp"
+#include "core/tree/deform_sweep.hpp"
 
 #include <algorithm>
 #include <cmath>

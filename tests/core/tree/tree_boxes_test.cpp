@@ -1,4 +1,4 @@
-#include "core/geometry/tree_boxes.hpp"
+#include "core/tree/tree_boxes.hpp"
 
 #include <gtest/gtest.h>
 

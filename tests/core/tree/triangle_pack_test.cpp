@@ -1,4 +1,4 @@
-#include "core/geometry/triangle_pack.hpp"
+#include "core/tree/triangle_pack.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/pack_memory.hpp"
+#include "core/tree/pack_memory.hpp"
 
 #include <algorithm>
 #include <bit>

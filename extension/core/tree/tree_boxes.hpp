@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/geometry/triangle_tree.hpp"
+#include "core/tree/triangle_tree.hpp"
 
 namespace tactus {
 

@@ -9,9 +9,9 @@
 
 #include <limits>
 
-#include "core/geometry/hit.hpp"
-#include "core/geometry/pack_bound.hpp"
 #include "core/math/lanes.hpp"
+#include "core/tree/hit.hpp"
+#include "core/tree/pack_bound.hpp"
 
 namespace tactus {
 

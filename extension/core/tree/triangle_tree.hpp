@@ -14,14 +14,14 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/pack_store.hpp"
-#include "core/geometry/parallel.hpp"
-#include "core/geometry/triangle_pack.hpp"
-#include "core/geometry/turned_node.hpp"
-#include "core/geometry/visit_queue.hpp"
-#include "core/geometry/winding.hpp"
-#include "core/geometry/work.hpp"
 #include "core/mesh/triangle_mesh.hpp"
+#include "core/tree/pack_store.hpp"
+#include "core/tree/parallel.hpp"
+#include "core/tree/triangle_pack.hpp"
+#include "core/tree/turned_node.hpp"
+#include "core/tree/visit_queue.hpp"
+#include "core/tree/winding.hpp"
+#include "core/tree/work.hpp"
 
 namespace tactus {
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <span>
 
-#include "core/geometry/box_node.hpp"
-#include "core/geometry/triangle_pack.hpp"
+#include "core/tree/box_node.hpp"
+#include "core/tree/triangle_pack.hpp"
 
 namespace tactus {
 

@@ -1,4 +1,4 @@
-#include "core/geometry/closest_point_on_triangle.hpp"
+#include "core/tree/closest_point_on_triangle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/tree_split.hpp"
+#include "core/tree/tree_split.hpp"
 
 #include <algorithm>
 #include <array>
