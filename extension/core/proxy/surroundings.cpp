@@ -182,30 +182,30 @@ Hit Surroundings::sweep(const Vec3& center, const Vec3& motion, FeatureId& stopp
                        [&](std::uint32_t part, double length) { return counts(part, length, except); });
 }
 
-Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& crowd, FeatureId& stopped_by) {
-    const TouchPart* const dense = scene_->parts()[crowd.part].part;
+Hit Surroundings::sweep_on(const Vec3& center, const Vec3& motion, LongSweep& asked, FeatureId& stopped_by) {
+    const TouchPart* const dense = scene_->parts()[asked.part].part;
     if (!dense || !dense->tree()) {
-        crowd.is_done = true;
+        asked.is_done = true;
         return sweep(center, motion, stopped_by);
     }
     const Hit first = sweep_parts(center, motion, stopped_by, [&](std::uint32_t part, double length) {
-        return part != crowd.part && counts(part, length, -1);
+        return part != asked.part && counts(part, length, -1);
     });
-    const TriangleTree& tree = tree_of(crowd.part);
-    if (crowd.lineage != tree.lineage()) {
-        crowd = {crowd.part, tree.lineage()};
+    const TriangleTree& tree = tree_of(asked.part);
+    if (asked.lineage != tree.lineage()) {
+        asked = {asked.part, tree.lineage()};
     }
-    Hit& hit = crowd.progress.hit;
+    Hit& hit = asked.progress.hit;
     if (first.t < hit.t) {
         hit = {};
         hit.t = first.t;
     }
-    crowd.is_done = tree.sweep_on(way_in(crowd.part, center, motion), crowd.progress, work_);
-    if (!crowd.is_done) {
+    asked.is_done = tree.sweep_on(way_in(asked.part, center, motion), asked.progress, work_);
+    if (!asked.is_done) {
         return {0.0, false, false};
     }
     if (hit.found) {
-        stopped_by = {crowd.part, slot_in_whole(crowd.part, tree, hit.triangle)};
+        stopped_by = {asked.part, slot_in_whole(asked.part, tree, hit.triangle)};
         return hit;
     }
     return first;

@@ -73,7 +73,7 @@ public:
     // that causes the motion. `stopped_by` is what the way ends at, where something does.
     Hit sweep(const Vec3& center, const Vec3& motion, FeatureId& stopped_by, int except = -1);
     // The same over several ticks, as long as nothing moves: nothing is known until it is done.
-    Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& crowd, FeatureId& stopped_by);
+    Hit sweep_on(const Vec3& center, const Vec3& motion, LongSweep& asked, FeatureId& stopped_by);
     // What counts as a contact in what is found next.
     FeaturesInMind& mind() { return mind_; }
 
