@@ -8,6 +8,7 @@ import zipfile
 from pathlib import Path
 
 import build
+import entry
 import shipped_library
 from setup import cache, cross, godot, jolt, platforms
 from setup.platforms import Platform
@@ -43,15 +44,18 @@ def archive() -> Path:
 def pack(others: list[Platform] | None = None) -> Path:
     """`others`: platforms besides this machine's own, whose libraries are built already."""
     content = contents(others or [])
-    cache.emptied(STAGE)
-    partial = archive().with_suffix(".partial")
-    with zipfile.ZipFile(partial, "w", zipfile.ZIP_DEFLATED) as file:
+    with cache.replacing(STAGE) as fresh:
+        _write(content, fresh / archive().name)
+    return archive()
+
+
+def _write(content: dict[str, bytes], target: Path) -> None:
+    with zipfile.ZipFile(target, "w", zipfile.ZIP_DEFLATED) as file:
         for name, data in sorted(content.items()):
-            entry = zipfile.ZipInfo(f"addons/tactus/{name}", OLDEST_DATE)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
-            file.writestr(entry, data)
-    return partial.rename(archive())
+            one = zipfile.ZipInfo(f"addons/tactus/{name}", OLDEST_DATE)
+            one.compress_type = zipfile.ZIP_DEFLATED
+            one.external_attr = 0o644 << 16
+            file.writestr(one, data)
 
 
 def contents(others: list[Platform]) -> dict[str, bytes]:
@@ -134,9 +138,6 @@ def _first_comment(header: Path | None) -> str:
 
 def main(arguments: list[str]) -> int:
     others = platforms.named_in(arguments)
-    if any(not argument.startswith("--platform=") for argument in arguments):
-        print("./run addon [--platform=NAME,…]", file=sys.stderr)
-        return 2
     for platform in others:
         for target in manifest.TARGETS.values():
             print(f"Building {target} for {platform.name} … ", end="", flush=True)
@@ -152,8 +153,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except RuntimeError as error:
-        print(error, file=sys.stderr)
-        sys.exit(1)
+    entry.leave(main)

@@ -3,18 +3,50 @@
 NAME.gd is a bench inside Godot.
 """
 
+import math
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import build
+import entry
 import project
+from arguments import Option
+from measuring.options import Refused
 from setup import cache, godot, jolt
+
+
+# How a source asks for an option: of shared::Options, the later the more it says; and where it compares the words itself.
+_KINDS = ["", "has", "text", "number"]
+_ASKED = re.compile(r'\boptions\.(has|text|number)\("([a-z][\w-]*)"')
+_COMPARED = re.compile(r'\bargument(?: == |\.starts_with\()"--([a-z][\w-]*)(=?)"')
 
 
 def names() -> list[str]:
     return sorted(path.stem for path in (cache.clone() / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd"))
+
+
+def options(name: str) -> list[Option]:
+    """Those that its source asks for."""
+    folder = cache.clone() / "tests/bench"
+    texts = [path.read_text() for path in sorted([folder / f"{name}.cpp", *(folder / name).rglob("*.cpp")]) if path.is_file()]
+    kinds: dict[str, str] = {}
+    for kind, key in (pair for text in texts for pair in _ASKED.findall(text)):
+        kinds[key] = max(kind, kinds.get(key, ""), key=_KINDS.index)
+    for key, equals in (pair for text in texts for pair in _COMPARED.findall(text)):
+        kinds[key] = "text" if equals else "has"
+    return [Option(f"--{key}", "" if kind == "has" else "VALUE", _number if kind == "number" else str) for key, kind in sorted(kinds.items())]
+
+
+def _number(value: str) -> None:
+    try:
+        if math.isfinite(float(value)):
+            return
+    except ValueError:
+        pass
+    raise Refused(f"{value!r} is not a number")
 
 
 def run_in_godot(script: Path, result: Path) -> int:
@@ -47,10 +79,6 @@ def draw(name: str, result: Path) -> None:
 def main(arguments: list[str]) -> int:
     chosen = [argument for argument in arguments if not argument.startswith("--")]
     passed_on = [argument for argument in arguments if argument.startswith("--")]
-    unknown = sorted(set(chosen) - set(names()))
-    if unknown or (passed_on and len(chosen) != 1):
-        print(f"./run bench [NAME] [--key=value …], where NAME is one of: {', '.join(names())}", file=sys.stderr)
-        return 2
     if "proxy" in (chosen or names()) and jolt.installed() is None and jolt.ready(fast=True) is None:
         print("Building Jolt without its deterministic mode, once, to hold beside it …", flush=True)
         jolt.fetch_and_build(fast=True)
@@ -76,4 +104,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    entry.leave(main)

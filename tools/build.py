@@ -4,7 +4,7 @@ import os
 import subprocess
 import sys
 
-from setup import cache
+from setup import cache, processes
 from setup.progress import Progress
 from setup.steps import Step
 
@@ -21,7 +21,7 @@ def build(target: str, *what: str) -> None:
     """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
     options = ["-s", f"-j{os.cpu_count() or 1}", f"target={target}", "progress=yes"]
     progress, printed = Progress(), []
-    with subprocess.Popen(
+    with processes.started(
         [cache.venv_bin("scons"), *options, *what],
         cwd=cache.clone(),
         text=True,

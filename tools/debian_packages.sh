@@ -1,5 +1,7 @@
 #!/usr/bin/env bash
-# Makes sure of what must come from the system, and what the platforms and emulators named need besides. Root: installs what is missing. Otherwise: says how, and stops with 2.
+# Makes sure of what must come from the system, by the words given: python (before all else), pages (the documentation alone),
+# build (everything that compiles and plays), and what platforms, emulators and single commands need besides.
+# Root: installs what is missing. Otherwise: says how, and stops with 2.
 set -euo pipefail
 
 missing=()
@@ -37,27 +39,32 @@ fi
 command -v cyclictest >/dev/null || proof+=(rt-tests)
 
 needs python3 test -x /usr/bin/python3
-needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
-needs ca-certificates test -e /etc/ssl/certs/ca-certificates.crt
-needs g++ command -v g++
-needs cargo command -v cargo
-needs libglm-dev test -e /usr/include/glm/glm.hpp
-needs libsodium-dev test -e /usr/include/sodium.h
-needs libgtest-dev test -e /usr/include/gtest/gtest.h
-needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
-[ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
-# Plays devices for the tests, on USB and behind a service.
-wants pkg-config command -v pkg-config
-wants libumockdev-dev pkg-config --exists umockdev-1.0
-wants umockdev command -v umockdev-run  # what is loaded before the C library comes with it
-wants libwslay1 python3 -c 'import ctypes; ctypes.CDLL("libwslay.so.1")'
-wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
-wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
+if [ "$*" != python ]; then
+    needs python3-venv /usr/bin/python3 -c 'import ensurepip, venv'
+    needs ca-certificates test -e /etc/ssl/certs/ca-certificates.crt
+fi
+if [[ " $* " == *" build "* ]]; then
+    needs g++ command -v g++
+    needs cargo command -v cargo
+    needs libglm-dev test -e /usr/include/glm/glm.hpp
+    needs libsodium-dev test -e /usr/include/sodium.h
+    needs libgtest-dev test -e /usr/include/gtest/gtest.h
+    needs libbullet-dev test -e /usr/include/bullet/btBulletCollisionCommon.h
+    [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || needs xvfb command -v Xvfb
+    # Plays devices for the tests, on USB and behind a service.
+    wants pkg-config command -v pkg-config
+    wants libumockdev-dev pkg-config --exists umockdev-1.0
+    wants umockdev command -v umockdev-run  # what is loaded before the C library comes with it
+    wants libwslay1 python3 -c 'import ctypes; ctypes.CDLL("libwslay.so.1")'
+    wants libjansson4 python3 -c 'import ctypes; ctypes.CDLL("libjansson.so.4")'
+    wants libusb-1.0-0 python3 -c 'import ctypes; ctypes.CDLL("libusb-1.0.so.0")'
+fi
 seeing=no
 compared=no
 proven=no
 for extra in "$@"; do
     case "$extra" in
+    python | pages | build) continue ;;
     sensing) seeing=wanted && continue ;;
     rival) compared=wanted && continue ;;
     proof) proven=wanted && continue ;;
@@ -113,7 +120,8 @@ started=$SECONDS
 printf '[system] Debian packages %s … ' "${missing[*]}"
 log="$(mktemp)"
 export DEBIAN_FRONTEND=noninteractive
-if ! { apt-get update && $install; } >"$log" 2>&1; then
+# Fetching may be interrupted. What dpkg unpacks and sets up may not: half of it would keep the system from installing more.
+if ! { apt-get update && $install --download-only && trap '' INT TERM HUP && $install; } >"$log" 2>&1; then
     echo failed
     tail -n 20 "$log" >&2
     exit 1

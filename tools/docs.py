@@ -11,6 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import entry
 from setup import cache
 
 # Pages by the heading they stand under beside every page. README.md is the first page.
@@ -24,15 +25,12 @@ CONTENTS = {
 }
 
 
-def main(arguments: list[str]) -> int:
-    if arguments:
-        print("./run docs", file=sys.stderr)
-        return 2
+def main(_: list[str]) -> int:
     source = cache.emptied(cache.clone() / "build/docs_source")
     write(source)
-    if problems := make(source, cache.emptied(cache.clone() / "build/docs")):
-        print(problems, file=sys.stderr)
-        return 1
+    with cache.replacing(cache.clone() / "build/docs") as fresh:
+        if problems := make(source, fresh):
+            raise RuntimeError(problems)
     print("build/docs/index.html")
     return 0
 
@@ -72,4 +70,4 @@ def contents() -> str:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    entry.leave(main)

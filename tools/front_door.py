@@ -1,99 +1,134 @@
-"""Carries out one command of ./run, after the set-up that it still needs."""
+"""Carries out one command of ./run: its words are checked first, then what it still needs is set up."""
 
 import sys
+from collections.abc import Sequence
 
+import arguments
 import build
+import commands
+import entry
 import project
-from setup import cache, device_access, pcl, platforms, steps
+from arguments import Given
+from measuring.options import Refused
+from setup import cache, device_access, pcl, platforms, processes, steps
 from setup.steps import Step
 
 
-def main(command: str, arguments: list[str]) -> int:
-    steps.run(needed(command, arguments))
-    return COMMANDS[command](arguments)
+def main(words: Sequence[str]) -> int:
+    try:
+        asked = read(words)
+    except Refused as refusal:
+        print(refusal, file=sys.stderr)
+        return entry.USAGE
+    if isinstance(asked, str):
+        print(asked, end="")
+        return 0
+    name, given = asked
+    return processes.kept(lambda: entry.ended(lambda: carry_out(name, given)))
 
 
-def needed(command: str, arguments: list[str]) -> list[Step]:
-    if command == "test" and (emulated := [platforms.tested_by(argument) for argument in arguments]) and any(emulated):
-        return steps.for_platforms([platform for platform in emulated if platform])
-    if "--device-access" in arguments:
+def read(words: Sequence[str]) -> str | tuple[str, Given]:
+    """The help that is asked for, or a command and what was given to it."""
+    if not words or words[0] == "help" or words[0] in arguments.HELP:
+        if len(words) > 1:
+            raise Refused("./run --help stands alone; ./run COMMAND --help says what one command takes")
+        return arguments.usage(commands.TABLE)
+    try:
+        command = commands.BY_NAME[arguments.choose(words[0], commands.BY_NAME, "command")]
+    except Refused as refusal:
+        raise Refused(f"./run: {refusal}{'' if str(refusal).endswith('?') else '.'} See ./run --help") from None
+    if arguments.asks_for_help(words[1:]):
+        details = command.details(tuple(words[1:]))
+        return arguments.usage([command]) + (f"\n{details}\n" if details else "")
+    return command.name, arguments.read(command, words[1:])
+
+
+def carry_out(name: str, given: Given) -> int:
+    if code := processes.run_to_its_end([cache.clone() / "tools/debian_packages.sh", *packages(name, given)]):
+        return code
+    steps.run(needed(name, given))
+    return COMMANDS[name](given)
+
+
+def packages(name: str, given: Given) -> list[str]:
+    """What must come from the system: words of debian_packages.sh. What only other platforms need is asked for where they are."""
+    if given.has("--device-access"):
+        return ["python"]
+    if name == "docs":
+        return ["pages"]
+    elsewhere = platforms.tested_by(given.words[0]) if name == "test" and given.words else None
+    if elsewhere:
+        return ["build", elsewhere.name, "wine" if elsewhere.system == "windows" else "qemu"]
+    extra = {"proof": ["sensing", "proof"], "demo": ["sensing"], "test": ["sensing"]}.get(name, [])
+    if name == "bench" and "sensing" in given.words:
+        extra = ["sensing", "rival"]
+    if name == "experiment" and given.words == ("scenario5",):
+        extra = ["sensing"]
+    if given.has("--with-sensing"):
+        extra = ["with_sensing"]
+    return ["build", *extra, *(one.name for one in _others(given))]
+
+
+def needed(name: str, given: Given) -> list[Step]:
+    if name == "test" and given.words and (emulated := platforms.tested_by(given.words[0])):
+        return steps.for_platforms([emulated])
+    if given.has("--device-access"):
         return []
-    if command == "docs":
+    if name == "docs":
         return [steps.python()]
     plan = steps.dependencies()
-    if "--with-sensing" in arguments or (command == "bench" and "sensing" in arguments and pcl.can_fetch()):
+    if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
         plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
-    if command == "bench" or any(argument.startswith("--sanitize") for argument in arguments):
+    if name == "bench" or given.has("--sanitize"):
         return plan
-    if command == "addon":
-        plan += steps.of_platforms(platforms.named_in(arguments))
-    if command in ("setup", "export", "addon", "test", "proof"):
+    plan += steps.of_platforms(_others(given))
+    if name in ("setup", "export", "addon", "test", "proof"):
         return [*plan, steps.export_template(), debug, release, imported]
-    return [*plan, debug, imported, *([project.help_step()] if command == "edit" else [])]
+    return [*plan, debug, imported, *([project.help_step()] if name == "edit" else [])]
 
 
-def setup(arguments: list[str]) -> int:
-    if "--device-access" in arguments:
+def _others(given: Given) -> list[platforms.Platform]:
+    """The platforms that --platform=NAME,… names, besides this machine's own."""
+    return platforms.named_in([f"--platform={given.options['--platform']}"] if given.has("--platform") else [])
+
+
+def setup(given: Given) -> int:
+    if given.has("--device-access"):
         return device_access.install()
     print(f"All there. What was fetched and built outside the clone is in {cache.root()}.")
     return 0
 
 
-def demo(_: list[str]) -> int:
-    return experiment(["scenario1"]) or experiment(["scenario4"]) or cache.run_tool("report.py")
+def demo(_: Given) -> int:
+    tools = (("experiment.py", "scenario1"), ("experiment.py", "scenario4"), ("report.py",))
+    return next((code for tool in tools if (code := cache.run_tool(*tool))), 0)
 
 
-def test(arguments: list[str]) -> int:
-    return cache.run_tool("testing/run_tests.py", *arguments)
+def edit(given: Given) -> int:
+    code = project.run("--editor", *map(commands.scene, given.words))
+    processes.await_descendants()  # an editor that starts anew is another process
+    return code
 
 
-def proof(arguments: list[str]) -> int:
-    return cache.run_tool("prove.py", *arguments)
+def app(given: Given) -> int:
+    rest = ("--", *given.rest) if given.rest else ()
+    return project.run(*map(commands.scene, given.words), *rest)
 
 
-def bench(arguments: list[str]) -> int:
-    return cache.run_tool("bench.py", *arguments)
-
-
-def experiment(arguments: list[str]) -> int:
-    return cache.run_tool("experiment.py", *arguments)
-
-
-def replay(arguments: list[str]) -> int:
-    return cache.run_tool("replay.py", *arguments)
-
-
-def docs(arguments: list[str]) -> int:
-    return cache.run_tool("docs.py", *arguments)
-
-
-def edit(arguments: list[str]) -> int:
-    return project.run("--editor", *arguments)
-
-
-def app(arguments: list[str]) -> int:
-    return project.run(*arguments)
-
-
-def export(_: list[str]) -> int:
+def export(_: Given) -> int:
     return project.export()
 
 
-def addon(arguments: list[str]) -> int:
-    return cache.run_tool("addon.py", *arguments)
+def _tool(script: str):
+    return lambda given: cache.run_tool(script, *given.raw)
 
 
 COMMANDS = {
-    function.__name__: function
-    for function in (setup, demo, test, proof, bench, experiment, replay, docs, edit, app, export, addon)
-}
+    "setup": setup, "demo": demo, "test": _tool("testing/run_tests.py"), "proof": _tool("prove.py"), "bench": _tool("bench.py"),
+    "experiment": _tool("experiment.py"), "replay": _tool("replay.py"), "docs": _tool("docs.py"), "edit": edit, "app": app,
+    "export": export, "addon": _tool("addon.py"),
+}  # fmt: skip
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1], sys.argv[2:]))
-    except RuntimeError as error:
-        print(error, file=sys.stderr)
-        sys.exit(1)
-    except KeyboardInterrupt:
-        sys.exit(130)
+    sys.exit(main(sys.argv[1:]))

@@ -1,12 +1,11 @@
 """The demo project in Godot: import, editor, scene, export."""
 
 import hashlib
-import os
 import subprocess
 import sys
 from pathlib import Path
 
-from setup import cache, display, godot
+from setup import cache, display, godot, processes
 from setup.steps import Step
 
 FOLDER = cache.clone() / "demo_project"
@@ -72,7 +71,7 @@ def _prepare_help() -> None:
 
 
 def _has_help() -> bool:
-    base = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    base = cache.xdg_folder("XDG_CACHE_HOME", ".cache")
     major, minor, *_ = godot.version(str(godot.command())) or (0, 0)
     return (base / "godot" / f"editor_doc_cache-{major}.{minor}.res").is_file()
 
@@ -81,14 +80,22 @@ def run(*arguments: str) -> int:
     """Godot on the project, in a window; without a screen, in a virtual one."""
     with display.environment() as environment:
         command = [str(godot.command()), "--path", str(FOLDER), *arguments]
-        return subprocess.run(command, env=environment).returncode
+        return processes.run(command, env=environment)
 
 
 def export() -> int:
-    target = cache.emptied(cache.clone() / "build/export") / "tactus.x86_64"
-    export_to(target)
-    print(f"{target.relative_to(cache.clone())} runs on its own")
+    folder = cache.clone() / "build/export"
+    with cache.replacing(folder) as fresh:
+        export_to(fresh / "tactus.x86_64")
+    print(f"{folder.relative_to(cache.clone())}/tactus.x86_64 {_runs_on()}")
     return 0
+
+
+def _runs_on() -> str:
+    """Where the program runs: its template may lie upon libraries of the cache."""
+    if godot.installed():
+        return "runs on its own"
+    return f"runs on this machine, for this user: its libraries are in {cache.root()}. For others, export with a Godot of your own (README.md)"
 
 
 def export_to(target: Path, folder: Path = FOLDER) -> None:

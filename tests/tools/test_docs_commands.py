@@ -5,6 +5,7 @@ import re
 import subprocess
 import typing
 
+import commands
 import experiment
 import prove
 import pytest
@@ -27,18 +28,13 @@ def _commands() -> list[tuple[str, str, list[str]]]:
     return found
 
 
-def _front_door() -> set[str]:
-    case = re.search(r"^([\w |]+)\) ;;$", (FOLDER / "run").read_text(), re.MULTILINE)
-    return set(case[1].split(" | "))
-
-
 def _benches() -> set[str]:
     return {path.stem for path in (FOLDER / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd")}
 
 
 @pytest.mark.parametrize(("document", "verb", "words"), _commands())
 def test_a_command_of_the_documents_can_be_given(document: str, verb: str, words: list[str]):
-    assert verb in _front_door(), document
+    assert verb in commands.BY_NAME, document
     if verb == "proof":
         for option in words:
             key, _, value = option.partition("=")

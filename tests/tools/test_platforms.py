@@ -89,7 +89,7 @@ def test_the_words_of_the_command_line_are_understood():
     ],
 )
 def test_only_who_asks_for_a_platform_sets_it_up(command, arguments, asked_for):
-    names = [step.name for step in front_door.needed(command, arguments)]
+    names = [step.name for step in front_door.needed(*front_door.read([command, *arguments]))]
     foreign = [one.name for one in platforms.FOREIGN if any(name.endswith(f" for {one.name}") for name in names)]
     assert foreign == asked_for
     assert len(set(names)) == len(names)

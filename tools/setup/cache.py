@@ -1,19 +1,30 @@
 """Where Tactus keeps what it fetched and built outside the clone, and when such a thing counts as done."""
 
+import ctypes
 import fcntl
 import hashlib
 import os
 import re
 import shutil
-import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from . import processes
+
+# <fcntl.h>, <linux/fs.h>
+_AT_FDCWD, _RENAME_EXCHANGE = -100, 2
+
 
 def root() -> Path:
-    base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(base) / "tactus"
+    return xdg_folder("XDG_CACHE_HOME", ".cache") / "tactus"
+
+
+def xdg_folder(variable: str, below_home: str) -> Path:
+    """A relative path counts as none, as the XDG Base Directory Specification has it: it would be another one in each folder."""
+    named = Path(os.environ.get(variable) or "")
+    return named if named.is_absolute() else Path.home() / below_home
 
 
 def clone() -> Path:
@@ -51,9 +62,39 @@ def lock(place: Path, name: str) -> Iterator[None]:
 
 
 def emptied(folder: Path) -> Path:
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
+    """There, with nothing in it. It stays the same folder: it may be a mount point, or a link to a folder elsewhere."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in folder.iterdir():
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
     return folder
+
+
+@contextmanager
+def replacing(folder: Path) -> Iterator[Path]:
+    """A new folder beside it that takes its place where the body comes to its end; else all stays as it was."""
+    fresh = emptied(folder.with_name(f".{folder.name}.new"))
+    try:
+        yield fresh
+        _exchange(fresh, folder)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+
+
+def _exchange(fresh: Path, folder: Path) -> None:
+    """`folder` is one or the other at any time: the system swaps the two names. Where it cannot (a mount point, a link), the
+    content is moved."""
+    folder.mkdir(parents=True, exist_ok=True)
+    if sys.platform == "linux" and not folder.is_symlink():
+        library = ctypes.CDLL(None, use_errno=True)
+        swapped = getattr(library, "renameat2", None)
+        if swapped and swapped(_AT_FDCWD, os.fsencode(fresh), _AT_FDCWD, os.fsencode(folder), _RENAME_EXCHANGE) == 0:
+            return
+    emptied(folder)
+    for path in fresh.iterdir():
+        shutil.move(path, folder / path.name)
 
 
 def variant(target: str, sanitizers: str = "", foreign: str = "") -> str:
@@ -65,4 +106,4 @@ def run_tool(script: str, *arguments: str) -> int:
     """A script of tools/ with the packages of the virtual environment."""
     path = clone() / "tools"
     environment = os.environ | {"PYTHONPATH": str(path), "PYTHONDONTWRITEBYTECODE": "1"}
-    return subprocess.run([venv_bin("python"), path / script, *arguments], env=environment).returncode
+    return processes.run([venv_bin("python"), path / script, *arguments], env=environment)

@@ -181,8 +181,7 @@ def template_path(godot: str) -> Path:
     name = re.match(r"\d+\.\d+(\.\d+)?\.[a-z]+\d*", _version_key(godot))
     if not name:
         raise RuntimeError(f"{godot} gives no version")
-    data = os.environ.get("XDG_DATA_HOME") or str(Path.home() / ".local/share")
-    return Path(data) / "godot/export_templates" / name[0] / "linux_release.x86_64"
+    return cache.xdg_folder("XDG_DATA_HOME", ".local/share") / "godot/export_templates" / name[0] / "linux_release.x86_64"
 
 
 def is_template_ready(godot: str) -> bool:

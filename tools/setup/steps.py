@@ -8,6 +8,8 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import entry
+
 from . import cache, cross, godot, jolt, python_tools
 from .platforms import Platform
 
@@ -60,15 +62,20 @@ def export_template() -> Step:
 
 def run(steps: list[Step]) -> None:
     """Does what is not done yet and shows it; ends the program at the first step that fails."""
-    with ThreadPoolExecutor() as pool:
+    pool = ThreadPoolExecutor()
+    try:
         begun = {step.name: pool.submit(_carry_out, step) for step in steps if step.alone}
         for number, step in enumerate(steps, 1):
             print(f"[{number}/{len(steps)}] {step.name} … ", end="", flush=True)
             try:
                 print(_finished(step, begun), flush=True)
             except (RuntimeError, OSError, subprocess.SubprocessError) as error:
-                print(f"failed\n{error}", file=sys.stderr, flush=True)
+                why = entry.in_words(error) if isinstance(error, OSError) else error
+                print(f"failed\n{why}", file=sys.stderr, flush=True)
                 sys.exit(1)
+    finally:
+        # Who is ended, or has failed, does not wait for what runs beside: what that has done half is done anew.
+        pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _finished(step: Step, begun: dict[str, Future[str]]) -> str:
