@@ -8,7 +8,8 @@ import json
 import re
 from pathlib import Path
 
-ADDON = Path("demo_project/addons/tactus")
+ADDON = Path("demo_project/addons/tactus")  # in the clone
+CLONE = Path(__file__).resolve().parents[1]
 TARGETS = {"debug": "template_debug", "release": "template_release"}
 EYES = ["tactus_sensing", "tactus_camera"]
 SUFFIX = {"linux": "so", "windows": "dll", "macos": "dylib"}
@@ -53,7 +54,7 @@ def text(minimum, precision, platforms, seeing=()):
             eyes = ", ".join(f'"bin/{library(platform, target, name)}": ""' for name in EYES)
             lines.append(f"{platform.system}.{feature}.{precision}.{platform.architecture} = {{{eyes}}}")
     lines += ["", "[icons]", ""]
-    lines += [f'{icon.stem} = "icons/{icon.name}"' for icon in sorted((ADDON / "icons").glob("*.svg"))]
+    lines += [f'{icon.stem} = "icons/{icon.name}"' for icon in sorted((CLONE / ADDON / "icons").glob("*.svg"))]
     return "\n".join(lines) + "\n"
 
 

@@ -6,6 +6,8 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from setup import cache
+
 # A fused multiply-add rounds once where the source rounds twice; whether one is made depends on inlining.
 SAME_BITS = ["-ffp-contract=off"]
 # All the same gcc 12 makes one instruction of two products whose sums alternate (vfmaddsub), where it puts plain
@@ -32,6 +34,9 @@ LINK_EXTENSION = {
     "windows": ["-static", "-Wl,--gc-sections"],
     "macos": ["-Wl,-dead_strip", "-Wl,-undefined,error"],
 }  # fmt: skip
+
+# What players get names no function: a fifth of the library.
+LINK_FOR = {"template_debug": [], "template_release": ["-s"]}
 
 # Nothing of the compiler has to lie beside a program for another machine.
 LINK_PROGRAM = {"linux": [], "windows": ["-static"], "macos": []}
@@ -78,6 +83,13 @@ def fuzzing_compiler():
     return next((str(path) for _, path in sorted(versions.items(), reverse=True) if has_fuzzer(path)), "")
 
 
+def without_places():
+    """Files are named as they lie in the clone, whoever has built them: objects are shared between clones, and libraries are
+    given away. What stands between $( and $) is no part of what an object depends on."""
+    places = {Path(__file__).resolve().parents[1]: ".", cache.root(): "cache"}
+    return ["$(", *(f"-ffile-prefix-map={place}={name}".replace("$", "$$") for place, name in places.items()), "$)"]
+
+
 def compile_flags(platform, target, sanitizers=""):
     """What belongs to the platform comes with it: tools/setup/platforms.py."""
     language = ["-std=c++20", "-fno-exceptions", *platform.position, "-fvisibility=hidden", "-fvisibility-inlines-hidden"]
@@ -85,7 +97,7 @@ def compile_flags(platform, target, sanitizers=""):
     same_bits = [*SAME_BITS, *NO_ALTERNATING_SUMS.get(platform.architecture, [])]
     is_gcc = platform.system != "macos" and "fuzzer" not in sanitizers
     moves = CLEAR_BY_MOVES if is_gcc and platform.architecture == "x86_64" else []
-    plain = [*language, *optimised, *moves, *same_bits, *WARNINGS, *BY_TARGET[target]]
+    plain = [*language, *optimised, *moves, *same_bits, *WARNINGS, *BY_TARGET[target], *without_places()]
     if not sanitizers:
         return plain
     # Less inlining than -O3 for a quicker build; warnings that only watched code gives are not errors, and another

@@ -4,6 +4,7 @@ extends Control
 ## Called with options (tactus.x86_64 -- --scene=… --duration=…), it runs that experiment instead; called
 ## with the path of a scene of the gallery, it opens that scene.
 
+const Caller := preload("res://experiments/caller.gd")
 const Gallery := preload("res://gallery/gallery.gd")
 const Card := preload("res://gallery/card.tscn")
 const LAUNCHER := "res://launcher/launcher.tscn"
@@ -16,6 +17,10 @@ var _launcher: Control
 
 func _ready() -> void:
 	var asked := OS.get_cmdline_user_args()
+	if Caller.asks_for_help(asked):
+		print(Caller.USAGE)
+		get_tree().quit()
+		return
 	if not asked.is_empty() and asked[0].begins_with("--"):
 		_run_experiment.call_deferred()
 		return
@@ -44,9 +49,15 @@ func _choose(card: int) -> void:
 
 func _run_experiment() -> void:
 	%Menu.visible = false
+	var asked := OS.get_cmdline_user_args()
+	var problem := Caller.problem(asked)
+	if problem != "":
+		printerr(problem, ".")
+		get_tree().quit(2)
+		return
 	var experiment: Node = load("res://experiments/experiment.gd").new()
 	add_child(experiment)
-	get_tree().quit(await experiment.run(OS.get_cmdline_user_args()))
+	get_tree().quit(await experiment.run(Caller.words(asked)))
 
 
 ## The hand is the person's at once.

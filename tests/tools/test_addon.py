@@ -206,3 +206,7 @@ def test_the_cache_names_no_folder_of_this_machine_in_the_archive(own_project):
     for path in (own_project / "addons/tactus").rglob("*"):
         if path.is_file() and path.suffix in (".md", ".txt", ".gdextension"):
             assert str(cache.root()) not in path.read_text()
+        if path.is_file() and "template_release" in path.name:
+            content = path.read_bytes()
+            assert str(cache.root()).encode() not in content and str(cache.clone()).encode() not in content, path.name
+            assert b".symtab" not in content, f"{path.name} is not stripped"

@@ -1,6 +1,7 @@
 """Which sources are for which platform, and that no other file asks for one."""
 
 import re
+import subprocess
 import sys
 
 import front_door
@@ -10,6 +11,7 @@ from setup import cache, platforms
 sys.path.insert(0, str(cache.clone() / "site_scons"))
 import layers  # noqa: E402
 import manifest  # noqa: E402
+import toolchain  # noqa: E402
 
 SYSTEM_HEADERS = re.compile(
     r"#\s*include <(sys/|arpa/|netinet/|linux/|mach/|unistd|pthread|sched|poll|fcntl|dlfcn|signal|windows|winsock)"
@@ -93,6 +95,21 @@ def test_only_who_asks_for_a_platform_sets_it_up(command, arguments, asked_for):
     foreign = [one.name for one in platforms.FOREIGN if any(name.endswith(f" for {one.name}") for name in names)]
     assert foreign == asked_for
     assert len(set(names)) == len(names)
+
+
+def test_icons_are_named_from_any_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert 'HapticWorld = "icons/HapticWorld.svg"' in manifest.text("4.6", "single", [platforms.host()]).splitlines()
+
+
+@pytest.mark.parametrize("target", toolchain.BY_TARGET)
+def test_an_object_names_no_folder_of_the_machine_that_built_it(target, tmp_path):
+    source = cache.clone() / "extension/platform/clock_posix.cpp"
+    # As scons calls it: from the clone, without the marks that are its own.
+    flags = [flag for flag in toolchain.compile_flags(platforms.host(), target) if flag not in ("$(", "$)")]
+    command = ["g++", *flags, "-I", cache.clone() / "extension", "-c", source, "-o", tmp_path / "one.o"]
+    subprocess.run(command, cwd=cache.clone(), check=True)
+    assert str(cache.clone()).encode() not in (tmp_path / "one.o").read_bytes()
 
 
 def test_godot_finds_each_platforms_library_by_its_tags():
