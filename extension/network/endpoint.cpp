@@ -12,7 +12,7 @@
 namespace tactus {
 namespace {
 
-constexpr double smoothing = 1.0 / 16.0;
+constexpr double way_smoothing = 1.0 / 16.0;
 
 // Nothing is held up for longer. Whoever still speaks of an epoch then was put aside by somebody else.
 constexpr Nanoseconds remembers_for = 5 * nanoseconds_per_second;
@@ -267,8 +267,8 @@ void Endpoint::note_one_way(Nanoseconds sent_at, Nanoseconds arrived) {
         statistics_.one_way_jitter = 0.0;
     } else {
         const double change = std::abs(static_cast<double>(way - last_one_way_));
-        statistics_.one_way_jitter += smoothing * (change - statistics_.one_way_jitter);
-        statistics_.one_way_delay += smoothing * (way_now - statistics_.one_way_delay);
+        statistics_.one_way_jitter += way_smoothing * (change - statistics_.one_way_jitter);
+        statistics_.one_way_delay += way_smoothing * (way_now - statistics_.one_way_delay);
     }
     last_one_way_ = way;
 }

@@ -51,7 +51,7 @@ std::optional<Shape> plain_shape(Object* object) {
 }
 
 // Bodies with the same shape resource share its triangles, as long as one of them is there.
-std::shared_ptr<TriangleSource> source_of(const godot::ConcavePolygonShape3D& concave) {
+std::shared_ptr<TriangleSource> concave_source(const godot::ConcavePolygonShape3D& concave) {
     struct Known {
         godot::PackedVector3Array faces;
         std::weak_ptr<TriangleSource> source;
@@ -63,7 +63,7 @@ std::shared_ptr<TriangleSource> source_of(const godot::ConcavePolygonShape3D& co
     std::shared_ptr<TriangleSource> source = known.source.lock();
     const bool is_same = known.faces.ptr() == faces.ptr() || known.faces == faces;
     if (source == nullptr || !is_same) {
-        const std::shared_ptr<TriangleSource> made = tactus::source_of(faces);
+        const std::shared_ptr<TriangleSource> made = source_of(faces);
         if (source != nullptr) {
             made->succeed(source);
         }
@@ -91,7 +91,7 @@ ShapeReading read_shape(const Ref<godot::Shape3D>& shape, const SceneFrame& fram
         return scaled_hull(from_godot(convex->get_points()), scaling, pose);
     }
     if (const auto* concave = Object::cast_to<godot::ConcavePolygonShape3D>(object)) {
-        reading.meshes.push_back({source_of(*concave), scaling, pose, 0.0, false, {}});
+        reading.meshes.push_back({concave_source(*concave), scaling, pose, 0.0, false, {}});
         return reading;
     }
     reading.error =

@@ -18,7 +18,7 @@ namespace {
 constexpr int looks_for_others = 30;
 
 // Of the mesh as it is drawn, in a frame that neither scales nor shears.
-TriangleMesh scaled_triangles(MeshInstance3D& drawn) {
+TriangleMesh drawn_triangles(MeshInstance3D& drawn) {
     const std::shared_ptr<const TriangleMesh> mesh = source_of(drawn.get_mesh())->triangles().mesh;
     return mesh != nullptr ? scaled(*mesh, scaling_of(frame_of(drawn.get_global_transform())))
                            : TriangleMesh{};
@@ -53,7 +53,7 @@ std::string SyntheticView::begin(const DepthSensing& sensing, const SyntheticCam
     without_ = without.get_instance_id();
     std::vector<TriangleMesh> meshes;
     for (MeshInstance3D* const one : drawn) {
-        meshes.push_back(scaled_triangles(*one));
+        meshes.push_back(drawn_triangles(*one));
         shown_.push_back({one->get_instance_id(), one->get_mesh()->get_instance_id()});
     }
     std::vector<MeshView> views;

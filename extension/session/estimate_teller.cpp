@@ -9,7 +9,7 @@ namespace {
 
 // Eyes do not see more often, and nobody learns faster.
 constexpr Nanoseconds look_every = 20'000'000;
-constexpr Nanoseconds again_after = 500'000'000;
+constexpr Nanoseconds estimate_again_after = 500'000'000;
 
 // What has changed by less is said again later (share of itself, of a deviation).
 constexpr double changed_by = 0.1;
@@ -80,7 +80,8 @@ void EstimateTeller::tell(SessionLoop& loop, Channel& channel, const TouchLearne
         }
         const ObjectEstimate estimate = estimate_of(*body, handle, touch, channel.settings().frame);
         const bool said_before = told.at != 0 && says_something(told.estimate);
-        const bool is_due = told.at == 0 || differ(estimate, told.estimate) || now - told.at >= again_after;
+        const bool is_due =
+            told.at == 0 || differ(estimate, told.estimate) || now - told.at >= estimate_again_after;
         if ((says_something(estimate) || said_before) && is_due) {
             message.estimates[message.count++] = estimate;
             told = {estimate, now};

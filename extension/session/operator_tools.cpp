@@ -12,9 +12,6 @@ namespace tactus {
 
 namespace {
 
-// A force below this is none (unit: newtons).
-constexpr double no_force = 1e-9;
-
 Pose as_sent(const Pose& pose) {
     return {position_as_sent(pose.position), rotation_as_sent(pose.rotation)};
 }

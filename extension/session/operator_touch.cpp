@@ -11,9 +11,6 @@ namespace tactus {
 
 namespace {
 
-// A force below this is none (unit: newtons).
-constexpr double no_force = 1e-9;
-
 // Of a pointer that rests on nothing that says otherwise (unit: newtons per meter).
 constexpr double usual_stiffness = 500.0;
 

@@ -11,7 +11,7 @@ namespace {
 
 // A hand that comes back no farther from where it was lost, in the frame of what it pressed, presses still
 // (unit: meters).
-constexpr double same_hand = 0.05;
+constexpr double same_tool_hand = 0.05;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void TeleoperatorSide::come_back(SessionLoop& loop, Tool& tool, ToolSlot& slot) 
         return;
     }
     const Pose& pose = loop.scene().body(under->slot).pose;
-    if (glm::distance(to_parent(pose, tool.kept_hand), slot.hand.goal.position) <= same_hand) {
+    if (glm::distance(to_parent(pose, tool.kept_hand), slot.hand.goal.position) <= same_tool_hand) {
         ToolMemory memory;
         memory.pose = compose(pose, tool.kept_tool);
         memory.present = true;

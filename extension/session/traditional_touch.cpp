@@ -2,12 +2,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/safety/limited_force.hpp"
+
 namespace tactus {
 
 namespace {
-
-// A force below this is none (unit: newtons).
-constexpr double no_force = 1e-9;
 
 bool still_holds(const auto& far, SampleSequence sample, bool hears_peer, SampleSequence ticks) {
     return far.sample != no_sample && hears_peer && sample - far.went_on <= ticks;

@@ -15,7 +15,7 @@ namespace {
 using Index = std::uint32_t;
 using Edge = std::pair<Index, Index>;
 
-struct Face {
+struct HullFace {
     std::array<Index, 3> corners;
     Vec3 normal{0.0};     // unit, outward
     double offset = 0.0;  // normal . x of the face's plane (unit: meters)
@@ -33,7 +33,7 @@ public:
 
 private:
     Index farthest(const auto& distance) const;
-    double height(const Face& face, Index point) const {
+    double height(const HullFace& face, Index point) const {
         return glm::dot(face.normal, points_[point]) - face.offset;
     }
     std::size_t add_face(Index a, Index b, Index c);
@@ -41,7 +41,7 @@ private:
     void add_point(std::size_t seen_from, Index point);
 
     std::span<const Vec3> points_;
-    std::vector<Face> faces_;
+    std::vector<HullFace> faces_;
     std::map<Edge, std::size_t> face_of_edge_;  // by the directed edge of its own boundary
     double thickness_ = 0.0;                    // what counts as lying in a plane (unit: meters)
 };
@@ -55,7 +55,7 @@ Index Hull::farthest(const auto& distance) const {
 }
 
 std::size_t Hull::add_face(Index a, Index b, Index c) {
-    Face face;
+    HullFace face;
     face.corners = {a, b, c};
     face.normal = glm::cross(points_[b] - points_[a], points_[c] - points_[a]);
     const double length = glm::length(face.normal);
@@ -125,7 +125,7 @@ void Hull::add_point(std::size_t seen_from, Index point) {
             const Edge edge{corners[static_cast<std::size_t>(k)],
                             corners[static_cast<std::size_t>((k + 1) % 3)]};
             const std::size_t beyond = face_of_edge_.at({edge.second, edge.first});
-            Face& neighbour = faces_[beyond];
+            HullFace& neighbour = faces_[beyond];
             if (!neighbour.alive) {
                 continue;
             }
@@ -152,7 +152,7 @@ void Hull::grow() {
         if (!faces_[i].alive || faces_[i].in_front.empty()) {
             continue;
         }
-        const Face& face = faces_[i];
+        const HullFace& face = faces_[i];
         const Index point =
             *std::max_element(face.in_front.begin(), face.in_front.end(),
                               [&](Index a, Index b) { return height(face, a) < height(face, b); });
@@ -163,7 +163,7 @@ void Hull::grow() {
 TriangleMesh Hull::mesh() const {
     TriangleMesh mesh;
     std::map<Index, Index> kept;
-    for (const Face& face : faces_) {
+    for (const HullFace& face : faces_) {
         if (!face.alive) {
             continue;
         }

@@ -24,10 +24,10 @@ constexpr int edge_between(int c, int d) {
     return (c & d) * 3 + std::countr_zero(static_cast<unsigned>(c ^ d));
 }
 
-using Face = std::array<int, 4>;  // corners, counter-clockwise seen from outside of the cell
+using CellFace = std::array<int, 4>;  // corners, counter-clockwise seen from outside of the cell
 
-constexpr std::array<Face, 6> make_faces() {
-    std::array<Face, 6> faces{};
+constexpr std::array<CellFace, 6> make_faces() {
+    std::array<CellFace, 6> faces{};
     for (int axis = 0; axis < 3; ++axis) {
         const int u = 1 << (axis + 1) % 3;
         const int v = 1 << (axis + 2) % 3;
@@ -38,7 +38,7 @@ constexpr std::array<Face, 6> make_faces() {
     return faces;
 }
 
-constexpr std::array<Face, 6> faces = make_faces();
+constexpr std::array<CellFace, 6> faces = make_faces();
 
 // The corners of one closed line in which the surface leaves a cell.
 struct Outline {
@@ -137,7 +137,7 @@ private:
         }
         std::array<int, edge_ids> next{};
         unsigned open = 0;  // edges that no outline has had yet
-        for (const Face& face : faces) {
+        for (const CellFace& face : faces) {
             join_on(face, cell, inside, next, open);
         }
         while (open != 0) {
@@ -152,7 +152,7 @@ private:
         }
     }
 
-    void join_on(const Face& face, const Cell& cell, unsigned inside, std::array<int, edge_ids>& next,
+    void join_on(const CellFace& face, const Cell& cell, unsigned inside, std::array<int, edge_ids>& next,
                  unsigned& open) const {
         const auto is_in = [&](int k) { return (inside >> face[static_cast<std::size_t>(k & 3)] & 1u) != 0; };
         const auto edge = [&](int k) {
@@ -180,7 +180,7 @@ private:
 
     // Where two corners across are inside and two are not, the bilinear field decides by its value at the
     // saddle, (ac - bd) / (a + c - b - d). Both cells at the face see the same numbers.
-    static bool joins_inside(const Face& face, const Cell& cell) {
+    static bool joins_inside(const CellFace& face, const Cell& cell) {
         const auto value = [&](std::size_t k) { return cell.levels[static_cast<std::size_t>(face[k])]; };
         const double even = value(0) * value(2);
         const double odd = value(1) * value(3);

@@ -12,12 +12,12 @@ using tool_steps::at;
 
 namespace {
 
-constexpr int max_rounds = 128;
+constexpr int max_group_rounds = 128;
 // See WorkBudget: of a look for the next half-space, and of a system, besides what grows with its size.
-constexpr std::int64_t round_cost = 4;
-constexpr std::int64_t solve_cost = 6;
+constexpr std::int64_t group_round_cost = 4;
+constexpr std::int64_t group_solve_cost = 6;
 constexpr std::int64_t terms_at_a_time = 6;
-constexpr std::int64_t bounds_at_a_time = 2;  // looks at bounds, for a unit
+constexpr std::int64_t group_bounds_at_a_time = 2;  // looks at bounds, for a unit
 
 constexpr std::size_t first_of(int tool) {
     return 6 * at(tool);
@@ -168,10 +168,10 @@ GroupMotion nearest_group_motion(const GroupVector& goal, std::span<const GroupB
             }
         }
         const std::int64_t terms = std::int64_t{best.push_count} * best.push_count;
-        work.spend(static_cast<std::int64_t>(looked) / bounds_at_a_time + round_cost +
-                   active.take_solves() * (solve_cost + terms / terms_at_a_time));
+        work.spend(static_cast<std::int64_t>(looked) / group_bounds_at_a_time + group_round_cost +
+                   active.take_solves() * (group_solve_cost + terms / terms_at_a_time));
         best.missing = violations.found() ? violations.most : 0.0;
-        if (!violations.found() || round == max_rounds || work.is_gone()) {
+        if (!violations.found() || round == max_group_rounds || work.is_gone()) {
             break;
         }
         best.possible = active.take_in(violations.worst());

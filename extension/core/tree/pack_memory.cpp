@@ -18,10 +18,10 @@ struct Candidate {
     auto operator<=>(const Candidate&) const = default;
 };
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 // Tells nothing, of four packs.
-const PackBound no_planes{splat(Vec3(0.0)), splat(-infinite)};
+const PackBound no_planes{splat(Vec3(0.0)), splat(-never)};
 
 void copy_lane(const PackBound& from, std::size_t lane, PackBound& to, std::size_t to_lane) {
     to.normal.x[to_lane] = from.normal.x[lane];
@@ -70,7 +70,7 @@ void PackMemory::gather(const TriangleTree& tree, const Vec3& center, double rad
     const std::size_t last_count = std::exchange(count_, packs.count);
     center_ = center;
     radius_ = packs.radius;
-    clear_until_.fill(splat(infinite));
+    clear_until_.fill(splat(never));
     gathered.looked_at = 0;
     const double lost = 4e-6 * radius;  // of a found plane's height by how it is turned, wherever it is asked
     std::size_t next = 0;  // both gatherings come node by node: after a pack mostly the same one follows
@@ -108,7 +108,7 @@ double PackMemory::covered_share(const Vec3& start, const Vec3& motion, double r
 
 PackMemory::NearPacks PackMemory::near_way(const LanesVec3& from, const LanesVec3& motion, double length,
                                            double limit, double odometer) {
-    const Lanes none = splat(infinite), farthest = splat(limit);
+    const Lanes none = splat(never), farthest = splat(limit);
     Lanes others = none;
     PackSet near = 0;
     for (std::size_t first = 0; first < count_; first += lane_count) {

@@ -42,7 +42,7 @@ Bounds around(const BoxNode& node) {
 }
 
 constexpr std::size_t triangles_a_task = std::size_t{1} << 16;
-constexpr std::size_t nodes_a_task = 4096;
+constexpr std::size_t nodes_a_refit_task = 4096;
 constexpr std::size_t packs_a_task = 16384;
 
 }  // namespace
@@ -106,10 +106,11 @@ void TriangleTree::place_pack(std::size_t index, const TriangleMesh& mesh) {
 }
 
 void TriangleTree::fit_boxes(const ParallelRunner& run) {
-    const std::size_t tasks = (nodes_.size() + nodes_a_task - 1) / nodes_a_task;
+    const std::size_t tasks = (nodes_.size() + nodes_a_refit_task - 1) / nodes_a_refit_task;
     std::vector<Extremes> seen(tasks);
     run(tasks, [&](std::size_t task) {
-        seen[task] = fit_leaves(task * nodes_a_task, std::min(nodes_.size(), (task + 1) * nodes_a_task));
+        seen[task] =
+            fit_leaves(task * nodes_a_refit_task, std::min(nodes_.size(), (task + 1) * nodes_a_refit_task));
     });
     Extremes all;
     for (const Extremes& part : seen) {

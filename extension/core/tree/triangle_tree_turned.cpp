@@ -12,7 +12,7 @@ namespace tactus {
 namespace {
 
 constexpr std::size_t max_packs = 4096;
-constexpr std::size_t nodes_a_task = 2048;
+constexpr std::size_t nodes_a_turn_task = 2048;
 
 double sum_of(const Lanes& lanes) {
     return lanes[0] + lanes[1] + lanes[2] + lanes[3];
@@ -153,7 +153,7 @@ void TriangleTree::fit_turned_box(TurnedNode& turned, int slot, const Vec3& midd
 
 void TriangleTree::fit_turned_boxes(const ParallelRunner& run) {
     turned_.assign(nodes_.size(), TurnedNode{});
-    run_in_parts(run, nodes_.size(), nodes_a_task, [&](std::size_t, std::size_t n, std::size_t end) {
+    run_in_parts(run, nodes_.size(), nodes_a_turn_task, [&](std::size_t, std::size_t n, std::size_t end) {
         std::vector<std::uint32_t> room(max_packs);
         for (; n < end; ++n) {
             const FloatPoint middles = middle_of(nodes_[n]);
