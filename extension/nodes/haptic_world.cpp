@@ -64,12 +64,12 @@ void warn_of(Node& node, PackedStringArray& warnings) {
     if (is_solid_body(&node)) {
         for (const std::string& problem :
              problems_of(read_form(*Object::cast_to<CollisionObject3D>(&node)))) {
-            warn(warnings, name + " cannot be touched as it should be", to_godot(problem));
+            warn(warnings, name + String(" cannot be touched as it should be"), to_godot(problem));
         }
     } else if (const auto* joint = Object::cast_to<Joint3D>(&node)) {
-        warn(warnings, name + " does not join as it should", to_godot(problem_of_joint(*joint)));
+        warn(warnings, name + String(" does not join as it should"), to_godot(problem_of_joint(*joint)));
     } else {
-        warn(warnings, name + " cannot be touched", problem_of_kind(node));
+        warn(warnings, name + String(" cannot be touched"), problem_of_kind(node));
     }
 }
 
@@ -267,13 +267,15 @@ void HapticWorld::_notification(int what) {
     }
 }
 
-void HapticWorld::node_added(Node* node) {
+void HapticWorld::node_added(const Variant& added) {
+    auto* const node = object_in<Node>(added);
     if (node != nullptr && run_ != nullptr) {
         run_->scene_changed(*node);
     }
 }
 
-void HapticWorld::node_removed(Node* node) {
+void HapticWorld::node_removed(const Variant& removed) {
+    auto* const node = object_in<Node>(removed);
     if (node == nullptr || run_ == nullptr) {
         return;
     }

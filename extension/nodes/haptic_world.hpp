@@ -46,22 +46,24 @@ public:
     godot::Dictionary get_baseline_period_distribution() const;
     godot::PackedStringArray get_problems() const;
 
-    // Bodies of this world, as RigidBody3D has it. Forces act for the time of one frame.
+    // Bodies of this world, as RigidBody3D has it. Forces act for the time of one frame. A body comes as a
+    // Variant, so that one that has been freed is an error and no pointer to freed memory.
     using Body = godot::CollisionObject3D;
-    void apply_central_impulse(Body* body, const godot::Vector3& impulse);
-    void apply_impulse(Body* body, const godot::Vector3& impulse, const godot::Vector3& position);
-    void apply_torque_impulse(Body* body, const godot::Vector3& impulse);
-    void apply_central_force(Body* body, const godot::Vector3& force);
-    void apply_force(Body* body, const godot::Vector3& force, const godot::Vector3& position);
-    void apply_torque(Body* body, const godot::Vector3& torque);
+    void apply_central_impulse(const godot::Variant& body, const godot::Vector3& impulse);
+    void apply_impulse(const godot::Variant& body, const godot::Vector3& impulse,
+                       const godot::Vector3& position);
+    void apply_torque_impulse(const godot::Variant& body, const godot::Vector3& impulse);
+    void apply_central_force(const godot::Variant& body, const godot::Vector3& force);
+    void apply_force(const godot::Variant& body, const godot::Vector3& force, const godot::Vector3& position);
+    void apply_torque(const godot::Variant& body, const godot::Vector3& torque);
     // What is there to touch: of all bodies of this world whose layers are in the mask.
     godot::Array get_tree_boxes(const godot::Vector3& point, double radius, int64_t most) const;
     godot::Dictionary get_nearest_surface(const godot::Vector3& point, double max_distance,
                                           int64_t mask) const;
     godot::Dictionary intersect_ray(const godot::Vector3& from, const godot::Vector3& to, int64_t mask) const;
     godot::TypedArray<Body> intersect_sphere(const godot::Vector3& center, double radius, int64_t mask) const;
-    godot::Vector3 get_linear_velocity(Body* body) const;
-    godot::Vector3 get_angular_velocity(Body* body) const;
+    godot::Vector3 get_linear_velocity(const godot::Variant& body) const;
+    godot::Vector3 get_angular_velocity(const godot::Variant& body) const;
 
     void _process(double seconds) override;
     godot::PackedStringArray _get_configuration_warnings() const override;
@@ -94,7 +96,8 @@ private:
     enum class Change { none, loop, world };
 
     // By the script's `method`; for_a_frame: see RunningWorld::push().
-    void push(const char* method, const Body* body, const BodyPush& push, bool for_a_frame);
+    void push(const char* method, const godot::Variant& body, const BodyPush& push, bool for_a_frame);
+    BodyState state_of(const char* method, const godot::Variant& body) const;
     std::vector<QueriedBody> touchable(int64_t mask) const;
     bool can_ask(const char* method, const godot::Vector3& where, double size) const;
     void start();
@@ -107,8 +110,8 @@ private:
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
     void start_loop();
     TickLoopSettings loop_settings() const;
-    void node_added(godot::Node* node);
-    void node_removed(godot::Node* node);
+    void node_added(const godot::Variant& node);
+    void node_removed(const godot::Variant& node);
     void report_status(double seconds);
 
     int tick_rate_ = 1000;

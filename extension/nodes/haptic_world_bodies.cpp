@@ -8,6 +8,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/haptic_world.hpp"
 #include "nodes/messages.hpp"
+#include "nodes/tree_walk.hpp"
 #include "nodes/world_run.hpp"
 
 namespace tactus {
@@ -27,15 +28,23 @@ Dictionary dictionary_of(const BodyPoint& found, const SceneBodies& bodies) {
     return result;
 }
 
+void refuse_body(const HapticWorld& world, const char* method, const String& problem) {
+    UtilityFunctions::push_error(name_of(world), ": ", method, "() did nothing: the body that it was given ",
+                                 problem, ": give it a body of this world that is in the scene tree.");
+}
+
 }  // namespace
 
 // As the method of a RigidBody3D has it: a position is seen from the body's place, in the world's axes.
-void HapticWorld::push(const char* method, const Body* body, const BodyPush& push, bool for_a_frame) {
+void HapticWorld::push(const char* method, const Variant& body, const BodyPush& push, bool for_a_frame) {
     const char* wrong = nullptr;
-    const auto* rigid = Object::cast_to<RigidBody3D>(body);
+    const auto* rigid = object_in<RigidBody3D>(body);
     if (run_ == nullptr) {
         wrong = "this HapticWorld does not run: put it into the scene tree first";
-    } else if (rigid == nullptr || run_->body_of(body) == no_handle) {
+    } else if (const String problem = problem_of_object(body); !problem.is_empty()) {
+        refuse_body(*this, method, problem);
+        return;
+    } else if (rigid == nullptr || run_->body_of(rigid) == no_handle) {
         wrong =
             "the body is no RigidBody3D that this HapticWorld moves: put it below this world, and wait for "
             "the next frame";
@@ -48,30 +57,30 @@ void HapticWorld::push(const char* method, const Body* body, const BodyPush& pus
         UtilityFunctions::push_error(name_of(*this), ": ", method, "() did nothing: ", wrong, ".");
         return;
     }
-    run_->running().push(run_->body_of(body), push, for_a_frame);
+    run_->running().push(run_->body_of(rigid), push, for_a_frame);
 }
 
-void HapticWorld::apply_central_impulse(Body* body, const Vector3& impulse) {
+void HapticWorld::apply_central_impulse(const Variant& body, const Vector3& impulse) {
     push("apply_central_impulse", body, {.impulse = from_godot(impulse), .central = true}, false);
 }
 
-void HapticWorld::apply_impulse(Body* body, const Vector3& impulse, const Vector3& position) {
+void HapticWorld::apply_impulse(const Variant& body, const Vector3& impulse, const Vector3& position) {
     push("apply_impulse", body, {.impulse = from_godot(impulse), .point = from_godot(position)}, false);
 }
 
-void HapticWorld::apply_torque_impulse(Body* body, const Vector3& impulse) {
+void HapticWorld::apply_torque_impulse(const Variant& body, const Vector3& impulse) {
     push("apply_torque_impulse", body, {.central = true, .turn = from_godot(impulse)}, false);
 }
 
-void HapticWorld::apply_central_force(Body* body, const Vector3& force) {
+void HapticWorld::apply_central_force(const Variant& body, const Vector3& force) {
     push("apply_central_force", body, {.impulse = from_godot(force), .central = true}, true);
 }
 
-void HapticWorld::apply_force(Body* body, const Vector3& force, const Vector3& position) {
+void HapticWorld::apply_force(const Variant& body, const Vector3& force, const Vector3& position) {
     push("apply_force", body, {.impulse = from_godot(force), .point = from_godot(position)}, true);
 }
 
-void HapticWorld::apply_torque(Body* body, const Vector3& torque) {
+void HapticWorld::apply_torque(const Variant& body, const Vector3& torque) {
     push("apply_torque", body, {.central = true, .turn = from_godot(torque)}, true);
 }
 
@@ -83,12 +92,20 @@ bool HapticWorld::see(const Node* body, const BodySighting& sighting) {
     return seen != no_handle;
 }
 
-Vector3 HapticWorld::get_linear_velocity(Body* body) const {
-    return run_ != nullptr ? to_godot(run_->state_of(body).linear_velocity) : Vector3();
+BodyState HapticWorld::state_of(const char* method, const Variant& body) const {
+    if (const String problem = problem_of_object(body); !problem.is_empty()) {
+        refuse_body(*this, method, problem);
+        return {};
+    }
+    return run_ != nullptr ? run_->state_of(object_in<Node>(body)) : BodyState{};
 }
 
-Vector3 HapticWorld::get_angular_velocity(Body* body) const {
-    return run_ != nullptr ? to_godot(run_->state_of(body).angular_velocity) : Vector3();
+Vector3 HapticWorld::get_linear_velocity(const Variant& body) const {
+    return to_godot(state_of("get_linear_velocity", body).linear_velocity);
+}
+
+Vector3 HapticWorld::get_angular_velocity(const Variant& body) const {
+    return to_godot(state_of("get_angular_velocity", body).angular_velocity);
 }
 
 bool HapticWorld::can_ask(const char* method, const Vector3& where, double size) const {

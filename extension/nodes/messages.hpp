@@ -38,12 +38,24 @@ inline void refuse(const godot::Object& who, const char* property, const godot::
                                         godot::String::utf8(wanted), ".");
 }
 
+// What is wrong with a value that should hold an object; empty: it holds one that is alive.
+inline godot::String problem_of_object(const godot::Variant& value) {
+    if (value.get_type() != godot::Variant::OBJECT) {
+        return value.get_type() == godot::Variant::NIL ? "is null" : "is no object";
+    }
+    if (value.get_validated_object() != nullptr) {
+        return godot::String();
+    }
+    const bool was_one = static_cast<std::uint64_t>(static_cast<godot::ObjectID>(value)) != 0;
+    return was_one ? "has been freed" : "is null";
+}
+
 // A node's warning in the editor: what follows from a problem, and the problem, which says what to do. An
 // empty one warns of nothing.
 inline void warn(godot::PackedStringArray& warnings, const godot::String& effect,
                  const godot::String& problem) {
     if (!problem.is_empty()) {
-        warnings.push_back(effect + ": " + problem + ".");
+        warnings.push_back(effect + godot::String(": ") + problem + godot::String("."));
     }
 }
 

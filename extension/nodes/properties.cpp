@@ -35,11 +35,9 @@ bool is_allowed(const PropertyLimits& limits, const Variant& value) {
             return value.get_type() == Variant::VECTOR3 &&
                    static_cast<double>(static_cast<Vector3>(value).length()) <= limits.max;
         case Variant::OBJECT: {
-            const Object* object =
-                value.get_type() == Variant::OBJECT ? static_cast<Object*>(value) : nullptr;
-            return value.get_type() == Variant::NIL ||
-                   (value.get_type() == Variant::OBJECT &&
-                    (object == nullptr || object->is_class(limits.class_name)));
+            const Object* object = value.get_validated_object();
+            return object != nullptr ? object->is_class(limits.class_name)
+                                     : problem_of_object(value) == String("is null");
         }
         case Variant::STRING:
         case Variant::NODE_PATH:
@@ -62,11 +60,11 @@ bool accepts(const Object& who, const char* property, const PropertyLimits& limi
 
 void follow_changes(Object& who, const char* method, const Variant& before, const Variant& now) {
     const Callable on_change(&who, method);
-    if (auto* left = Object::cast_to<Resource>(static_cast<Object*>(before));
+    if (auto* left = Object::cast_to<Resource>(before.get_validated_object());
         left != nullptr && left->is_connected("changed", on_change)) {
         left->disconnect("changed", on_change);
     }
-    if (auto* taken = Object::cast_to<Resource>(static_cast<Object*>(now))) {
+    if (auto* taken = Object::cast_to<Resource>(now.get_validated_object())) {
         taken->connect("changed", on_change);
     }
 }

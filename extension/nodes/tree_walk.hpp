@@ -6,6 +6,7 @@
 #include <godot_cpp/classes/node3d.hpp>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/variant/node_path.hpp>
+#include <godot_cpp/variant/variant.hpp>
 
 namespace tactus {
 
@@ -13,6 +14,12 @@ namespace tactus {
 template <class NodeType>
 NodeType* node_of_id(std::uint64_t id) {
     return godot::Object::cast_to<NodeType>(godot::ObjectDB::get_instance(id));
+}
+
+// The object of a Variant; null: it holds none, one of another kind, or one that has been freed.
+template <class ObjectType>
+ObjectType* object_in(const godot::Variant& value) {
+    return godot::Object::cast_to<ObjectType>(value.get_validated_object());
 }
 
 // It goes when nothing uses it any more; gone already is as well.

@@ -188,3 +188,67 @@ func test_more_bodies_than_the_world_takes() -> void:
 	expect_error("limit of 2 bodies")
 	world.advance(0.01)
 	check_equal(world.get_problems().size(), 1, "problems")
+
+
+## Whether a script knows the type of its variable or not decides how Godot hands the body over.
+func test_a_freed_body_is_refused_by_every_method() -> void:
+	var world := add_world()
+	add_floor(world)
+	world.advance(TICK)
+	for method: String in [
+		"apply_central_impulse", "apply_torque_impulse", "apply_central_force", "apply_torque"
+	]:
+		expect_error(method + "() did nothing: the body that it was given has been freed")
+		world.call(method, _freed(), Vector3.UP)
+	for method: String in ["apply_impulse", "apply_force"]:
+		expect_error(method + "() did nothing: the body that it was given has been freed")
+		world.call(method, _freed(), Vector3.UP, Vector3.ZERO)
+	for method: String in ["get_linear_velocity", "get_angular_velocity"]:
+		expect_error(method + "() did nothing: the body that it was given has been freed")
+		check_equal(world.call(method, _freed()), Vector3.ZERO, method + " of a freed body")
+	world.call("_node_added", _freed())
+	world.call("_node_removed", _freed())
+
+
+func test_a_freed_body_of_a_known_type_is_refused() -> void:
+	var world := add_world()
+	var body := add_floor(world)
+	var rigid := RigidBody3D.new()
+	world.advance(TICK)
+	body.free()
+	rigid.free()
+	expect_error("get_linear_velocity() did nothing: the body that it was given has been freed")
+	check_equal(world.get_linear_velocity(body), Vector3.ZERO, "velocity of a freed body")
+	expect_error("apply_central_impulse() did nothing: the body that it was given has been freed")
+	world.apply_central_impulse(rigid, Vector3.UP)
+	expect_error("apply_force() did nothing: the body that it was given is null")
+	world.apply_force(null, Vector3.UP)
+
+
+func test_a_property_set_to_a_freed_object_keeps_its_value() -> void:
+	var world := add_world()
+	var material := HapticMaterial.new()
+	world.default_material = material
+	expect_error("default_material = <Freed Object> was refused, the old value stays")
+	world.set("default_material", _freed())
+	check_equal(world.default_material, material, "default_material")
+
+
+## A method whose argument is declared as an object gets the bare pointer from a typed script, also where the
+## object has been freed: it takes a Variant instead.
+func test_no_method_takes_the_bare_pointer_of_an_object() -> void:
+	var seen := 0
+	for name in ClassDB.get_class_list():
+		if ClassDB.class_get_api_type(name) != ClassDB.API_EXTENSION:
+			continue
+		for method in ClassDB.class_get_method_list(name, true):
+			for argument in method["args"]:
+				seen += 1
+				check(argument["type"] != TYPE_OBJECT, "%s.%s takes an object" % [name, method["name"]])
+	check(seen > 100, "only %d arguments were looked at" % seen)
+
+
+func _freed() -> Variant:
+	var body := RigidBody3D.new()
+	body.free()
+	return body

@@ -1,4 +1,5 @@
 #include <array>
+#include <godot_cpp/core/error_macros.hpp>
 #include <godot_cpp/core/object.hpp>
 #include <godot_cpp/private/interface.hpp>
 #include <godot_cpp/private/ptrcall.hpp>
@@ -115,6 +116,16 @@ Variant::operator ObjectID() const {
 }
 
 Variant::operator Object*() const {
+    Object* const object = get_validated_object();
+    if (object == nullptr && static_cast<uint64_t>(operator ObjectID()) != 0 && get_type() == OBJECT) {
+        ERR_PRINT(
+            "A Variant of a freed object was read as Object*, which crashes with godot-cpp: read it by "
+            "get_validated_object().");
+    }
+    return object;
+}
+
+Object* Variant::get_validated_object() const {
     return get_type() == OBJECT ? ObjectDB::get_instance(operator ObjectID()) : nullptr;
 }
 

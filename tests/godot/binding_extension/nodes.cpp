@@ -38,7 +38,7 @@ void BindingNode::watch(Object* object) {
 }
 
 bool BindingNode::is_watched_alive() const {
-    return static_cast<Object*>(watched_) != nullptr;
+    return watched_.get_validated_object() != nullptr;
 }
 
 void BindingNode::on_signal(int64_t count, const String& what) {

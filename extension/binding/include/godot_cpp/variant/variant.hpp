@@ -86,9 +86,6 @@ public:
         OP_MAX
     };
 
-    // C's own whole number that none of the fixed sizes is: long long on Linux, long on Windows.
-    using OtherInt = std::conditional_t<std::is_same_v<int64_t, long long>, long, long long>;
-
     Variant();
     Variant(std::nullptr_t) : Variant() {}
     Variant(const Variant& other);
@@ -106,8 +103,6 @@ public:
     Variant(uint32_t value) : Variant(static_cast<int64_t>(value)) {}
     Variant(uint16_t value) : Variant(static_cast<int64_t>(value)) {}
     Variant(uint8_t value) : Variant(static_cast<int64_t>(value)) {}
-    Variant(OtherInt value) : Variant(static_cast<int64_t>(value)) {}
-    Variant(std::make_unsigned_t<OtherInt> value) : Variant(static_cast<int64_t>(value)) {}
     Variant(double value);
     Variant(float value) : Variant(static_cast<double>(value)) {}
     Variant(const ObjectID& value) : Variant(static_cast<int64_t>(value)) {}
@@ -161,7 +156,8 @@ public:
     operator double() const;
     operator float() const { return static_cast<float>(operator double()); }
     operator ObjectID() const;
-    // Null when this holds no object, or one that has been freed since.
+    // Only while the object is alive: godot-cpp gives a pointer to freed memory here. For one that has been
+    // freed, this reports an error and gives null; get_validated_object() gives null without one.
     operator Object*() const;
     operator String() const;
     operator StringName() const;
@@ -199,7 +195,8 @@ public:
     operator PackedVector4Array() const;
 
     Type get_type() const;
-    Object* get_validated_object() const { return operator Object*(); }
+    // Null when this holds no object, or one that has been freed since.
+    Object* get_validated_object() const;
     bool booleanize() const;
     String stringify() const;
     uint32_t hash() const;
