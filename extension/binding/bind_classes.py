@@ -136,8 +136,7 @@ class ClassTable:
             set_by = f"&{self.name}::set_row<{index}>"
             get_by = f"&{self.name}::get_row<{index}, {self.value_type(member)}>"
         if member.get("follows"):
-            function = member.get("changed") or self.root.get("changed")
-            lines.append(f'ClassDB::bind_method(D_METHOD("_{name}_changed"), &{self.name}::{function});')
+            lines.append(f'ClassDB::bind_method(D_METHOD("_{name}_changed"), &{self.name}::row_changed<{index}>);')
         param = member.get("param") or name
         for function, arguments, by in ((setter, f', "{param}"', set_by), (getter, "", get_by)):
             if function and function not in bound:

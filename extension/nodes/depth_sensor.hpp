@@ -25,11 +25,17 @@ class DepthSensor : public godot::Node3D {
 
 public:
     enum Source : int64_t { SOURCE_CAMERA, SOURCE_RECORDING, SOURCE_SYNTHETIC };
-    using State = SensorState;
+    enum State {
+        STATE_CLOSED = static_cast<int>(SensorState::closed),
+        STATE_OPENING = static_cast<int>(SensorState::opening),
+        STATE_WAITING = static_cast<int>(SensorState::waiting),
+        STATE_SEEING = static_cast<int>(SensorState::seeing),
+        STATE_ENDED = static_cast<int>(SensorState::ended),
+    };
 
     TACTUS_PROPERTIES(DepthSensor)
 
-    State get_state() const { return sight().state; }
+    State get_state() const { return static_cast<State>(sight().state); }
     godot::String get_state_text() const;
     godot::TypedArray<godot::Dictionary> get_objects() const;
     godot::Dictionary get_plane() const;

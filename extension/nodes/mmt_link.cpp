@@ -241,11 +241,11 @@ void MMTLink::show_ghosts() {
 // Where no world runs it, this node alone can say why.
 MMTLink::State MMTLink::get_state() const {
     const bool idle = report_.state == LinkState::off && is_networked() && is_inside_tree();
-    return idle && !problem().is_empty() ? LinkState::failed : report_.state;
+    return static_cast<State>(idle && !problem().is_empty() ? LinkState::failed : report_.state);
 }
 
 String MMTLink::get_state_text() const {
-    const bool fails_by_itself = report_.state == LinkState::off && get_state() == LinkState::failed;
+    const bool fails_by_itself = report_.state == LinkState::off && get_state() == STATE_FAILED;
     return fails_by_itself ? problem() : to_godot(report_.text);
 }
 

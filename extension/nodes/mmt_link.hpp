@@ -37,7 +37,17 @@ public:
         SCENARIO_MMT_ROBOT = 5
     };
     enum Side : int64_t { SIDE_OPERATOR, SIDE_TELEOPERATOR };
-    using State = LinkState;
+    enum State {
+        STATE_OFF = static_cast<int>(LinkState::off),
+        STATE_OPENING = static_cast<int>(LinkState::opening),
+        STATE_FAILED = static_cast<int>(LinkState::failed),
+        STATE_WAITING = static_cast<int>(LinkState::waiting),
+        STATE_ONE_WAY = static_cast<int>(LinkState::one_way),
+        STATE_CONNECTED = static_cast<int>(LinkState::connected),
+        STATE_REFUSED = static_cast<int>(LinkState::refused),
+        STATE_LOST = static_cast<int>(LinkState::lost),
+        STATE_LEFT = static_cast<int>(LinkState::left),
+    };
     MMTLink() { clear_report(); }
 
     TACTUS_PROPERTIES(MMTLink)

@@ -142,6 +142,10 @@ const char* new_name_of(const godot::String& old) {
     void set_row(const godot::Variant& value) {                                     \
         tactus::set_property(*this, row, value);                                    \
     }                                                                               \
+    template <int64_t row>                                                          \
+    void row_changed() {                                                            \
+        properties()[row].changed(*this);                                           \
+    }                                                                               \
     template <int64_t row, class Value>                                             \
     Value get_row() const {                                                         \
         return godot::VariantCaster<Value>::cast(tactus::get_property(*this, row)); \

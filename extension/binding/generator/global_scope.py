@@ -55,10 +55,15 @@ def write_sizes(api, output):
     )
 
 
+LEFT_OUT = {"is_instance_valid"}  # godot-cpp has none either
+
+
 def write_utility_functions(api, output):
     declarations = []
     definitions = []
     for entry in api.utility_functions:
+        if entry["name"] in LEFT_OUT:
+            continue
         try:
             signature = Signature(api, entry)
         except Unsupported:

@@ -146,7 +146,7 @@ StringName parent_class(const StringName& class_name) {
 StringName enum_class_name(const char* qualified_name) {
     const PackedStringArray parts = String(qualified_name).split("::");
     const int64_t count = parts.size();
-    return count < 2 ? parts[0] : parts[count - 2] + "." + parts[count - 1];
+    return count < 2 ? parts[0] : parts[count - 2] + String(".") + parts[count - 1];
 }
 
 void release_classes(int level) {
@@ -170,10 +170,6 @@ void ClassDB::begin_class(const StringName& name, const StringName& parent,
     info.class_userdata = entry;
     internal::interface.classdb_register_extension_class4(internal::library, name._native_ptr(),
                                                           parent._native_ptr(), &info);
-}
-
-const StringName& ClassDB::current_class() {
-    return internal::own_classes.back()->name;
 }
 
 MethodBind* ClassDB::add_method(const StringName& class_name, const MethodDefinition& definition,

@@ -81,15 +81,6 @@ Transform3D Transform3D::interpolate_with(const Transform3D& to, real_t weight) 
     return Transform3D(Basis(turned).scaled_local(scale), origin.lerp(to.origin, weight));
 }
 
-// Each axis of the box contributes the smaller and the larger of its two ends.
-AABB Transform3D::operator*(const AABB& box) const {
-    const Vector3 half = box.size * real_t(0.5);
-    const Vector3 center = xform(box.get_center());
-    const Vector3 extent = basis.get_column(0).abs() * half.x + basis.get_column(1).abs() * half.y +
-                           basis.get_column(2).abs() * half.z;
-    return AABB(center - extent, extent * real_t(2));
-}
-
 Color Color::html(const String& rgba) {
     return Variant(Color()).call("html", rgba);
 }

@@ -60,11 +60,11 @@ String& String::operator+=(char32_t other) {
     return *this;
 }
 
-String String::operator+(const char* other) const {
+String String::operator+(const char* other) {
     return *this + String(other);
 }
 
-String String::operator+(char32_t other) const {
+String String::operator+(char32_t other) {
     String result(*this);
     result += other;
     return result;

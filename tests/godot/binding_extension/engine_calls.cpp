@@ -102,7 +102,7 @@ PackedStringArray BindingEngineCalls::objects() {
     const Variant holder = instance;
     memdelete(instance);
     EXPECT(ObjectDB::get_instance(id) == nullptr);
-    EXPECT(static_cast<Object*>(holder) == nullptr);
+    EXPECT(holder.get_validated_object() == nullptr);
     EXPECT(box->get_reference_count() == 1);
 
     // A class that the binding does not know is seen as its nearest base.
@@ -233,8 +233,6 @@ PackedStringArray BindingEngineCalls::math() {
     const Quaternion b(Vector3(1, 0, 0), 1.2f);
     EXPECT(a.slerp(b, 0.3f).is_equal_approx(Variant(a).call("slerp", b, 0.3)));
     EXPECT((a * b).is_equal_approx(Quaternion(Basis(a) * Basis(b))));
-    EXPECT((pose * AABB(Vector3(), Vector3(1, 1, 1)))
-               .has_point(pose.xform(Vector3(1, 1, 1)) - Vector3(1e-4f, 0, 0)));
     EXPECT(Vector3(1, 0, 0).rotated(Vector3(0, 0, 1), real_t(Math_PI / 2)).is_equal_approx(Vector3(0, 1, 0)));
     EXPECT(pose.interpolate_with(Transform3D(), 0.25f)
                .is_equal_approx(Variant(pose).call("interpolate_with", Transform3D(), 0.25)));
@@ -249,7 +247,7 @@ PackedStringArray BindingEngineCalls::utilities() {
     EXPECT(UtilityFunctions::type_of(Vector3()) == Variant::VECTOR3);
     EXPECT(static_cast<int64_t>(UtilityFunctions::str_to_var("5")) == 5);
     EXPECT(UtilityFunctions::lerpf(0, 10, 0.5) == 5.0);
-    EXPECT(UtilityFunctions::is_instance_valid(this));
+    EXPECT(UtilityFunctions::is_instance_id_valid(static_cast<int64_t>(get_instance_id())));
     EXPECT(Engine::get_singleton()->get_version_info().has("major"));
     EXPECT(!Engine::get_singleton()->is_editor_hint());
     EXPECT(OS::get_singleton()->get_name() == "Linux");

@@ -54,7 +54,12 @@ public:
     template <class M, class... Defaults>
     static MethodBind* bind_method(const MethodDefinition& definition, M method,
                                    const Defaults&... defaults) {
-        return add_method(current_class(), definition, create_method_bind(method), {Variant(defaults)...});
+        using Class = typename internal::MethodPointer<M>::Class;
+        static_assert(
+            internal::is_own_method<M>,
+            "a method of an engine class cannot be bound anew: bind one of the class's own that calls it");
+        return add_method(Class::get_class_static(), definition, create_method_bind(method),
+                          {Variant(defaults)...});
     }
 
     template <class M, class... Defaults>
@@ -90,7 +95,6 @@ private:
 
     static void begin_class(const StringName& name, const StringName& parent,
                             GDExtensionClassCreationInfo4& info);
-    static const StringName& current_class();
     static MethodBind* add_method(const StringName& class_name, const MethodDefinition& definition,
                                   MethodBind* bind, std::vector<Variant> defaults);
 };
@@ -117,8 +121,8 @@ private:
 #define BIND_ENUM_CONSTANT(m_constant)                                                                     \
     ::godot::ClassDB::bind_integer_constant(get_class_static(),                                            \
                                             ::godot::_gde_constant_get_enum_name(m_constant, #m_constant), \
-                                            #m_constant, static_cast<int64_t>(m_constant));
+                                            #m_constant, m_constant);
 #define BIND_BITFIELD_FLAG(m_constant)                                                                     \
     ::godot::ClassDB::bind_integer_constant(get_class_static(),                                            \
                                             ::godot::_gde_constant_get_enum_name(m_constant, #m_constant), \
-                                            #m_constant, static_cast<int64_t>(m_constant), true);
+                                            #m_constant, m_constant, true);

@@ -70,10 +70,35 @@ void call_with_pointers(const Invoke& invoke, const void* const* arguments, void
     }
 }
 
+// The class whose member function M points to; a pointer to an inherited one points into the base.
+template <class M>
+struct MethodPointer;
+
+template <class C, class R, class... A>
+struct MethodPointer<R (C::*)(A...)> {
+    using Class = C;
+};
+
+template <class C, class R, class... A>
+struct MethodPointer<R (C::*)(A...) const> {
+    using Class = C;
+};
+
+// Upstream binds a method to the class its pointer points into, and engine classes are not ours to bind to.
+template <class M>
+constexpr bool is_own_method = !MethodPointer<M>::Class::is_engine_class;
+
+// godot-cpp makes a Variant of an enum by converting it to int64_t, which an enum class refuses.
+template <class T>
+constexpr bool is_bindable = !std::is_enum_v<T> || std::is_convertible_v<T, int64_t>;
+
 // F is `R (C::*)(A…)`, the same with const, or `R (*)(A…)`; C is void for static functions.
 template <class F, class C, class R, class... A>
 class BoundMethod final : public MethodBind {
 public:
+    static_assert((is_bindable<std::remove_cvref_t<R>> && ... && is_bindable<std::remove_cvref_t<A>>),
+                  "an enum class cannot be bound: make it a plain enum of the class");
+
     explicit BoundMethod(F method) : method_(method) { describe<R, std::remove_cvref_t<A>...>(); }
 
     void call(Wrapped* instance, const Variant* const* arguments, Variant* result) const override {

@@ -50,7 +50,10 @@ constexpr GDExtensionClassMethodArgumentMetadata integer_metadata() {
 }  // namespace internal
 
 template <class T, class = void>
-struct GetTypeInfo : internal::PlainTypeInfo<internal::variant_type_of<T>()> {};
+struct GetTypeInfo : internal::PlainTypeInfo<internal::variant_type_of<T>()> {
+    static_assert(internal::variant_type_of<T>() != Variant::NIL,
+                  "Godot knows no such type; an enum needs VARIANT_ENUM_CAST or VARIANT_BITFIELD_CAST");
+};
 
 template <>
 struct GetTypeInfo<Variant> : internal::PlainTypeInfo<Variant::NIL> {

@@ -91,7 +91,6 @@ struct Basis {
     }
     bool is_finite() const { return rows[0].is_finite() && rows[1].is_finite() && rows[2].is_finite(); }
 
-    constexpr Vector3 operator*(const Vector3& v) const { return xform(v); }
     constexpr Basis operator*(const Basis& b) const {
         return Basis(xform(b.get_column(0)), xform(b.get_column(1)), xform(b.get_column(2)));
     }

@@ -72,7 +72,6 @@ struct Quaternion {
         return {w * q.x + x * q.w + y * q.z - z * q.y, w * q.y + y * q.w + z * q.x - x * q.z,
                 w * q.z + z * q.w + x * q.y - y * q.x, w * q.w - x * q.x - y * q.y - z * q.z};
     }
-    constexpr Vector3 operator*(const Vector3& v) const { return xform(v); }
     constexpr Quaternion operator+(const Quaternion& q) const { return {x + q.x, y + q.y, z + q.z, w + q.w}; }
     constexpr Quaternion operator-(const Quaternion& q) const { return {x - q.x, y - q.y, z - q.z, w - q.w}; }
     constexpr Quaternion operator-() const { return {-x, -y, -z, -w}; }

@@ -57,11 +57,9 @@ struct Transform3D {
     }
     bool is_finite() const { return basis.is_finite() && origin.is_finite(); }
 
-    constexpr Vector3 operator*(const Vector3& p) const { return xform(p); }
     constexpr Transform3D operator*(const Transform3D& t) const {
         return Transform3D(basis * t.basis, xform(t.origin));
     }
-    AABB operator*(const AABB& box) const;
     constexpr Transform3D& operator*=(const Transform3D& t) { return *this = *this * t; }
     constexpr bool operator==(const Transform3D& t) const { return basis == t.basis && origin == t.origin; }
     constexpr bool operator!=(const Transform3D& t) const { return !(*this == t); }
