@@ -1,6 +1,7 @@
 """Where nodes/ finds the godot-cpp API: an installed godot-cpp, or binding/ with its generated part."""
 
 import hashlib
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,27 +11,40 @@ sys.path.append(str(BINDING.resolve()))
 
 
 def installed(prefix, target, system="linux", architecture="x86_64"):
-    """Include folders and library of a godot-cpp: one that was installed (include/, lib/), or a checkout in which it
-    was built (include/, gen/include/, gdextension/, bin/)."""
+    """Include folders and library of a godot-cpp: one that was installed (include/, lib/), a checkout in which SCons
+    built it (include/, gen/include/, gdextension/, bin/), or one that CMake built (gen/include/ and bin/ in a folder of
+    its own): the checkout with its build folders in it, or the build folder itself."""
     root = Path(prefix)
-    includes = [root / name for name in ("include", "gen/include", "gdextension") if (root / name).is_dir()]
-    if not any((folder / "godot_cpp/godot.hpp").is_file() for folder in includes):
+    source = _cmake_source(root) or root
+    builds = [root, *sorted(folder for folder in root.glob("*") if (folder / "CMakeCache.txt").is_file())]
+    if not (source / "include/godot_cpp/godot.hpp").is_file():
         raise RuntimeError(f"{prefix} has no include/godot_cpp/godot.hpp: it is no godot-cpp")
-    if not any((folder / "godot_cpp/classes/node3d.hpp").is_file() for folder in includes):
+    built = [build for build in builds if any((build / name / "godot_cpp/classes/node3d.hpp").is_file() for name in ("include", "gen/include"))]
+    if not built:
         raise RuntimeError(f"{prefix} has no generated classes yet: build godot-cpp first, with scons target={target}")
-    return includes, _installed_library(root, target, system, architecture)
+    build, library = _installed_library(built, target, system, architecture)
+    includes = [source / "include", build / "gen/include", source / "gdextension"]
+    return [folder for folder in includes if folder.is_dir()], library
 
 
-def _installed_library(root, target, system, architecture):
-    found = sorted(path for folder in ("lib", "bin") for path in (root / folder).glob("libgodot-cpp*.a"))
+def _cmake_source(build):
+    """The checkout that CMake built into this folder; None where it did not."""
+    cache = build / "CMakeCache.txt"
+    named = re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.+)$", cache.read_text(), re.M) if cache.is_file() else None
+    return Path(named[1]) if named else None
+
+
+def _installed_library(builds, target, system, architecture):
+    """The build that has a library for this target, and the library."""
+    found = [(build, path) for build in builds for folder in ("lib", "bin") for path in sorted((build / folder).glob("libgodot-cpp*.a"))]
     kinds = [f".{system}.{target}.{suffix}" for suffix in (architecture, "universal")]
-    suits = [path for path in found if any(kind in path.name for kind in kinds)]
+    suits = [one for one in found if any(kind in one[1].name for kind in kinds)]
     # Without a target in its name it is the only one there is.
-    suits += [path for path in found if path.name == "libgodot-cpp.a"]
+    suits += [one for one in found if one[1].name == "libgodot-cpp.a"]
     if not suits:
-        names = ", ".join(path.name for path in found) or "none"
+        names = ", ".join(path.name for _, path in found) or "none"
         raise RuntimeError(
-            f"{root} has no libgodot-cpp for {system}, {target}, {architecture} (found: {names}): "
+            f"{builds[0]} has no libgodot-cpp for {system}, {target}, {architecture} (found: {names}): "
             f"scons platform={system} target={target} arch={architecture} builds it"
         )
     return suits[0]

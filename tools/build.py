@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 from setup import cache, processes
 from setup.progress import Progress
@@ -20,6 +21,11 @@ def step(target: str) -> Step:
 def build(target: str, *what: str) -> None:
     """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
     options = ["-s", f"-j{os.cpu_count() or 1}", f"target={target}", "progress=yes"]
+    if named := os.environ.get("GODOT_CPP"):
+        # As the caller's folder has it; SCons runs in the clone.
+        prefix = Path(named).expanduser().absolute()
+        print(f"godot-cpp: {prefix} (GODOT_CPP)")
+        options.append(f"godot_cpp={prefix}")
     progress, printed = Progress(), []
     with processes.started(
         [cache.venv_bin("scons"), *options, *what],

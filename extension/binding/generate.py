@@ -2,12 +2,15 @@
 """Writes the godot-cpp API for the classes in classes.txt, from the engine's own description of itself.
 
     generate.py --api FOLDER --output DIR
+    generate.py --profile FILE
 
 reads FOLDER/extension_api.json and FOLDER/gdextension_interface.h, writes DIR/include and DIR/src. The hand-written
-half is in include/ and src/ beside this file.
+half is in include/ and src/ beside this file. The second form writes the same list of classes as a build profile, with
+which upstream godot-cpp builds these alone.
 """
 
 import argparse
+import json
 import sys
 from pathlib import Path
 
@@ -29,16 +32,23 @@ def read_class_list(path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--api", type=Path, required=True, help="folder of the engine's dump, or extension_api.json")
+    parser.add_argument("--api", type=Path, help="folder of the engine's dump, or extension_api.json")
     parser.add_argument("--interface", type=Path, help="gdextension_interface.h, if it is not beside the JSON")
-    parser.add_argument("--output", type=Path, required=True, help="folder to write include/ and src/ into")
+    parser.add_argument("--output", type=Path, help="folder to write include/ and src/ into")
     parser.add_argument("--classes", type=Path, default=HERE / "classes.txt", help="list of engine classes")
+    parser.add_argument("--profile", type=Path, help="build profile to write, for upstream godot-cpp")
     parser.add_argument("--report", action="store_true", help="list the methods that were left out")
     arguments = parser.parse_args()
+    classes = read_class_list(arguments.classes)
+    if arguments.profile is not None:
+        arguments.profile.write_text(json.dumps({"enabled_classes": classes}, indent=4) + "\n", encoding="utf-8")
+        return
+    if arguments.api is None or arguments.output is None:
+        parser.error("--api and --output are needed, or --profile alone")
 
     description = arguments.api / "extension_api.json" if arguments.api.is_dir() else arguments.api
     interface = arguments.interface or description.parent / "gdextension_interface.h"
-    api = Api(description, read_class_list(arguments.classes))
+    api = Api(description, classes)
     output = Output(arguments.output)
     write_interface(output, interface.read_text(encoding="utf-8"))
     write_sizes(api, output)

@@ -1,5 +1,8 @@
 """Where a godot-cpp is found: installed, or as an upstream checkout lies after its own build."""
 
+import json
+import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -8,6 +11,8 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "site_scons"))
 import godot_api  # noqa: E402
 import manifest  # noqa: E402
+
+CLONE = Path(__file__).resolve().parents[2]
 
 
 def _with_files(root, *names):
@@ -66,3 +71,75 @@ def test_the_version_is_that_of_its_header(tmp_path):
     header = _with_files(tmp_path, "gen/include/godot_cpp/core/version.hpp") / "gen/include/godot_cpp/core/version.hpp"
     header.write_text("#define GODOT_VERSION_MAJOR 4\n#define GODOT_VERSION_MINOR 7\n")
     assert manifest.installed_api_version([tmp_path / "include", tmp_path / "gen/include"]) == ("4.7", "single")
+
+
+CMAKE_BUILT = ["CMakeCache.txt", "gen/include/godot_cpp/classes/node3d.hpp", "bin/libgodot-cpp.linux.template_debug.x86_64.a"]
+
+
+def _cmake_built(source, build):
+    _with_files(source, "include/godot_cpp/godot.hpp", "gdextension/gdextension_interface.h")
+    _with_files(build, *CMAKE_BUILT)
+    (build / "CMakeCache.txt").write_text(f"CMAKE_HOME_DIRECTORY:INTERNAL={source}\n")
+
+
+def test_cmake_builds_inside_a_checkout_are_found_by_their_target(tmp_path):
+    debug, release = tmp_path / "cmake-build-debug", tmp_path / "cmake-build-release"
+    _cmake_built(tmp_path, debug)
+    _cmake_built(tmp_path, release)
+    library = (release / CMAKE_BUILT[2]).rename(release / CMAKE_BUILT[2].replace("debug", "release"))
+    includes = [tmp_path / "include", release / "gen/include", tmp_path / "gdextension"]
+    assert godot_api.installed(tmp_path, "template_release") == (includes, library)
+    assert godot_api.installed(tmp_path, "template_debug")[1] == debug / CMAKE_BUILT[2]
+
+
+def test_a_cmake_build_beside_its_checkout_is_found_by_its_own_path(tmp_path):
+    source, build = tmp_path / "godot-cpp", tmp_path / "build"
+    _cmake_built(source, build)
+    includes = [source / "include", build / "gen/include", source / "gdextension"]
+    assert godot_api.installed(build, "template_debug") == (includes, build / CMAKE_BUILT[2])
+
+
+def test_a_folder_that_is_no_godot_cpp_ends_the_build_without_a_traceback(tmp_path):
+    done = _scons(f"godot_cpp={tmp_path}")
+    assert done.returncode != 0
+    assert f"godot_cpp: {tmp_path} has no include/godot_cpp/godot.hpp: it is no godot-cpp" in done.stdout + done.stderr
+    assert "Traceback" not in done.stdout + done.stderr
+
+
+def test_the_environment_names_a_godot_cpp(tmp_path, monkeypatch):
+    monkeypatch.setenv("GODOT_CPP", str(tmp_path))
+    assert f"godot_cpp: {tmp_path} has no include" in _scons().stderr
+
+
+def _scons(*arguments):
+    scons = Path(sys.executable).with_name("scons")
+    return subprocess.run([scons, "-n", "-s", *arguments, "extension"], cwd=CLONE, text=True, capture_output=True)
+
+
+def test_the_list_of_classes_is_a_build_profile(tmp_path):
+    generate = CLONE / "extension/binding/generate.py"
+    subprocess.run([sys.executable, generate, "--profile", tmp_path / "profile.json"], check=True)
+    classes = json.loads((tmp_path / "profile.json").read_text())["enabled_classes"]
+    assert {"Object", "Node3D", "RigidBody3D"} <= set(classes) and len(classes) == len(set(classes))
+
+
+# What is the binding's own; templates; and virtual methods, which the list names without a symbol.
+_OWN = re.compile(r"internal::|~|_values\(|::name$|::(ClassDB|GDExtensionBinding|Wrapped)::|::_\w+\(")
+
+
+def _names(objects):
+    """Functions of godot-cpp that object files call or contain, as c++filt writes them."""
+    printed = subprocess.run(["nm", "-C", *objects], check=True, text=True, capture_output=True).stdout
+    called = {match[1] for match in re.finditer(r"^[0-9a-f ]* [UWV] (godot::.+)$", printed, re.M)}
+    return {name for name in called if re.match(r"godot::(\w+::|operator)[^<]*\(", name) and not _OWN.search(name)}
+
+
+def test_each_name_that_nodes_use_is_in_the_list_of_upstreams_signatures():
+    built = CLONE / "build/template_debug/obj"
+    lists = sorted(built.glob("tests/godot/binding_extension/**/signatures_*.o"))
+    nodes = sorted(built.glob("extension/nodes/**/*.o"))
+    if not lists or not nodes:
+        pytest.skip("the extension and the tests are not built")
+    missing = sorted(_names(nodes) - _names(lists))
+    assert not missing, "write upstream's signature into tests/godot/binding_extension/signatures_*.cpp: " + "\n".join(missing)
+    assert len(_names(nodes)) > 200
