@@ -23,14 +23,11 @@ OUTPUT = cache.clone() / "build/proof"
 
 
 def main(arguments: list[str]) -> int:
-    given = dict(word.removeprefix("--").split("=", 1) for word in arguments if word.startswith("--") and "=" in word)
-    if len(given) + arguments.count("--page") != len(arguments):
-        print(__doc__, file=sys.stderr)
-        return 2
+    given = options.of_words(word for word in arguments if word != "--page")
     output = Path(given.pop("output", OUTPUT))
     part, _, case = given.pop("only", "").partition(".")
     if not part and given:
-        raise ValueError("say with --only=PART whose options these are")
+        raise options.Refused("say with --only=PART whose options these are")
     if "--page" not in arguments:
         for name in [part] if part else PARTS:
             play(name, case, given, output)
@@ -43,10 +40,10 @@ def main(arguments: list[str]) -> int:
 def play(part: str, case: str, given: dict[str, str], output: Path) -> None:
     """One part, or one case of it; its figures join those of its other cases."""
     if part not in PARTS:
-        raise ValueError(f"--only={part}: choose from {', '.join(PARTS)}")
+        raise options.Refused(f"--only={part}: choose from {', '.join(PARTS)}")
     module = PARTS[part]
     if case and case not in module.CASES:
-        raise ValueError(f"--only={part}.{case}: choose from {', '.join(module.CASES)}")
+        raise options.Refused(f"--only={part}.{case}: choose from {', '.join(module.CASES)}")
     settings = options.parse(module.Settings, given)
     folder = output / part
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,6 +1,5 @@
 """Sweeps: what is asked is checked, what is done is kept, and however the runs are spread, the rows are the same."""
 
-import dataclasses
 import importlib
 import json
 import os
@@ -230,9 +229,10 @@ def test_a_worker_that_joins_later_is_refused_too(six):
         ({"factors": {"delay": []}}, "factors.delay must be a list"),
         ({"factors": {"delay": 5}}, "factors.delay must be a list"),
         ({"factors": {"delay": [1, 1]}}, "factors.delay has a level twice"),
-        ({"factors": {"delay": ["far"]}}, "--delay=far is not a number"),
+        ({"factors": {"delay": [50, "50.0"]}}, "factors.delay has a level twice"),
+        ({"factors": {"delay": ["far"]}}, "--delay=far is refused: it must be a number from 0 to 10000 .ms"),
         ({"factors": {"delays": [5]}}, "unknown option --delays"),
-        ({"factors": {"way": ["default", "best"]}}, "--way=best is not one of"),
+        ({"factors": {"way": ["default", "best"]}}, "--way=best is refused .*one of default"),
         ({"factors": {"delay": [[5]]}}, "neither a number nor a text"),
         ({"factors": {"seconds": [5]}}, "seconds is an option of all runs and a factor"),
         ({"factors": {"seed": [5]}}, "seed: say repeats"),
@@ -265,12 +265,6 @@ def test_what_is_drawn_where_nothing_is_said(tmp_path):
     assert described(SMALL, tmp_path).drawn == ("delay",)
 
 
-def test_every_number_of_an_experiment_has_its_unit():
-    for name in experiment.names():
-        for field in dataclasses.fields(description.settings(name)):
-            assert field.type is not float or field.name == "seconds" or field.metadata["unit"], f"{name} --{field.name}"
-
-
 # Tables of Student's distribution, two-sided 95 %.
 @pytest.mark.parametrize(("freedom", "t"), [(1, 12.706), (2, 4.303), (4, 2.776), (5, 2.571), (10, 2.228), (30, 2.042), (100, 1.984)])
 def test_the_confidence_of_a_mean(freedom, t):
@@ -297,3 +291,11 @@ def test_lines_are_told_apart_in_grey():
     greys = [0.2126 * r + 0.7152 * g + 0.0722 * b for r, g, b, _ in (look["color"] for look in looks)]
     assert greys == sorted(greys) and min(b - a for a, b in zip(greys, greys[1:])) > 0.08
     assert len({look["marker"] for look in looks}) == len({str(look["linestyle"]) for look in looks}) == 5
+
+
+def test_equal_names_in_two_folders_have_tables_of_their_own(tmp_path):
+    for folder in ("one", "other"):
+        (tmp_path / folder).mkdir()
+    place = tmp_path / "sweeps"
+    first, second = tmp_path / "one/sweep.json", tmp_path / "other/sweep.json"
+    assert [command.owned(place, path).name for path in (first, second, first, second)] == ["sweep", "sweep_2", "sweep", "sweep_2"]

@@ -31,9 +31,9 @@ LEAST_SHARED = 0.05
 
 @dataclass(frozen=True)
 class Settings:
-    delays: str = "0,25,50,100,200,500"
+    delays: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS)
     clock: Literal["virtual", "real"] = "virtual"
-    pictures: int = 1
+    pictures: bool = options.switch(True)
 
 
 def name_of(scheme: str) -> str:
@@ -65,7 +65,7 @@ def cases(description: dict, scene: str, delays: list[str], output: Path) -> lis
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("closed_loop")
-    delays = settings.delays.split(",")
+    delays = list(map(str, settings.delays))
     if settings.clock == "real":
         from measuring import teleop_processes
 

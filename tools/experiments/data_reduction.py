@@ -35,10 +35,10 @@ WEBER, LEAST_NOTICEABLE = 0.07, 0.02
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = 10.0
-    delay: float = options.option(100.0, "ms")
+    seconds: float = options.seconds(10.0)
+    delay: float = options.option(100.0, "ms", 0, options.LONGEST_DELAY_MS)
     clock: Literal["virtual"] = "virtual"
-    pictures: int = 1
+    pictures: bool = options.switch(True)
 
 
 def ways(wrong: teleop_runs.Case) -> dict[str, teleop_runs.Case]:

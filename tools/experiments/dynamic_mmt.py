@@ -40,28 +40,28 @@ SHOWN = ("none.none.100ms.0pct", "pose.none.100ms.0pct", "stealthy_direction.res
 
 @dataclass(frozen=True)
 class Settings(teleop_runs.Imperfections):
-    seconds: float = 10.0
-    delays: str = "0,25,50,100,200,500"
-    losses: str = "0,10,50"
+    seconds: float = options.seconds(10.0)
+    delays: tuple[int, ...] = options.numbers((0, 25, 50, 100, 200, 500), "ms", 0, options.LONGEST_DELAY_MS)
+    losses: tuple[int, ...] = options.numbers((0, 10, 50), "%", 0, 100)
     clock: Literal["virtual", "real"] = "virtual"
-    pictures: int = 1
-    table: int = 1
-    variants: int = 1
-    grid: int = 1
-    grid_scenes: str = "all"
-    grid_wrong: str = "all"
-    grid_delays: str = "50,100,200"
-    grid_losses: str = "0,50"
-    grid_seeds: int = 6
-    grid_schemes: str = "all"
-    grid_set: str = ""
+    pictures: bool = options.switch(True)
+    table: bool = options.switch(True)
+    variants: bool = options.switch(True)
+    grid: bool = options.switch(True)
+    grid_scenes: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["scenes"])
+    grid_wrong: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("dynamic_mmt")["grid"]["wrong"])
+    grid_delays: tuple[int, ...] = options.numbers((50, 100, 200), "ms", 0, options.LONGEST_DELAY_MS)
+    grid_losses: tuple[int, ...] = options.numbers((0, 50), "%", 0, 100)
+    grid_seeds: int = options.option(6, "count", 0, 1000)
+    grid_schemes: tuple[str, ...] = options.names(None, teleop_grid.SCHEMES)
+    grid_set: dict[str, str] = options.pairs()
 
 
 def cases(description: dict, settings: Settings, output: Path) -> list[teleop_runs.Case]:
     wrong = teleop_runs.wrong(description["wrong"]) | settings.keys(description["scene"], description["object"])
     found: list[teleop_runs.Case] = []
-    for delay in settings.delays.split(","):
-        for loss in settings.losses.split(","):
+    for delay in map(str, settings.delays):
+        for loss in map(str, settings.losses):
             common = {"delay_ms": delay, "loss": float(loss) / 100, "seconds": settings.seconds}
             common["object"] = description["object"]
             for way, keys in rivals.TRADITIONAL.items():
@@ -130,11 +130,10 @@ def _variants(description: dict, settings: Settings, output: Path) -> dict[str, 
 
 def _grid(description: dict, settings: Settings, output: Path) -> dict[str, object]:
     grid = description["grid"]
-    scenes = _chosen(settings.grid_scenes, grid["scenes"])
-    wrongs = _chosen(settings.grid_wrong, grid["wrong"])
-    schemes = dict.fromkeys([*_chosen(settings.grid_schemes, teleop_grid.SCHEMES), "never_corrected"])
-    more = dict(pair.split("=", 1) for pair in settings.grid_set.split(",") if pair)
-    delays = settings.grid_delays.split(",")
+    scenes, wrongs = settings.grid_scenes, settings.grid_wrong
+    schemes = dict.fromkeys([*settings.grid_schemes, "never_corrected"])
+    more = settings.grid_set
+    delays = list(map(str, settings.grid_delays))
     summary: dict[str, object] = {}
     if settings.grid_seeds:
         drawn = teleop_grid.drawn(settings.grid_seeds)
@@ -142,7 +141,7 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
         found = teleop_grid.run(unseen, teleop_grid.cases(grid, scenes, drawn, delays, "0"), [*schemes, teleop_grid.BOUND], output, more)
         summary |= teleop_grid.summary(found, "grid.unseen.")
         _write_grid(output / "grid_unseen.csv", found)
-    for loss in settings.grid_losses.split(",") if settings.grid_losses else ():
+    for loss in map(str, settings.grid_losses):
         names = teleop_grid.cases(grid, scenes, wrongs, delays, loss)
         # With losses, the default is asked against what it has to beat there.
         asked = [*schemes, teleop_grid.BOUND] if loss == "0" else [one for one in schemes if one in teleop_grid.WITH_LOSS]
@@ -151,14 +150,6 @@ def _grid(description: dict, settings: Settings, output: Path) -> dict[str, obje
         summary |= teleop_grid.summary(found, prefix)
         _write_grid(output / ("grid.csv" if loss == "0" else f"grid_loss_{loss}pct.csv"), found)
     return summary
-
-
-def _chosen(text: str, known: dict) -> list[str]:
-    chosen = list(known) if text == "all" else text.split(",")
-    unknown = [name for name in chosen if name not in known]
-    if unknown:
-        raise ValueError(f"{unknown[0]} is none of {', '.join(known)}")
-    return chosen
 
 
 def _write_grid(path: Path, found: teleop_grid.Found) -> None:

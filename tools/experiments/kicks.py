@@ -24,21 +24,18 @@ FIGURES = (*EXCESS, "force_error_left_N", "energy_created_J")
 
 @dataclass(frozen=True)
 class Settings:
-    delay: float = options.option(100.0, "ms")
-    kinds: str = "all"
-    set: str = ""
+    delay: float = options.option(100.0, "ms", 0, options.LONGEST_DELAY_MS)
+    kinds: tuple[str, ...] = options.names(None, lambda: teleop_runs.description("kicks")["kinds"])
+    set: dict[str, str] = options.pairs()
     clock: Literal["virtual"] = "virtual"
-    pictures: int = 1
+    pictures: bool = options.switch(True)
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description("kicks")
     kinds = description["kinds"]
-    chosen = list(kinds) if settings.kinds == "all" else settings.kinds.split(",")
-    unknown = [kind for kind in chosen if kind not in kinds]
-    if unknown:
-        raise ValueError(f"{unknown[0]} is none of {', '.join(kinds)}")
+    chosen = list(settings.kinds)
     found: dict[str, dict] = {}
     for place, lift in dict.fromkeys((kinds[kind]["place"], kinds[kind].get("lift", 0.0)) for kind in chosen):
         here = [kind for kind in chosen if (kinds[kind]["place"], kinds[kind].get("lift", 0.0)) == (place, lift)]
@@ -79,7 +76,7 @@ def case(description: dict, kind: str, settings: Settings, output: Path) -> tele
         keys["event.0"] = f"{description['at']},{event}"
     keys |= teleop_runs.wrong(how.pop("wrong", {}))
     keys |= {key: value for key, value in how.items() if key not in ("place", "lift")}
-    return keys | dict(pair.split("=", 1) for pair in settings.set.split(",") if pair)
+    return keys | settings.set
 
 
 def bound(description: dict, kind: str, settings: Settings, output: Path) -> teleop_runs.Case:

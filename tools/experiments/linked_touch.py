@@ -31,12 +31,12 @@ SCENES = {"static": "static_mmt", "dynamic": "dynamic_mmt"}
 class Settings(teleop_runs.Imperfections):
     scene: Literal["static", "dynamic"] = "dynamic"
     way: Literal[tuple(rivals.SCHEMES)] = rivals.DEFAULT  # type: ignore[valid-type]
-    seconds: float = 10.0
-    delay: float = options.option(100.0, "ms")
-    loss: float = options.option(0.0, "share")
-    seed: int = 1
-    hand_shift: float = options.option(0.0, "m")
-    set: str = ""
+    seconds: float = options.seconds(10.0)
+    delay: float = options.option(100.0, "ms", 0, options.LONGEST_DELAY_MS)
+    loss: float = options.option(0.0, "share", 0, 1)
+    seed: int = options.seed()
+    hand_shift: float = options.option(0.0, "m", 0, 0.1)
+    set: dict[str, str] = options.pairs()
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
@@ -57,4 +57,4 @@ def case(description: dict, settings: Settings) -> teleop_runs.Case:
         x, z = (draw.uniform(-settings.hand_shift, settings.hand_shift) for _ in range(2))
         keys["path_shift"] = f"{x},0,{z}"
     keys |= rivals.with_model(settings.way, settings.model(description["scene"], followed)) | settings.link()
-    return keys | dict(pair.split("=", 1) for pair in settings.set.split(",") if pair)
+    return keys | settings.set

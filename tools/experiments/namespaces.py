@@ -47,8 +47,8 @@ FELT = 0.5  # the hand presses with some newtons
 
 @dataclass(frozen=True)
 class Settings:
-    down: float = options.option(30.0, "s")
-    settle: float = options.option(8.0, "s")
+    down: float = options.option(30.0, "s", 0, 3600)
+    settle: float = options.option(8.0, "s", 0.1, 3600)
 
 
 def ip(*words: str) -> None:

@@ -25,12 +25,12 @@ CASES = [Case("static", "res://gallery/static_testbed/static_testbed.tscn"), Cas
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = 10.0
-    warmup: float = options.option(1.0, "s")
+    seconds: float = options.seconds(10.0, least=0.1)
+    warmup: float = options.option(1.0, "s", 0, 3600)
     clock: Literal["real", "stepped"] = "real"
-    rounds: int = 3
-    calm: float = options.option(0.005, "share")
-    pictures: int = 1
+    rounds: int = options.option(3, "count", 1, 1000)
+    calm: float = options.option(0.005, "share", 0, 1)
+    pictures: bool = options.switch(True)
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:

@@ -29,7 +29,7 @@ FIGURES = {
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = 10.0
+    seconds: float = options.seconds(10.0)
 
 
 def cases(description: dict, settings: Settings) -> list[teleop_runs.Case]:

@@ -31,9 +31,9 @@ FIGURES = (
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = 6.0
-    delay: float = options.option(0.1, "s")
-    pictures: int = 1
+    seconds: float = options.seconds(6.0, least=0.5)
+    delay: float = options.option(0.1, "s", 0, 10)
+    pictures: bool = options.switch(True)
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:

@@ -43,7 +43,7 @@ Lines = list[dict]
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = 16.0
+    seconds: float = options.seconds(16.0, least=1.0, most=3600)
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:

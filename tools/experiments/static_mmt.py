@@ -43,9 +43,9 @@ SHARES = ("0.125", "0.25", "0.5", "1", "2", "4", "8", "16")
 
 @dataclass(frozen=True)
 class Settings(teleop_runs.Imperfections):
-    seconds: float = 10.0
+    seconds: float = options.seconds(10.0)
     clock: Literal["virtual", "real"] = "virtual"
-    pictures: int = 1
+    pictures: bool = options.switch(True)
 
 
 def cases(description: dict, path: str, settings: Settings, output: Path) -> list[teleop_runs.Case]:

@@ -28,11 +28,11 @@ SIDES = {"operator": OPERATOR, "teleoperator": FAR}
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = 10.0
-    warmup: float = options.option(1.0, "s")
-    delay: float = options.option(0.1, "s")
-    rounds: int = 3
-    calm: float = options.option(0.005, "share")
+    seconds: float = options.seconds(10.0, least=0.5)
+    warmup: float = options.option(1.0, "s", 0, 3600)
+    delay: float = options.option(0.1, "s", 0, 10)
+    rounds: int = options.option(3, "count", 1, 1000)
+    calm: float = options.option(0.005, "share", 0, 1)
 
 
 @dataclass(frozen=True)

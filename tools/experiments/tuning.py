@@ -46,9 +46,9 @@ WHOLE = ("states_every",)
 
 @dataclass(frozen=True)
 class Settings:
-    rounds: int = 24
-    seed: int = 1
-    ways: str = "all"
+    rounds: int = options.option(24, "count", 1, 10_000)
+    seed: int = options.seed()
+    ways: tuple[str, ...] = options.names(None, RANGES)
     clock: Literal["virtual"] = "virtual"
 
 
@@ -75,7 +75,7 @@ def places() -> dict[str, tuple[str, teleop_runs.Case]]:
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
-    ways = tuple(RANGES) if settings.ways == "all" else tuple(settings.ways.split(","))
+    ways = settings.ways
     asked = {way: choices(way, settings.rounds, settings.seed) for way in ways}
     found: dict[str, dict] = {}
     for place, (scene, common) in places().items():

@@ -30,10 +30,10 @@ CASES |= {f"spring_{scheme}" if scheme in rivals.MODELS else scheme: rivals.SCHE
 
 @dataclass(frozen=True)
 class Settings:
-    runs: int = 200
-    seed: int = 1
-    delay: float = options.option(100.0, "ms")
-    pictures: int = 1
+    runs: int = options.option(200, "count", 1, 100_000)
+    seed: int = options.option(1, "count", 0, 10**9)
+    delay: float = options.option(100.0, "ms", 0, options.LONGEST_DELAY_MS)
+    pictures: bool = options.switch(True)
     clock: Literal["virtual"] = "virtual"
 
 

@@ -39,14 +39,14 @@ PLACES = (
 class Imperfections:
     """What else is wrong than the description of the experiment says: options of every experiment with a model."""
 
-    mass: float = option(1.0, "factor")  # of the followed body as the model has it
-    friction: float = option(1.0, "factor")  # of all bodies on each other
-    tilt: float = option(0.0, "deg")  # of static bodies about x
-    moved: float = option(0.0, "m")  # of all bodies along x
-    pose_noise: float = option(0.0, "m")  # of what the far side says of places, standard deviation
-    phase: float = option(0.0, "us")  # of the far side's ticks after the operator's, 0 … 999
-    late: float = option(0.0, "ms")  # start of the far side after the operator's
-    jitter: float = option(0.0, "ms")  # of the link, each way
+    mass: float = option(1.0, "factor", 0.001, 1000)  # of the followed body as the model has it
+    friction: float = option(1.0, "factor", 0, 1000)  # of all bodies on each other
+    tilt: float = option(0.0, "deg", -180, 180)  # of static bodies about x
+    moved: float = option(0.0, "m", -10, 10)  # of all bodies along x
+    pose_noise: float = option(0.0, "m", 0, 1)  # of what the far side says of places, standard deviation
+    phase: float = option(0.0, "us", 0, 999)  # of the far side's ticks after the operator's, 0 … 999
+    late: float = option(0.0, "ms", 0, 10_000)  # start of the far side after the operator's
+    jitter: float = option(0.0, "ms", 0, 10_000)  # of the link, each way
 
     def keys(self, scene: str, followed: str | None = None) -> Case:
         """As keys of a case, for those that are not perfect."""

@@ -26,8 +26,8 @@ from testing import godot_suite
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = options.option(10.0, "s")  # of each touch that something is done to
-    cycles: int = 200  # of opening and closing
+    seconds: float = options.option(10.0, "s", 0.1)  # of each touch that something is done to
+    cycles: int = options.option(200, "count", 1, 10**6)  # of opening and closing
 
 
 @dataclass(frozen=True)

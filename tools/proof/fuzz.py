@@ -57,11 +57,11 @@ WORDS = {
 
 @dataclass(frozen=True)
 class Settings:
-    runs: int = 0  # of each target; 0: as TARGETS says
+    runs: int = options.option(0, "count", 0, 10**12)  # of each target; 0: as TARGETS says
     driver: Literal["best", "plain"] = "best"
-    workers: int = options.option(0, "factor")  # processes; 0: one a processor
-    seed: int = 1
-    longest: float = options.option(LONGEST, "s")  # that an input may take, of a processor
+    workers: int = options.option(0, "count", 0, 1024)  # processes; 0: one a processor
+    seed: int = options.option(1, "count", 0, 2**31 - 1)
+    longest: float = options.option(LONGEST, "s", 0.001, 3600)  # that an input may take, of a processor
 
 
 @dataclass

@@ -30,8 +30,8 @@ LOOPS = {"loop": ("haptic loop, a hand among boxes", style.MEASURED, "-"), "cycl
 
 @dataclass(frozen=True)
 class Settings:
-    seconds: float = options.option(10.0, "s")  # of each turn
-    rounds: int = 6
+    seconds: float = options.option(10.0, "s", 1)  # of each turn
+    rounds: int = options.option(6, "count", 1, 10_000)
 
 
 def run(cases: list[str], settings: Settings, output: Path) -> dict[str, object]:

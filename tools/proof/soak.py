@@ -25,7 +25,7 @@ CASES = ["churn"]
 
 @dataclass(frozen=True)
 class Settings:
-    hours: float = options.option(8.0, "h")  # of virtual time
+    hours: float = options.option(8.0, "h", 0.001, 10_000)  # of virtual time
 
 
 def run(_: list[str], settings: Settings, output: Path) -> dict[str, object]:

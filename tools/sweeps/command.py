@@ -1,7 +1,7 @@
 """./run experiment SWEEPFILE [--cluster=ADDRESS] [--workers=N]: plays what is missing of a sweep, then its table and report.
 
 Everything is in build/sweeps/NAME of the file's name: runs/ (one file a run), sweep.csv, sweep.json (what was asked),
-report.html and the figures beside it.
+report.html and the figures beside it. A file of the same name in another folder has a NAME with a number of its own.
 """
 
 import dataclasses
@@ -10,6 +10,7 @@ import os
 import sys
 import time
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 
 from measuring import options
@@ -19,27 +20,41 @@ from sweeps import description, playing, results, sources, table
 from sweeps.description import Run, Sweep
 
 BAR = 30  # letters
+OWNER = "described_by.txt"  # has the path of the file that describes the sweep
 
 
 @dataclass(frozen=True)
 class Settings:
-    cluster: str = ""  # address of a Dask scheduler; none: processes of this machine
-    workers: int = 0  # how many of them; 0: one for each processor
+    cluster: str = options.text()  # address of a Dask scheduler; none: processes of this machine
+    workers: int = options.option(0, "count", 0, 1024)  # how many of them; 0: one for each processor
 
 
 def run(path: Path, given: dict[str, str], experiments: list[str]) -> int:
     settings = options.parse(Settings, given)
     sweep = description.read(path, experiments)
-    folder = cache.clone() / "build/sweeps" / sweep.name
-    with cache.lock(cache.clone() / "build", f"sweep {sweep.name}"):
+    place = cache.clone() / "build/sweeps"
+    with cache.lock(cache.clone() / "build", "sweep names"):
+        folder = owned(place, path)
+    with cache.lock(cache.clone() / "build", f"sweep {folder.name}"):
         return play(sweep, folder, settings)
+
+
+def owned(place: Path, path: Path) -> Path:
+    """The folder of the sweep that `path` describes, and of no other."""
+    for number in count(1):
+        folder = place / (path.stem if number == 1 else f"{path.stem}_{number}")
+        owner = folder / OWNER
+        if not owner.is_file():
+            results.write_whole(owner, f"{path.resolve()}\n")
+        if owner.read_text() == f"{path.resolve()}\n":
+            return folder
+    raise AssertionError
 
 
 def play(sweep: Sweep, folder: Path, settings: Settings, arrived=lambda _: None) -> int:
     """`arrived` is called with the count of runs after each."""
     runs = sweep.runs()
     found = results.read(folder / "runs", runs, sources.digest())
-    _clear(folder)
     print(f"{len(runs)} runs of {sweep.experiment}, {len(found.summaries)} of them done before", flush=True)
     for name in found.damaged:
         print(f"{folder / 'runs' / name} is damaged: that run is played again", flush=True)
@@ -111,10 +126,10 @@ def _check_measures(sweep: Sweep, summaries: dict[str, results.Summary]) -> None
                 raise RuntimeError(f"{sweep.experiment} has no figure {measure!r}; near it: {description.like(measure, numbers)}")
 
 
-def _clear(folder: Path) -> None:
-    """What is left of before would not be of this sweep."""
+def _clear(folder: Path, written: set[str]) -> None:
+    """What is left of before is not of this sweep."""
     for path in folder.glob("*"):
-        if path.is_file():
+        if path.is_file() and path.name not in written:
             path.unlink()
 
 
@@ -126,10 +141,13 @@ def _write(sweep: Sweep, folder: Path, runs: list[Run], found: results.Found, fa
     results.write_whole(folder / "sweep.json", json.dumps(dataclasses.asdict(sweep), indent=2) + "\n")
     results.write_whole(folder / "sweep.csv", table.text(rows))
     print(_shown(folder / "sweep.csv"))
+    written = {OWNER, "sweep.json", "sweep.csv"}
     if rows:
         pictures = {measure: plots.draw(sweep, rows, measure, folder / measure) for measure in sweep.measures}
+        written |= {"report.html", *(path.name for paths in pictures.values() for path in paths)}
         results.write_whole(folder / "report.html", report.page(sweep, rows, len(runs), sources.digest(), pictures, failed))
         print(_shown(folder / "report.html"))
+    _clear(folder, written)
 
 
 def _shown(path: Path) -> str:

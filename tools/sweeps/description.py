@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from measuring import options
+from measuring.options import Refused
 
 ENDINGS = (".toml", ".json")
 MOST_RUNS = 100_000
@@ -76,13 +77,13 @@ def read(path: Path, experiments: list[str]) -> Sweep:
         text = path.read_text()
         given = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)
     except OSError as error:
-        raise ValueError(f"{path} cannot be read: {error.strerror}") from None
+        raise Refused(f"{path} cannot be read: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path} is not in the form its ending promises: {error}") from None
+        raise Refused(f"{path} is not in the form its ending promises: {error}") from None
     try:
         return _checked(path.stem, given, experiments)
     except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+        raise Refused(f"{path}: {error}") from None
 
 
 def settings(experiment: str) -> type:
@@ -97,23 +98,23 @@ def like(name: str, known: list[str]) -> str:
 
 def _checked(name: str, given: object, experiments: list[str]) -> Sweep:
     if not isinstance(given, dict):
-        raise ValueError(f"a table is needed, with {', '.join(KEYS)}")
+        raise Refused(f"a table is needed, with {', '.join(KEYS)}")
     for key in given:
         if key not in KEYS:
-            raise ValueError(f"unknown key {key!r}; there are: {', '.join(KEYS)}")
+            raise Refused(f"unknown key {key!r}; there are: {', '.join(KEYS)}")
     experiment = given.get("experiment")
     if experiment not in experiments:
-        raise ValueError(f"experiment = {experiment!r} is none of {', '.join(experiments)}")
+        raise Refused(f"experiment = {experiment!r} is none of {', '.join(experiments)}")
     common = {key: _text(key, value) for key, value in _table(given, "options").items()}
     factors = {key: _levels(f"factors.{key}", values) for key, values in _table(given, "factors").items()}
     for key in factors.keys() & common.keys():
-        raise ValueError(f"{key} is an option of all runs and a factor as well")
+        raise Refused(f"{key} is an option of all runs and a factor as well")
     for key in {"seed"} & (factors.keys() | common.keys()):
-        raise ValueError(f"{key}: say repeats = N, or seeds = [1, 2, …]")
+        raise Refused(f"{key}: say repeats = N, or seeds = [1, 2, …]")
     seeds = _seeds(given, experiment)
     measures = given.get("measures")
     if not isinstance(measures, list) or not measures or not all(isinstance(one, str) for one in measures):
-        raise ValueError("measures = [\"KEY\", …] must name what is reported: keys of the experiment's summary.json")
+        raise Refused("measures = [\"KEY\", …] must name what is reported: keys of the experiment's summary.json")
     sweep = Sweep(
         name, str(given.get("title", name)), experiment, common, factors, seeds, tuple(measures), _drawn(given, experiment, factors)
     )  # fmt: skip
@@ -121,28 +122,27 @@ def _checked(name: str, given: object, experiments: list[str]) -> Sweep:
     for levels in factors.values():
         count *= len(levels)
     if count > MOST_RUNS:
-        raise ValueError(f"{count} runs are more than {MOST_RUNS}")
+        raise Refused(f"{count} runs are more than {MOST_RUNS}")
     # Each level on its own: what one option may be does not depend on the others.
-    for key, levels in [(key, (value,)) for key, value in common.items()] + list(factors.items()):
-        for level in levels:
-            options.parse(settings(experiment), {key: level})
+    for key, levels in [(key, (value,)) for key, value in common.items()] + list(factors.items()) + [("seed", seeds)]:
+        values = [getattr(options.parse(settings(experiment), {key: level}), key) for level in levels]
+        if len(set(values)) < len(values):
+            where = "seeds" if key == "seed" else f"factors.{key}"
+            raise Refused(f"{where} has a level twice: {', '.join(levels)}")
     return sweep
 
 
 def _table(given: dict, key: str) -> dict:
     found = given.get(key, {})
     if not isinstance(found, dict):
-        raise ValueError(f"{key} must be a table")
+        raise Refused(f"{key} must be a table")
     return found
 
 
 def _levels(key: str, values: object) -> tuple[str, ...]:
     if not isinstance(values, list) or not values:
-        raise ValueError(f"{key} must be a list of its levels")
-    levels = tuple(_text(key, value) for value in values)
-    if len(set(levels)) < len(levels):
-        raise ValueError(f"{key} has a level twice")
-    return levels
+        raise Refused(f"{key} must be a list of its levels")
+    return tuple(_text(key, value) for value in values)
 
 
 def _text(key: str, value: object) -> str:
@@ -150,22 +150,22 @@ def _text(key: str, value: object) -> str:
     if isinstance(value, bool):
         return str(int(value))
     if not isinstance(value, (int, float, str)):
-        raise ValueError(f"{key} = {value!r} is neither a number nor a text")
+        raise Refused(f"{key} = {value!r} is neither a number nor a text")
     return str(value)
 
 
 def _seeds(given: dict, experiment: str) -> tuple[str, ...]:
     if "repeats" in given and "seeds" in given:
-        raise ValueError("repeats and seeds: one of them says it")
+        raise Refused("repeats and seeds: one of them says it")
     repeats = given.get("repeats", 1)
     if type(repeats) is not int or not 1 <= repeats <= MOST_RUNS:
-        raise ValueError(f"repeats = {repeats!r} is not a number from 1 to {MOST_RUNS}")
+        raise Refused(f"repeats = {repeats!r} is not a number from 1 to {MOST_RUNS}")
     seeds = given.get("seeds", list(range(1, repeats + 1)))
     if not isinstance(seeds, list) or not seeds or any(type(seed) is not int for seed in seeds):
-        raise ValueError("seeds must be a list of whole numbers")
+        raise Refused("seeds must be a list of whole numbers")
     if "seed" not in _fields(experiment):
         if len(seeds) > 1:
-            raise ValueError(f"{experiment} has no --seed: it would be the same run {len(seeds)} times")
+            raise Refused(f"{experiment} has no --seed: it would be the same run {len(seeds)} times")
         return ()
     return _levels("seeds", seeds)
 
@@ -175,9 +175,9 @@ def _drawn(given: dict, experiment: str, factors: Mapping[str, tuple[str, ...]])
     said = [given[place] for place in ("x", "lines", "panels") if place in given]
     for name in said:
         if not isinstance(name, str) or name not in factors:
-            raise ValueError(f"{name!r} is drawn, but is none of the factors {', '.join(factors) or '(there are none)'}")
+            raise Refused(f"{name!r} is drawn, but is none of the factors {', '.join(factors) or '(there are none)'}")
     if len(set(said)) < len(said):
-        raise ValueError("x, lines and panels must be three different factors")
+        raise Refused("x, lines and panels must be three different factors")
     left = [name for name in factors if name not in said and len(factors[name]) > 1]
     left.sort(key=lambda name: name not in _fields(experiment) or _fields(experiment)[name].type not in (int, float))
     found = [given[place] if place in given else left.pop(0) if left else "" for place in ("x", "lines", "panels")]
