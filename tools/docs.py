@@ -17,7 +17,7 @@ from setup import cache
 # Pages by the heading they stand under beside every page. README.md is the first page.
 CONTENTS = {
     "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera", "troubleshooting"],
-    "Research": ["tutorials/own_experiment", "experiments", "bundles", "teleoperation"],
+    "Research": ["tutorials/own_experiment", "experiments", "studies", "bundles", "teleoperation"],
     "Extend": ["tutorials/own_force_effect", "tutorials/own_driver", "wire_format"],
     "Reference": ["classes/index"],
     "How it works": ["architecture", "proxy", "proxy_steps", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],

@@ -75,3 +75,13 @@ def test_words_are_keys_and_values_each_once():
     for words, why in [(["--a=1", "--a=2"], "given twice"), (["a=1"], "is not --key"), (["--a"], "is not --key"), (["--=1"], "is not --key")]:
         with pytest.raises(Refused, match=why):
             options.of_words(words)
+
+
+def test_a_number_that_says_no_range_has_that_of_whole_doubles():
+    @dataclass(frozen=True)
+    class Plain:
+        seed: int = 1
+
+    assert options.parse(Plain, {"seed": "-5"}).seed == -5
+    with pytest.raises(Refused, match="from -9007199254740992 to 9007199254740992"):
+        options.parse(Plain, {"seed": "9007199254740993"})

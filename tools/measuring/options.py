@@ -116,7 +116,8 @@ def allowed(one: Field) -> str:
     number = "a whole number" if int in (kind, *get_args(kind)) else "a number"
     number = f"{number}s separated by commas, each".replace("a ", "", 1) if get_origin(kind) is tuple else number
     unit = unit_of(one)
-    said = f"{number} from {one.metadata['least']:.16g} to {one.metadata['most']:.16g}"
+    least, most = _range(one)
+    said = f"{number} from {least:.16g} to {most:.16g}"
     return said if unit in _WITHOUT_DIMENSION else f"{said} ({unit}, which is not written)"
 
 
@@ -188,9 +189,15 @@ def _number(one: Field, kind: object, given: str) -> float | int:
     if not (_WHOLE if kind is int else _NUMBER).fullmatch(given):
         raise ValueError
     value = int(given) if kind is int else float(given)
-    if not one.metadata["least"] <= value <= one.metadata["most"]:
+    least, most = _range(one)
+    if not least <= value <= most:
         raise ValueError
     return value
+
+
+def _range(one: Field) -> tuple[float, float]:
+    """Of a field that says none: every whole number that a double tells from its neighbors."""
+    return one.metadata.get("least", -LARGEST_SEED), one.metadata.get("most", LARGEST_SEED)
 
 
 def _known(one: Field) -> tuple[str, ...]:

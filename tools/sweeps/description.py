@@ -62,11 +62,11 @@ class Sweep:
     def column(self, name: str) -> str:
         """The name of a factor with its unit."""
         unit = _unit(self.experiment, name)
-        return f"{name}_{unit}" if unit else name
+        return f"{name}_{unit}" if unit not in ("", "count") else name
 
     def label(self, name: str) -> str:
         unit = _unit(self.experiment, name)
-        return f"{name.replace('_', ' ')} ({unit})" if unit not in ("", "factor", "share") else name.replace("_", " ")
+        return f"{name.replace('_', ' ')} ({unit})" if unit not in ("", "factor", "share", "count") else name.replace("_", " ")
 
     def is_number(self, name: str) -> bool:
         return _fields(self.experiment)[name].type in (int, float)
@@ -126,7 +126,7 @@ def _checked(name: str, given: object, experiments: list[str]) -> Sweep:
     # Each level on its own: what one option may be does not depend on the others.
     for key, levels in [(key, (value,)) for key, value in common.items()] + list(factors.items()) + [("seed", seeds)]:
         values = [getattr(options.parse(settings(experiment), {key: level}), key) for level in levels]
-        if len(set(values)) < len(values):
+        if any(value in values[:place] for place, value in enumerate(values)):
             where = "seeds" if key == "seed" else f"factors.{key}"
             raise Refused(f"{where} has a level twice: {', '.join(levels)}")
     return sweep

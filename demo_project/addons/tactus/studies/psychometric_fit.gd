@@ -1,0 +1,109 @@
+extends RefCounted
+## Fits the psychometric function of a task with two alternatives to all answers of a participant:
+##
+##     p(x) = lapse / 2 + (1 - lapse) (1 - 1/2 exp(-ln 2 (x / threshold)^slope))
+##
+## x is the difference that was presented, p the share of right answers, and `threshold` the difference at
+## which 75 % are right where no answer is a lapse. The posterior over threshold, slope and lapse is computed
+## on a grid (Kuss, Jäkel and Wichmann, "Bayesian inference for psychometric functions", 2005); lapses are
+## fitted because a fixed rate biases the threshold (Wichmann and Hill, "The psychometric function", 2001).
+
+const CONFIDENCE := 0.95
+## The evidence for a psychometric function over guessing (natural logarithm of the Bayes factor) below which
+## answers cannot be told from guessing: in 100 trials guessers stay below 3, participants above 8.
+const LEAST_EVIDENCE := 5.0
+
+const THRESHOLDS := 64
+const LOWEST := 0.005
+const HIGHEST := 3.0
+const SLOPES: Array[float] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.5]
+## Prior of the slope: log-normal about 2.5, with a standard deviation of 0.25 in its logarithm.
+const USUAL_SLOPE := 2.5
+const SLOPE_SPREAD := 0.25
+## The least probability of an answer.
+const RAREST := 1e-6
+## Lapse rates, and their prior.
+const LAPSES: Array[float] = [0.0, 0.02, 0.04, 0.06]
+const LAPSE_PRIOR: Array[float] = [0.4, 0.3, 0.2, 0.1]
+
+## By the difference that was presented: how often, and how often it was answered rightly.
+var _asked := {}
+var _right := {}
+var _trials := 0
+
+
+func add(difference: float, is_right: bool) -> void:
+	_asked[difference] = _asked.get(difference, 0) + 1
+	_right[difference] = _right.get(difference, 0) + int(is_right)
+	_trials += 1
+
+
+## Returns "threshold" (posterior median), "low" and "high" (the ends of its 95 % credible interval), "slope"
+## and "lapse" (posterior means), and "evidence" (natural logarithm of the Bayes factor over guessing).
+func result() -> Dictionary:
+	var step := log(HIGHEST / LOWEST) / (THRESHOLDS - 1)
+	var posterior := PackedFloat64Array()
+	for i in THRESHOLDS:
+		_append_logarithms(posterior, log(LOWEST) + i * step)
+	var largest := -INF
+	for value in posterior:
+		largest = maxf(largest, value)
+	var by_threshold := PackedFloat64Array()
+	by_threshold.resize(THRESHOLDS)
+	var sum := 0.0
+	var slope := 0.0
+	var lapse := 0.0
+	for place in posterior.size():
+		var weight := exp(posterior[place] - largest)
+		sum += weight
+		by_threshold[place / (SLOPES.size() * LAPSES.size())] += weight
+		slope += weight * SLOPES[place / LAPSES.size() % SLOPES.size()]
+		lapse += weight * LAPSES[place % LAPSES.size()]
+	return {
+		"threshold": _quantile(by_threshold, sum, 0.5, step),
+		"low": _quantile(by_threshold, sum, 0.5 - 0.5 * CONFIDENCE, step),
+		"high": _quantile(by_threshold, sum, 0.5 + 0.5 * CONFIDENCE, step),
+		"slope": slope / sum,
+		"lapse": lapse / sum,
+		"evidence": log(sum) + largest - _trials * log(0.5),
+	}
+
+
+## Of prior times likelihood at one threshold, for each slope and each lapse rate.
+func _append_logarithms(posterior: PackedFloat64Array, log_threshold: float) -> void:
+	for slope in SLOPES:
+		var missed := PackedFloat64Array()
+		for difference: float in _asked:
+			missed.append(exp(-log(2.0) * exp(slope * (log(difference) - log_threshold))))
+		for i in LAPSES.size():
+			var value := _log_prior(slope, LAPSE_PRIOR[i])
+			var place := 0
+			for difference: float in _asked:
+				# A wrong answer at a difference that nothing but a lapse could miss rules that out, and no more.
+				var wrong := maxf(0.5 * LAPSES[i] + (1.0 - LAPSES[i]) * 0.5 * missed[place], RAREST)
+				var right: int = _right[difference]
+				value += right * log(1.0 - wrong) + (_asked[difference] - right) * log(wrong)
+				place += 1
+			posterior.append(value)
+
+
+## Normalized over the grid.
+static func _log_prior(slope: float, lapse_prior: float) -> float:
+	var sum := 0.0
+	for one in SLOPES:
+		sum += _slope_weight(one)
+	return log(_slope_weight(slope) / sum * lapse_prior / THRESHOLDS)
+
+
+static func _slope_weight(slope: float) -> float:
+	return exp(-0.5 * pow(log(slope / USUAL_SLOPE) / SLOPE_SPREAD, 2.0))
+
+
+## Each point of the grid stands for a cell of the threshold's logarithm.
+static func _quantile(weights: PackedFloat64Array, sum: float, share: float, step: float) -> float:
+	var left := share * sum
+	for i in weights.size():
+		if left <= weights[i]:
+			return exp(log(LOWEST) + step * (i - 0.5 + left / weights[i]))
+		left -= weights[i]
+	return HIGHEST

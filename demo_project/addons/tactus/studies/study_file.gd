@@ -1,0 +1,209 @@
+extends RefCounted
+## What one participant has answered in one run of a study: a folder that no other run writes into,
+## FOLDER/STUDY/PARTICIPANT/run_3, with
+##
+##     STUDY_PARTICIPANT_3.csv    one row a trial, there as soon as it is answered
+##     STUDY_PARTICIPANT_3.json   settings, seed, version, the meaning of the columns, and the results
+##
+## A run that was not finished goes on where it stopped (`begin`). A row counts only when it has been read
+## back from the file.
+
+## A participant's code: no name of a person, and nothing that a path could be confused by.
+const CODE := "^[A-Za-z0-9_-]{1,32}$"
+## A run whose lock is older has been left (unit: seconds).
+const LOCK_LASTS := 10.0
+
+var folder := ""
+## The rows of before, where a run goes on: dictionaries by column, all texts.
+var rows: Array[Dictionary] = []
+## What the run was started with; see `about` of begin().
+var about := {}
+
+var _base := ""
+var _columns := PackedStringArray()
+var _written := ""
+
+
+## Where `goes_on` holds, takes up the participant's last run with these settings if it was not finished; else
+## begins a new one. `more` is kept in the run's JSON file. Empty, or why nothing can be kept.
+func begin(
+	place: String, study: String, participant: String, settings: Dictionary, more: Dictionary, goes_on: bool
+) -> String:
+	if RegEx.create_from_string(CODE).search(participant) == null:
+		return "'%s' is no participant's code: 1 to 32 letters, digits, - and _, and no name" % participant
+	var all := place.path_join(study).path_join(participant)
+	var code := DirAccess.make_dir_recursive_absolute(ProjectSettings.globalize_path(all))
+	if code != OK and code != ERR_ALREADY_EXISTS:
+		return "'%s' cannot be made (%s): choose another folder" % [all, error_string(code)]
+	var number := _last_run(all)
+	if number > 0 and goes_on:
+		_name(all, study, participant, number)
+		if _is_unfinished(settings):
+			return _go_on()
+	rows = []
+	while true:
+		number += 1
+		# Making a folder either succeeds or finds it: two programs never get the same one.
+		_name(all, study, participant, number)
+		code = DirAccess.make_dir_absolute(ProjectSettings.globalize_path(folder))
+		if code == OK:
+			break
+		if code != ERR_ALREADY_EXISTS:
+			return "'%s' cannot be made (%s): choose another folder" % [folder, error_string(code)]
+	about = {"settings": settings, "finished": false}
+	about.merge(more)
+	return _write_whole(".json", JSON.stringify(about, "  ", true, true) + "\n")
+
+
+## One row; the first one says which columns there are. Empty, or why it was not kept.
+func add(row: Dictionary) -> String:
+	var text := ""
+	if _columns.is_empty():
+		_columns = PackedStringArray(row.keys())
+		text = _line(_columns)
+	var cells := PackedStringArray()
+	for column in _columns:
+		var value: Variant = row.get(column, "")
+		cells.append(str(int(value)) if value is bool else str(value))
+	text += _line(cells)
+	var file := FileAccess.open(
+		_path(".csv"), FileAccess.READ_WRITE if not _written.is_empty() else FileAccess.WRITE
+	)
+	if file == null:
+		return _not_kept(".csv", error_string(FileAccess.get_open_error()))
+	file.seek_end()
+	file.store_string(text)
+	file.close()
+	if FileAccess.get_file_as_string(_path(".csv")) != _written + text:
+		return _not_kept(".csv", "is the disk full?")
+	_written += text
+	touch()
+	return ""
+
+
+## The run is over. Empty, or why that was not kept.
+func finish(results: Dictionary) -> String:
+	about["finished"] = true
+	about["results"] = results
+	var problem := _write_whole(".json", JSON.stringify(about, "  ", true, true) + "\n")
+	leave()
+	return problem
+
+
+## This run is being answered: no other program goes on with it. At least every few seconds.
+func touch() -> void:
+	var file := FileAccess.open(folder.path_join(".lock"), FileAccess.WRITE)
+	if file != null:
+		file.store_string(str(OS.get_process_id()))
+
+
+## Another program may go on with it.
+func leave() -> void:
+	if FileAccess.file_exists(folder.path_join(".lock")):
+		DirAccess.remove_absolute(ProjectSettings.globalize_path(folder.path_join(".lock")))
+
+
+func csv_path() -> String:
+	return _path(".csv")
+
+
+func _name(all: String, study: String, participant: String, number: int) -> void:
+	folder = all.path_join("run_%d" % number)
+	_base = "%s_%s_%d" % [study, participant, number]
+
+
+func _path(ending: String) -> String:
+	return folder.path_join(_base + ending)
+
+
+static func _last_run(all: String) -> int:
+	var last := 0
+	for name in DirAccess.get_directories_at(all):
+		var number := name.trim_prefix("run_")
+		if name.begins_with("run_") and number.is_valid_int():
+			last = maxi(last, int(number))
+	return last
+
+
+func _is_unfinished(settings: Dictionary) -> bool:
+	if FileAccess.file_exists(folder.path_join(".lock")):
+		var age := Time.get_unix_time_from_system() - FileAccess.get_modified_time(folder.path_join(".lock"))
+		if age < LOCK_LASTS:
+			return false
+	var found: Variant = JSON.parse_string(FileAccess.get_file_as_string(_path(".json")))
+	if not found is Dictionary or found.get("finished", true):
+		return false
+	# Numbers of JSON have one type: both go the same way.
+	var same: bool = found.get("settings") == JSON.parse_string(JSON.stringify(settings, "", true, true))
+	if same:
+		about = found
+	return same
+
+
+## Reads the rows of before. A last row that is not whole was never told to be kept, and goes.
+func _go_on() -> String:
+	rows = []
+	var whole := ""
+	var text := FileAccess.get_file_as_string(_path(".csv"))
+	for line in text.split("\n").slice(0, -1):
+		var cells := _cells(line)
+		if _columns.is_empty():
+			_columns = cells
+		elif cells.size() == _columns.size():
+			var row := {}
+			for i in cells.size():
+				row[_columns[i]] = cells[i]
+			rows.append(row)
+		else:
+			break
+		whole += line + "\n"
+	touch()
+	_written = whole
+	return "" if whole == text else _write_whole(".csv", whole)
+
+
+## There as a whole, or as it was.
+func _write_whole(ending: String, text: String) -> String:
+	var partial := _path(ending) + ".partial"
+	var file := FileAccess.open(partial, FileAccess.WRITE)
+	if file == null:
+		return _not_kept(ending, error_string(FileAccess.get_open_error()))
+	file.store_string(text)
+	file.close()
+	if FileAccess.get_file_as_string(partial) != text:
+		return _not_kept(ending, "is the disk full?")
+	var code := DirAccess.rename_absolute(
+		ProjectSettings.globalize_path(partial), ProjectSettings.globalize_path(_path(ending))
+	)
+	return "" if code == OK else _not_kept(ending, error_string(code))
+
+
+func _not_kept(ending: String, why: String) -> String:
+	return "'%s' could not be written (%s): the answers before this one are there" % [_path(ending), why]
+
+
+## As a spreadsheet reads it.
+static func _line(cells: PackedStringArray) -> String:
+	var quoted := PackedStringArray()
+	for cell in cells:
+		var text := cell.replace("\n", " ")
+		var needs_quotes := "," in text or '"' in text
+		quoted.append('"%s"' % text.replace('"', '""') if needs_quotes else text)
+	return ",".join(quoted) + "\n"
+
+
+static func _cells(line: String) -> PackedStringArray:
+	var cells := PackedStringArray([""])
+	var is_quoted := false
+	for i in line.length():
+		var letter := line[i]
+		if letter == '"':
+			is_quoted = not is_quoted
+			# Two of them within quotes stand for one.
+			if is_quoted and i > 0 and line[i - 1] == '"':
+				cells[-1] += letter
+		elif letter == "," and not is_quoted:
+			cells.append("")
+		else:
+			cells[-1] += letter
+	return cells
