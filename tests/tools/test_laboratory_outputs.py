@@ -66,7 +66,7 @@ def test_a_run_that_is_whole_takes_the_place_of_the_one_before(tmp_path):
 def test_a_full_disk_ends_the_run_with_its_reason_and_loses_nothing(tmp_path):
     assert ended(start(tmp_path, 3))[0] == 0
     code, said = ended(start(tmp_path, 10_000, most_bytes=100_000))
-    assert code == 1 and "File too large" in said and "Not whole" in said
+    assert code == 1 and "longer than this user may write" in said and "Not whole" in said
     assert rows_of(tmp_path / "build/experiments/little") == 3
     assert not (tmp_path / "build/experiments/little.partial/summary.json").exists()
 

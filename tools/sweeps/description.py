@@ -56,8 +56,10 @@ class Sweep:
         return [Run(self.experiment, {**self.options, **one}) for one in chosen]
 
     def values(self, run: Run) -> dict[str, object]:
-        """What the experiment understands of the run's options: numbers are numbers."""
-        return {name: getattr(options.parse(settings(self.experiment), run.options), name) for name in self.varied}
+        """What the experiment understands of the run's options: numbers are numbers, lists and pairs as they were written."""
+        parsed = options.parse(settings(self.experiment), run.options)
+        values = {name: getattr(parsed, name) for name in self.varied}
+        return {name: run.options[name] if isinstance(value, (tuple, dict)) else value for name, value in values.items()}
 
     def column(self, name: str) -> str:
         """The name of a factor with its unit."""
