@@ -9,17 +9,19 @@ the flat summary, which is written to summary.json there. The exit code is 2 whe
 
 import importlib
 import json
+import math
 import sys
 from collections.abc import Callable
+from datetime import datetime, timezone
 from pathlib import Path
 from types import ModuleType
 
 import entry
 import replay
-from measuring import bundles, options, outputs
+from measuring import bundles, host, made_by, options, outputs
 from setup import cache
 from sweeps import command as sweep
-from sweeps import description
+from sweeps import description, sources
 
 
 def names() -> list[str]:
@@ -50,8 +52,8 @@ def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
     place = cache.clone() / "build/experiments"
     with outputs.output(place, name) as output:
         try:
-            summary = run(output.folder)
-            (output.folder / "summary.json").write_text(json.dumps(summary, indent=2) + "\n")
+            summary = {**citation(), **{key: _sound(value) for key, value in run(output.folder).items()}}
+            (output.folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
             folder = output.keep()
         except (RuntimeError, ValueError, OSError) as error:
             if not isinstance(error, options.Refused):
@@ -59,6 +61,23 @@ def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
             raise
     print((folder / "summary.json").relative_to(cache.clone()))
     return 0
+
+
+def citation() -> dict[str, str]:
+    """What a figure is cited with: the version, what was asked, when and where."""
+    machine = host.description()
+    return {
+        "about.version": f"Tactus {made_by.version()} ({made_by.commit()})",
+        "about.sources": sources.digest(),
+        "about.command": " ".join(["./run", "experiment", *sys.argv[1:]]),
+        "about.utc": datetime.now(timezone.utc).isoformat(timespec="seconds"),
+        "about.machine": f"{machine['processor']}, {machine['system']}, {machine['kernel']}",
+    }
+
+
+def _sound(value: object) -> object:
+    """JSON has no word for what is no number."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _leaves_virtual_time(experiment: ModuleType, given: dict[str, str]) -> bool:

@@ -364,3 +364,30 @@ func test_each_of_two_staircases_hears_the_answers_to_its_own_trials() -> void:
 		study.answer(study.stiffer if of_three else 1 - study.stiffer)
 	check_near(study.staircases[0].level, study.catch_difference, 1e-9, "after three wrong answers")
 	check_near(study.staircases[1].level, study.first_difference / 2.0, 1e-9, "after three right ones")
+
+
+func test_a_guided_path_is_measured_trial_by_trial_and_goes_on_after_a_crash() -> void:
+	var study := _open("guided_path", {"participant": "P5", "repeats": 1})
+	var orders := []
+	for part in 2:
+		while study.trial < (2 if part == 0 else 3) and not study.is_over:
+			study.world.advance(0.02)
+			study.look()
+		orders.append(study.order)
+		if part == 0:
+			study.free()
+			study = _open("guided_path", {"participant": "P5", "repeats": 1})
+			check_equal(study.trial, 2, "trials that are kept")
+	check(study.is_over, "it goes on")
+	check_equal(orders[0], orders[1], "order")
+	check_equal(orders[0], Order.counterbalanced(5, 3), "order of participant 5")
+	var rows := _rows(study.file.csv_path())
+	var off := {}
+	for row in rows:
+		off[row.guide_stiffness_n_per_m.to_float()] = row.deviation_rms_mm.to_float()
+		check(row.took_s.to_float() > 2.0, "a trial takes %s s" % row.took_s)
+	check_equal(off.size(), 3, "conditions")
+	check(off[0.0] > 1.0, "the hand's own path is off the line by %s mm" % off[0.0])
+	for number in [1, 2, 3]:
+		var ticks := _rows(study.file.folder.path_join("trial_%03d.csv" % number))
+		check(ticks.size() > 2000, "ticks of trial %d: %d" % [number, ticks.size()])

@@ -293,6 +293,13 @@ def test_lines_are_told_apart_in_grey():
     assert len({look["marker"] for look in looks}) == len({str(look["linestyle"]) for look in looks}) == 5
 
 
+def test_runs_without_chance_count_as_one():
+    rows = [{"run": seed, "delay_ms": 5, "seed": seed, "force_N": 0.25} for seed in range(4)]
+    assert len(statistics.independent(rows, ["run", "delay_ms", "seed"])) == 1
+    rows[2]["force_N"] = 0.5
+    assert len(statistics.independent(rows, ["run", "delay_ms", "seed"])) == 2
+
+
 def test_equal_names_in_two_folders_have_tables_of_their_own(tmp_path):
     for folder in ("one", "other"):
         (tmp_path / folder).mkdir()

@@ -72,6 +72,20 @@ def test_another_way_of_the_hand_is_no_comparison():
 def test_gains_in_words():
     assert gain.gained(1.0, 0.1) == "10.0 × less"
     assert gain.gained(1.0, 0.0) == "all of it"
-    assert gain.gained(1.0, 2.0) == "nothing"
+    assert gain.gained(1.0, 5.0) == "5.0 × more"
+    assert gain.gained(1.0, 1.0) == "nothing"
     assert gain.gained(0.0, 0.0) == "–"
     assert gain.gained(0.0, 1.0) == "worse"
+
+
+def test_a_touch_that_is_never_felt_has_no_delay():
+    direct = record(hand(ROWS), touch(200, 300))
+    silent = record(hand(ROWS), np.zeros(ROWS))
+    case = teleop_processes.Case("case", "res://scene.tscn", ROWS * 1e-3)
+    run = teleop_processes._aligned(case, silent, silent, direct, {})
+    assert teleop_processes.contact_delay(run) is None
+    summary = {
+        f"{scene}.{scenario}.{key}": None if key == "contact_delay_ms" and scenario == "traditional" else 1.0
+        for scene in gain.SCENES for scenario in ("traditional", "mmt") for key, *_ in gain._ROWS
+    }  # fmt: skip
+    assert "never" in gain.text(summary)

@@ -11,6 +11,7 @@ _ROWS = (
     ("contact_delay_ms", "a touch is felt after", "{:.0f} ms", 1.0),
     ("phantom_force_share", "feels what is not there", "{:.1f} % of the time", 100.0),
 )
+NEVER = "never"  # of what has not happened, such as a touch that was felt
 # Less than this is none (units as shown).
 _NONE = 5e-4
 
@@ -19,8 +20,10 @@ def rows(summary: dict) -> list[tuple[str, str, str, str]]:
     found = []
     for scene, title in SCENES.items():
         for key, name, form, scale in _ROWS:
-            before, after = (scale * float(summary[f"{scene}.{scenario}.{key}"]) for scenario in ("traditional", "mmt"))
-            found.append((f"{title}: {name}", form.format(before), form.format(after), gained(before, after)))
+            both = [summary[f"{scene}.{scenario}.{key}"] for scenario in ("traditional", "mmt")]
+            shown = [NEVER if value is None else form.format(scale * float(value)) for value in both]
+            told = "" if None in both else gained(*(scale * float(value) for value in both))
+            found.append((f"{title}: {name}", *shown, told))
     return found
 
 
@@ -29,7 +32,7 @@ def gained(before: float, after: float) -> str:
         return "–" if after < _NONE else "worse"
     if after < _NONE:
         return "all of it"
-    return f"{before / after:.1f} × less" if after < before else "nothing"
+    return f"{before / after:.1f} × less" if after < before else f"{after / before:.1f} × more" if after > before else "nothing"
 
 
 def text(summary: dict) -> str:

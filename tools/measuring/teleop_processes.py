@@ -167,8 +167,8 @@ def _answers(hands: np.ndarray, there: records.Record) -> records.Record:
     )  # fmt: skip
 
 
-def figures(run: Run) -> dict[str, float]:
-    """The errors of extension/core/teleop/errors.hpp."""
+def figures(run: Run) -> dict[str, float | None]:
+    """The errors of extension/core/teleop/errors.hpp; None where there was nothing to measure."""
     error = np.linalg.norm(run.here.force - run.direct.force, axis=1)
     shift = round(run.case.delay / TICK) + 1 if run.case.scenario == TRADITIONAL else 0
     shifted = np.linalg.norm(run.here.force[shift:] - run.there.force[: len(run.there.force) - shift], axis=1)
@@ -183,7 +183,7 @@ def figures(run: Run) -> dict[str, float]:
         "force_error_max_N": float(error.max()),
         "force_error_shifted_mean_N": float(np.nanmean(shifted)),
         "box_position_error_rms_mm": 1e3 * float(np.sqrt(np.nanmean(box**2))),
-        "contact_delay_ms": 1e3 * contact_delay(run),
+        "contact_delay_ms": None if (delay := contact_delay(run)) is None else 1e3 * delay,
         "phantom_force_share": phantom_share(run),
         "seconds_until_right": max(0.0, float(until_right)),
         "correction_force_step_max_N": float(link["correction_force_step_max_n"]),
@@ -192,8 +192,10 @@ def figures(run: Run) -> dict[str, float]:
     }
 
 
-def contact_delay(run: Run) -> float:
-    """From where the hand meets a surface to where it feels that, in the middle of all touches (unit: seconds)."""
+def contact_delay(run: Run) -> float | None:
+    """From where the hand meets a surface to where it feels that, in the middle of all touches (unit: seconds). None where
+    no touch was felt.
+    """
     touches = run.direct.contacts > 0
     delays = []
     for begin in np.flatnonzero(touches[TOUCH:-TOUCH]) + TOUCH:
@@ -202,7 +204,7 @@ def contact_delay(run: Run) -> float:
             should = np.flatnonzero(np.linalg.norm(run.direct.force[begin:], axis=1) > FELT)
             if felt.size and should.size:
                 delays.append((felt[0] - should[0]) * TICK)
-    return float(np.median(delays)) if delays else 0.0
+    return float(np.median(delays)) if delays else None
 
 
 def phantom_share(run: Run) -> float:

@@ -52,7 +52,9 @@ def _draw_panel(axes, sweep: Sweep, table: Rows, measure: str, x: str, lines: st
     looks = style.told_apart(len(line_levels))
     for level, look in zip(line_levels, looks):
         here = [row for row in table if (not lines or row[lines] == level) and measure in row]
-        found = {step: [float(row[measure]) for row in here if not x or row[x] == step] for step in steps}
+        labels = ["run", *map(sweep.column, sweep.varied)]
+        at_step = {step: statistics.independent([row for row in here if not x or row[x] == step], labels) for step in steps}
+        found = {step: [float(row[measure]) for row in rows] for step, rows in at_step.items()}
         found = {step: values for step, values in found.items() if values}
         if not found:
             continue

@@ -32,7 +32,7 @@ def page(sweep: Sweep, table: Rows, asked: int, sources: str, pictures: Mapping[
 def _measure(sweep: Sweep, table: Rows, measure: str, paths: list[Path]) -> str:
     averaged = [name for name in sweep.factors if name not in sweep.drawn and len(sweep.factors[name]) > 1]
     caption = (
-        f"{measure}: means with their {statistics.CONFIDENCE:.0%} confidence intervals (Student's t, over the runs of a point), "
+        f"{measure}: means with their {statistics.CONFIDENCE:.0%} confidence intervals (Student's t, over the independent runs of a point), "
         f"and every run as a dot.{' Averaged over ' + ', '.join(averaged) + '.' if averaged else ''}"
     )
     return html.section(measure, html.picture(paths[0], caption), html.files(paths), _means(sweep, table, measure))
@@ -40,12 +40,15 @@ def _measure(sweep: Sweep, table: Rows, measure: str, paths: list[Path]) -> str:
 
 def _means(sweep: Sweep, table: Rows, measure: str) -> str:
     columns = [sweep.column(name) for name in sweep.drawn]
-    found: dict[tuple, list[float]] = {}
+    found: dict[tuple, Rows] = {}
     for row in table:
         if measure in row:
-            found.setdefault(tuple(row[name] for name in columns), []).append(float(row[measure]))
-    rows = [(*map(word, key), str(len(values)), *_in_words(values)) for key, values in found.items()]
-    head = (*columns, "runs", "mean", "± 95 %", "least", "most")
+            found.setdefault(tuple(row[name] for name in columns), []).append(row)
+    rows = []
+    for key, of_key in found.items():
+        alone = statistics.independent(of_key, ["run", *map(sweep.column, sweep.varied)])
+        rows.append((*map(word, key), str(len(of_key)), str(len(alone)), *_in_words([float(row[measure]) for row in alone])))
+    head = (*columns, "runs", "independent", "mean", "± 95 %", "least", "most")
     more = [html.paragraph(f"{MOST_ROWS} of {len(rows)} rows; all runs are in sweep.csv.")] if len(rows) > MOST_ROWS else []
     return "\n".join([html.table(head, rows[:MOST_ROWS], numbers_from=len(columns)), *more])
 

@@ -1,9 +1,18 @@
 """Means over repeats, and how sure they are."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 CONFIDENCE = 0.95
+
+
+def independent(rows: Iterable[Mapping[str, object]], labels: Iterable[str]) -> list[Mapping[str, object]]:
+    """Of runs that differ in nothing but their `labels` only the first: the same run again makes nothing surer."""
+    left_out = set(labels)
+    found: dict[tuple, Mapping[str, object]] = {}
+    for row in rows:
+        found.setdefault(tuple(sorted((key, str(value)) for key, value in row.items() if key not in left_out)), row)
+    return list(found.values())
 
 
 def mean_and_interval(values: Sequence[float]) -> tuple[float, float]:
