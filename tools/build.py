@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from setup import cache, processes
-from setup.progress import Progress
+from setup.progress import Pace, Progress, in_words
 from setup.steps import Step
 
 
@@ -18,6 +18,13 @@ def step(target: str) -> Step:
     return Step(f"Build {target}", lambda: False, do, place=cache.clone() / "build")
 
 
+def _shown(line: str, pace: Pace) -> str:
+    """Of a line "@ 12/240" of scons."""
+    done, wanted = map(int, line.removeprefix("@ ").split("/"))
+    left = pace.left(done, wanted)
+    return f"{done}/{wanted} files" + (f", {in_words(left)} left" if left is not None else "")
+
+
 def build(target: str, *what: str) -> None:
     """What is to be built: SCons's own arguments, such as sanitize=thread, may stand among it."""
     options = ["-s", f"-j{os.cpu_count() or 1}", f"target={target}", "progress=yes"]
@@ -26,7 +33,7 @@ def build(target: str, *what: str) -> None:
         prefix = Path(named).expanduser().absolute()
         print(f"godot-cpp: {prefix} (GODOT_CPP)")
         options.append(f"godot_cpp={prefix}")
-    progress, printed = Progress(), []
+    progress, pace, printed = Progress(), Pace(), []
     with processes.started(
         [cache.venv_bin("scons"), *options, *what],
         cwd=cache.clone(),
@@ -36,7 +43,7 @@ def build(target: str, *what: str) -> None:
     ) as scons:
         for line in scons.stdout or []:
             if line.startswith("@ "):
-                progress.show(line.removeprefix("@ ").strip() + " files")
+                progress.show(_shown(line, pace))
             else:
                 printed.append(line)
     progress.end()

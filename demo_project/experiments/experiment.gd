@@ -29,6 +29,7 @@ extends Node
 ## --launch=form        instead of all this: the launcher; --launch=now: what it does, without its form
 ##                      (../launcher/launch.gd)
 
+const Quietly := preload("res://experiments/quietly.gd")
 const Replay := preload("res://experiments/replay.gd")
 
 const FRAMES_PER_SECOND := 60
@@ -83,6 +84,7 @@ func run(arguments: PackedStringArray) -> int:
 		return _fail("the scene '%s' cannot be loaded" % _options.scene)
 	var scene := packed.instantiate()
 	var code := await _run_scene(scene)
+	Quietly.free_containers(scene)
 	scene.free()
 	return code
 

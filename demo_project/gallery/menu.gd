@@ -7,6 +7,7 @@ extends Control
 const Caller := preload("res://experiments/caller.gd")
 const Gallery := preload("res://gallery/gallery.gd")
 const Card := preload("res://gallery/card.tscn")
+const Quietly := preload("res://experiments/quietly.gd")
 const LAUNCHER := "res://launcher/launcher.tscn"
 
 var _scene: Node
@@ -57,7 +58,9 @@ func _run_experiment() -> void:
 		return
 	var experiment: Node = load("res://experiments/experiment.gd").new()
 	add_child(experiment)
-	get_tree().quit(await experiment.run(Caller.words(asked)))
+	var code: int = await experiment.run(Caller.words(asked))
+	Quietly.free_containers(get_tree().root)
+	get_tree().quit(code)
 
 
 ## The hand is the person's at once.

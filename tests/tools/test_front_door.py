@@ -106,7 +106,7 @@ def test_what_is_given_twice_is_refused(command, refuses):
     "words",
     [
         ["proof", "--only=nosuch"], ["proof", "--only=fuzz.nosuch"], ["proof", "--seconds=3"], ["proof", "--only=soak", "--rounds=3"],
-        ["proof", "--only=loop", "--rounds=few"], ["bench", "proxy", "--tick=3"], ["bench", "proxy", "--ticks=many"],
+        ["proof", "--only=loop", "--rounds=few"], ["proof", "--only=soak", "--hours=nan"], ["experiment", "scenario1", "--seconds=-1"], ["bench", "proxy", "--tick=3"], ["bench", "proxy", "--ticks=many"],
         ["bench", "proxy", "--ticks=nan"], ["bench", "physics", "--quick=1"], ["bench", "proxy", "pareto", "--ticks=3"],
         ["experiment"], ["experiment", "scenario1", "--seconds=long"], ["experiment", "scenario1", "--clock=sideways"],
         ["experiment", "no.toml"], ["experiment", "docs"], ["test", "windows", "--sanitize=thread"], ["test", "one", "two"],

@@ -2,6 +2,8 @@
 
 import io
 
+import build
+import pytest
 from setup import progress
 
 
@@ -53,3 +55,27 @@ def test_what_is_watched_is_shown_while_it_lasts(monkeypatch):
         while not shown:
             pass
     assert set(shown) == {"1 MB"}
+
+
+def test_what_is_left_is_told_from_the_last_ones():
+    now = [0.0]
+    pace = progress.Pace(lambda: now[0])
+
+    def after(seconds, done):
+        now[0] += seconds
+        return pace.left(done, 100)
+
+    assert after(1.0, 1) is None  # too early to tell
+    assert after(9.0, 2) == pytest.approx(5.0 * 98)  # two in 10 s
+    for done in range(3, 40):
+        left = after(1.0, done)
+    assert left == pytest.approx(1.0 * 61)  # what was slow before is forgotten
+    assert after(0.0, 100) == 0.0
+
+
+def test_a_step_says_how_many_files_and_how_long():
+    now = [0.0]
+    pace = progress.Pace(lambda: now[0])
+    assert build._shown("@ 1/240\n", pace) == "1/240 files"
+    now[0] = 60.0
+    assert build._shown("@ 11/240\n", pace) == "11/240 files, 21 min left"

@@ -2,12 +2,38 @@
 
 import sys
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
 
 IN_A_LOG = 15.0  # between two words (unit: seconds)
 ON_A_SCREEN = 0.2
+
+
+class Pace:
+    """How long what is left will take, as long as each takes what the last few have taken."""
+
+    LAST = 20
+    FROM = 5.0  # what is shorter tells nothing (unit: seconds)
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic):
+        self._clock = clock
+        self._ends: deque[tuple[float, int]] = deque([(clock(), 0)], self.LAST)
+
+    def left(self, done: int, wanted: int) -> float | None:
+        """After `done` of `wanted`; None where that cannot be told yet (unit: seconds)."""
+        self._ends.append((self._clock(), done))
+        (began, first), (now, last) = self._ends[0], self._ends[-1]
+        if now - began < self.FROM or last <= first:
+            return None
+        return (now - began) / (last - first) * (wanted - done)
+
+
+def in_words(seconds: float) -> str:
+    if seconds < 90.0:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
 
 
 class Progress:

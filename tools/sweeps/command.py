@@ -15,7 +15,7 @@ from pathlib import Path
 
 from measuring import options
 from setup import cache
-from setup.progress import Progress
+from setup.progress import Progress, in_words
 from sweeps import description, playing, results, sources, table
 from sweeps.description import Run, Sweep
 
@@ -106,16 +106,10 @@ class _Arrivals:
         seconds = (time.monotonic() - self._started) / max(played, 1) * left
         filled = BAR * done // self._count
         failed = f", {len(self._failed)} failed" if self._failed else ""
-        return f"{'█' * filled}{'░' * (BAR - filled)} {done} of {self._count}{failed}, {_in_words(seconds)} left"
+        return f"{'█' * filled}{'░' * (BAR - filled)} {done} of {self._count}{failed}, {in_words(seconds)} left"
 
     def _kept(self) -> str:
         return f"{len(self._found.summaries)} of {self._count} runs are kept: the same command goes on from there"
-
-
-def _in_words(seconds: float) -> str:
-    if seconds < 90.0:
-        return f"{seconds:.0f} s"
-    return f"{seconds / 60.0:.0f} min" if seconds < 5400.0 else f"{seconds / 3600.0:.1f} h"
 
 
 def _check_measures(sweep: Sweep, summaries: dict[str, results.Summary]) -> None:
