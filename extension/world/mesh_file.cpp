@@ -1,7 +1,7 @@
 #include "world/mesh_file.hpp"
 
 #include "core/mesh/mesh_check.hpp"
-#include "core/mesh/obj_text.hpp"
+#include "core/mesh/obj_file.hpp"
 
 namespace tactus {
 
@@ -17,7 +17,7 @@ std::string problem_of_size(const std::string& path, std::int64_t bytes) {
 }
 
 TriangleSource::Checked read_mesh_file(const std::string& path, std::string_view bytes) {
-    ObjResult read = read_obj_text(bytes);
+    ObjResult read = read_obj_file(bytes);
     const std::string wrong = read.error.empty() ? check_mesh(read.mesh) : read.error;
     if (!wrong.empty()) {
         return {nullptr, path + ": " + wrong};

@@ -8,7 +8,7 @@
 #include "core/mesh/convex_hull.hpp"
 #include "core/mesh/iso_surface.hpp"
 #include "core/mesh/mesh_check.hpp"
-#include "core/mesh/obj_text.hpp"
+#include "core/mesh/obj_file.hpp"
 #include "core/soft/soft_body.hpp"
 #include "core/tool/tool_proxy.hpp"
 #include "fuzz_target.hpp"
@@ -82,7 +82,7 @@ void read_text(std::span<const std::byte> bytes) {
     ObjLimits limits;
     limits.polygon_work = 1'000'000;
     const std::string_view words(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    const ObjResult read = read_obj_text(words, limits);
+    const ObjResult read = read_obj_file(words, limits);
     must(read.error.empty() || read.mesh.triangles.empty(), "a text that is not understood gives nothing");
     if (check_mesh(read.mesh).empty()) {
         Numbers nothing({});

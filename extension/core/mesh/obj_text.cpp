@@ -108,6 +108,21 @@ std::string read_corner(std::string_view word, std::size_t vertex_count, std::ui
     return {};
 }
 
+// How many of the corners make the face, where they come again and again in the same order: the shortest
+// period, by the longest border of each prefix (Knuth, Morris, Pratt 1977).
+std::size_t corners_once(std::span<const std::uint32_t> corners, std::vector<std::size_t>& border) {
+    border.assign(corners.size(), 0);
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        std::size_t length = border[i - 1];
+        while (length > 0 && corners[i] != corners[length]) {
+            length = border[length - 1];
+        }
+        border[i] = corners[i] == corners[length] ? length + 1 : 0;
+    }
+    const std::size_t period = corners.size() - border.back();
+    return period >= 3 && corners.size() % period == 0 ? period : corners.size();
+}
+
 class Reader {
 public:
     explicit Reader(const ObjLimits& limits) : limits_(limits), work_(limits.polygon_work) {}
@@ -172,6 +187,7 @@ private:
         if (face_.size() < 3) {
             return "a face needs at least three corners";
         }
+        face_.resize(corners_once(face_, border_));
         if (known) {
             return add_face(face_);
         }
@@ -202,6 +218,7 @@ private:
     TriangleMesh mesh_;
     std::int64_t work_;
     std::vector<std::uint32_t> face_;
+    std::vector<std::size_t> border_;
     std::vector<EarlyFace> early_;
     std::vector<std::uint32_t> early_corners_;
 };

@@ -66,6 +66,20 @@ TEST(ObjText, NamesTheLineOfAVertexThatDoesNotExist) {
     EXPECT_EQ(read_obj_text("v 0 0 0\nf 1 1 x\n").error, "line 2: 'x' does not name a vertex");
 }
 
+TEST(ObjText, CornersThatComeAgainAndAgainMakeOneFace) {
+    std::string text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf";
+    for (int i = 0; i < 100; ++i) {
+        text += " 1 2 3 4";
+    }
+    EXPECT_EQ(read_obj_text(text).mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+    EXPECT_EQ(read_obj_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 1 2 3\n").mesh.triangles.size(), 1u);
+    // Of faces that come before their vertices, too.
+    EXPECT_EQ(read_obj_text("f 1 2 3 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").mesh.triangles.size(), 1u);
+    // A corner that is passed twice, as at the bridge to a hole, is no repetition.
+    const std::string square = "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 2 0\nv 2 2 0\n";
+    EXPECT_EQ(read_obj_text(square + "f 1 2 3 4 1 5 6 7 5\n").mesh.triangles.size(), 7u);
+}
+
 TEST(ObjText, RefusesAFaceOfTwoCorners) {
     EXPECT_EQ(read_obj_text("v 0 0 0\nv 1 0 0\nf 1 2\n").error,
               "line 3: a face needs at least three corners");
