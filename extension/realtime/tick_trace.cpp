@@ -43,10 +43,16 @@ const char* tick_stage_name(TickStage stage) {
 
 void TickTrace::begin_tick(Nanoseconds scheduled, Nanoseconds start) {
     current_.scheduled = scheduled;
+    current_.is_stepped = false;
     current_.start = start;
     current_.mark_count = 0;
     current_.stages_lost = 0;
     open_stages_ = 0;
+}
+
+void TickTrace::begin_stepped_tick(Nanoseconds world_time, Nanoseconds start) {
+    begin_tick(world_time, start);
+    current_.is_stepped = true;
 }
 
 void TickTrace::end_tick(Nanoseconds end, TickStatus status) {
@@ -118,7 +124,7 @@ void write_tick(std::FILE* file, const TickRecord& tick, Nanoseconds origin) {
     write_slice(file, "tick", tick.start - origin, tick.end - tick.start);
     std::fprintf(file, ",\"args\":{\"status\":%" PRIu32 ",\"stages_lost\":%" PRIu32 ",", tick.status,
                  tick.stages_lost);
-    write_us(file, "late_us", tick.start - tick.scheduled);
+    write_us(file, "late_us", tick.is_stepped ? 0 : tick.start - tick.scheduled);
     std::fputs("}}", file);
     write_stages(file, tick, tick.start - origin);
 }

@@ -49,6 +49,7 @@ struct TickRecord {
     static constexpr std::size_t max_marks = 64;
 
     Nanoseconds scheduled = 0;
+    bool is_stepped = false;  // `scheduled` is no time of the clock that `start` and `end` are of
     Nanoseconds start = 0;
     Nanoseconds end = 0;
     TickStatus status = 0;
@@ -62,7 +63,11 @@ public:
     // Room for `capacity` ticks between two drains.
     explicit TickTrace(std::size_t capacity) : records_(capacity) {}
 
+    // `scheduled` and `start` by the same clock.
     void begin_tick(Nanoseconds scheduled, Nanoseconds start);
+    // Of a world whose time passes when it is told to: `world_time` is no time of a clock, and no tick is
+    // late.
+    void begin_stepped_tick(Nanoseconds world_time, Nanoseconds start);
     void end_tick(Nanoseconds end, TickStatus status);
 
     // Appends what has been recorded since the last call.

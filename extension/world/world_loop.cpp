@@ -66,7 +66,7 @@ void WorldLoop::advance(std::int64_t ticks, const std::function<void()>& between
     for (std::int64_t done = 0; done < ticks; ++done) {
         const Nanoseconds now = next_time_;
         if (trace_ != nullptr) {
-            trace_->begin_tick(now, monotonic_now());
+            trace_->begin_stepped_tick(now, monotonic_now());
         }
         const TickStatus status = tick(now);
         stepped_status_ |= status;

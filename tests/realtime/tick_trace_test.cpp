@@ -126,6 +126,22 @@ TEST(WriteTraceEvents, WritesNestedSlicesInMicroseconds) {
     EXPECT_EQ(text, expected);
 }
 
+// The world's time is not the machine's: their difference was the machine's uptime.
+TEST(WriteTraceEvents, NoTickOfASteppedWorldIsLate) {
+    TickTrace trace(4);
+    trace.begin_stepped_tick(3'000'000, 87'000'000'000'000);
+    trace.end_tick(87'000'000'020'000, 0);
+    trace.begin_tick(87'000'001'000'000, 87'000'001'004'000);
+    trace.end_tick(87'000'001'020'000, 0);
+    std::vector<TickRecord> ticks;
+    trace.drain(ticks);
+    const std::string text = written(ticks, 87'000'000'000'000, "loop");
+    EXPECT_NE(text.find("\"dur\":20.000,\"args\":{\"status\":0,\"stages_lost\":0,\"late_us\":0.000}"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("\"late_us\":4.000}"), std::string::npos) << text;
+}
+
 TEST(WriteTraceEvents, NoTicksAreAnArrayAllTheSame) {
     EXPECT_EQ(written({}, 0, "x"),
               "[{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":1,\"args\":{\"name\":\"x\"}}\n]\n");
