@@ -24,7 +24,7 @@ MAY_INCLUDE = {
 }
 
 # Of a layer's folders those that make its static library; the others need what not every machine has.
-EVERYWHERE = {"sensing": ["image", "discovery"]}
+EVERYWHERE = {"sensing": ["image", "discovery", "recording", "watch"]}
 
 
 def linked(layer):

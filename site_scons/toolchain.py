@@ -142,8 +142,9 @@ AS_PCL = ["-std=c++20", "-O2", "-fPIC", "-w"]
 
 
 def openni():
-    """Folders of OpenNI2's headers; none where it is not installed."""
-    found = [Path(folder) for folder in ("/usr/include/openni2", "/usr/local/include/openni2")]
+    """Folders of OpenNI2's headers, where OPENNI2_INCLUDE names them or the system has them; none where it is not installed."""
+    named = os.environ.get("OPENNI2_INCLUDE", "")
+    found = [Path(folder) for folder in (named, "/usr/include/openni2", "/usr/local/include/openni2") if folder]
     return [folder for folder in found if (folder / "OniCAPI.h").is_file() and (folder / "Driver/OniDriverAPI.h").is_file()][:1]
 
 

@@ -8,8 +8,9 @@
 #include "core/ports/depth_sensing.hpp"
 #include "platform/shared_library.hpp"
 #include "sensing/openni/openni.hpp"
-#include "sensing/sensor.hpp"
+#include "sensing/source.hpp"
 #include "sensing/synthetic_camera/scene_memory.hpp"
+#include "sensing/watch/sensor.hpp"
 
 namespace tactus {
 
@@ -67,7 +68,9 @@ private:
 
 SensorPort* make_sensor() noexcept {
     try {
-        return new Sensor(own_driver());
+        return new Sensor([driver = own_driver()](const SourceChoice& choice, std::string& error) {
+            return open_source(choice, driver, error);
+        });
     } catch (const std::exception&) {
         return nullptr;
     }

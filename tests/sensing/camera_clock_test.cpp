@@ -57,6 +57,33 @@ TEST(CameraClock, OneThatIsSetAnewIsFollowedAtOnce) {
     EXPECT_NEAR(static_cast<double>(late.next()), 35e6, 16e6);
 }
 
+// A recording of less than a second that repeats: each time its stamps go back by 0.4 s.
+TEST(CameraClock, StampsThatGoBackAreAnotherClocks) {
+    CameraClock clock;
+    Nanoseconds now = 7 * nanoseconds_per_second;
+    for (int i = 0; i < 60; ++i, now += image) {
+        const auto stamp = static_cast<std::uint64_t>(5'000'000 + 33'000 * (i % 12));
+        EXPECT_NEAR(static_cast<double>(clock.taken_at(stamp, now) - now), 0.0, 1e6 * (i % 12)) << i;
+    }
+}
+
+TEST(CameraClock, AClockThatStandsStillTellsNothing) {
+    CameraClock clock;
+    for (int i = 0; i < 60; ++i) {
+        const Nanoseconds now = 7 * nanoseconds_per_second + i * image;
+        EXPECT_EQ(clock.taken_at(42, now), now) << i;
+    }
+}
+
+TEST(CameraClock, AnyStampIsATime) {
+    CameraClock clock;
+    for (const std::uint64_t stamp :
+         {~std::uint64_t{0}, std::uint64_t{0}, std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+        EXPECT_LE(clock.taken_at(stamp, image), image);
+        EXPECT_GT(time_of_stamp(stamp), -1);
+    }
+}
+
 TEST(CameraClock, NothingIsTakenAfterItHasArrived) {
     CameraClock clock;
     EXPECT_EQ(clock.taken_at(1'000'000, 2 * nanoseconds_per_second), 2 * nanoseconds_per_second);

@@ -1,4 +1,4 @@
-#include "sensing/lasting_thread.hpp"
+#include "sensing/watch/lasting_thread.hpp"
 
 #include <gtest/gtest.h>
 

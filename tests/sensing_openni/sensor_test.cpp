@@ -1,4 +1,4 @@
-#include "sensing/sensor.hpp"
+#include "sensing/watch/sensor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 
 #include "platform/clock.hpp"
 #include "scene.hpp"
+#include "sensing/source.hpp"
 
 namespace tactus {
 namespace {
@@ -24,7 +25,9 @@ struct Destroy {
 using OwnedSensor = std::unique_ptr<Sensor, Destroy>;
 
 OwnedSensor sensor() {
-    return OwnedSensor(new Sensor(testing::driver_path()));
+    return OwnedSensor(new Sensor([](const SourceChoice& choice, std::string& error) {
+        return open_source(choice, testing::driver_path(), error);
+    }));
 }
 
 // Where the scene's camera is, and with its points.

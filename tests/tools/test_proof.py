@@ -55,7 +55,7 @@ def test_by_the_front_door_it_leaves_its_figures(tmp_path, capsys):
     ("arguments", "said"),
     [
         (["--only=luck"], "choose from fuzz, faults, soak, loop"),
-        (["--only=fuzz.luck"], "choose from packets, meshes, recordings, scene_properties"),
+        (["--only=fuzz.luck"], "choose from packets, meshes, recordings, images, scene_properties"),
         (["--only=soak", "--days=1"], "unknown option --days"),
         (["--runs=7"], "whose options"),
     ],

@@ -44,6 +44,7 @@ TARGETS = {
     "packets": Target(10_000_000, 4096),
     "meshes": Target(1_000_000, 2048),
     "recordings": Target(100_000, 16384),
+    "images": Target(100_000, 4096),
     "scene_properties": Target(100_000, 8192),
 }
 CASES = list(TARGETS)
@@ -51,6 +52,7 @@ WORDS = {
     "packets": "packets, descriptions, greetings, sealed packets on their way, whole conversations",
     "meshes": "triangles, texts of .obj files, fields, point sets; what gives, tools, deforming under a hand",
     "recordings": "recordings of a session's inputs, as files and as pieces with right hashes; of a device",
+    "images": "recordings of a depth camera, their headers and images",
     "scene_properties": "all that an owner may ask of a session, of any value and in any order, while it ticks",
 }
 

@@ -12,10 +12,14 @@
 
 namespace tactus {
 
+// A stamp (unit: microseconds) as a time; one that no clock can show is the latest there is.
+Nanoseconds time_of_stamp(std::uint64_t stamp);
+
 class CameraClock {
 public:
     // Of the image that was stamped so (unit: microseconds) and has arrived now: when it was taken, if the
-    // shortest way takes no time.
+    // shortest way takes no time. A stamp that is not later than the last one is another clock's: the camera
+    // was set anew, or a recording has begun again.
     Nanoseconds taken_at(std::uint64_t stamp, Nanoseconds arrived);
     void forget() { *this = {}; }
 
@@ -23,6 +27,7 @@ private:
     // Clocks drift apart: what was least in the span before the last one is forgotten.
     std::array<Nanoseconds, 2> least_{};  // in this span, and in the one before
     Nanoseconds began_ = 0;               // this span
+    Nanoseconds last_ = 0;                // stamp
     bool is_known_ = false;
 };
 

@@ -3,24 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <span>
-#include <thread>
 #include <utility>
 
-#include "sensing/openni/recording_check.hpp"
+#include "sensing/openni/frame_reading.hpp"
 
 namespace tactus {
 
 namespace {
-
-// Depth of a pixel in tenths of a millimeter; 0: not a format that is depth.
-int tenths_of_millimeter(OniPixelFormat format) {
-    return format == ONI_PIXEL_FORMAT_DEPTH_1_MM ? 10 : format == ONI_PIXEL_FORMAT_DEPTH_100_UM ? 1 : 0;
-}
 
 // The nearest width counts first, then whole millimeters, then speed.
 bool is_better(const OniVideoMode& one, const OniVideoMode& other, int width) {
@@ -36,16 +29,6 @@ bool is_same(const OniVideoMode& one, const OniVideoMode& other) {
            one.resolutionY == other.resolutionY && one.fps == other.fps;
 }
 
-bool is_recording_path(const std::string& uri) {
-    return uri.ends_with(".oni") || uri.ends_with(".ONI");
-}
-
-// OpenNI2's player of recordings looks through its streams without a lock: all the time while it plays, and
-// once its file is at its end without anything else to do; while none is started, for some nanoseconds every
-// 10 ms. A stream that is destroyed meanwhile ends the program. So long after it was stopped the player has
-// seen that it is, and rests.
-constexpr std::chrono::milliseconds until_player_rests(30);
-
 bool is_view(float angle) {
     return angle > 0.01f && angle < 3.1f;
 }
@@ -55,9 +38,6 @@ bool is_view(float angle) {
 std::string Camera::open(const Choice& choice) {
     close();
     is_gone_ = false;
-    last_frame_ = 0;
-    repeats_ = choice.repeats;
-    is_file_ = is_recording_path(choice.uri);
     std::string error = open_device(choice.uri);
     // Not before info_ is known, which the callback reads.
     OniDeviceCallbacks callbacks{nullptr, on_disconnected, nullptr};
@@ -72,7 +52,6 @@ std::string Camera::open(const Choice& choice) {
         close();
         return error;
     }
-    play_recording(choice);
     is_started_ = openni_->stream_start(stream_) == ONI_STATUS_OK;
     if (!is_started_) {
         error = name_ + " gives no depth: " + openni_.last_error();
@@ -82,21 +61,14 @@ std::string Camera::open(const Choice& choice) {
 }
 
 std::string Camera::open_device(const std::string& uri) {
-    if (is_recording_path(uri)) {
-        if (const std::string wrong = check_recording(uri); !wrong.empty()) {
-            return "the recording '" + uri + "' cannot be played: " + wrong + "; name another one";
-        }
-    }
     const std::vector<OniDeviceInfo> cameras = uri.empty() ? openni_.cameras() : std::vector<OniDeviceInfo>();
     if (uri.empty() && cameras.empty()) {
         return "no depth camera is there: plug one in, or name a recording (.oni)";
     }
     if (openni_->device_open(uri.empty() ? cameras.front().uri : uri.c_str(), &device_) != ONI_STATUS_OK) {
         const std::string why = openni_.last_error();
-        return is_recording_path(uri)
-                   ? "the recording '" + uri + "' cannot be played (" + why + "): name another one"
-               : uri.empty() ? "the camera cannot be opened (" + why + "): is another program using it?"
-                             : "there is no camera '" + uri + "' (" + why + "): choose one of those found";
+        return uri.empty() ? "the camera cannot be opened (" + why + "): is another program using it?"
+                           : "there is no camera '" + uri + "' (" + why + "): choose one of those found";
     }
     if (openni_->device_get_info(device_, &info_) != ONI_STATUS_OK) {
         return "the camera does not say what it is: unplug it and plug it in again";
@@ -145,7 +117,6 @@ std::string Camera::choose_mode(int width) {
     OniVideoMode wanted = *best;
     const bool is_set = openni_->stream_set_property(stream_, ONI_STREAM_PROPERTY_VIDEO_MODE, &wanted,
                                                      sizeof wanted) == ONI_STATUS_OK;
-    // A recording is as it is.
     return is_set || (is_known && tenths_of_millimeter(current.pixelFormat) != 0)
                ? ""
                : name_ + " does not take its own video mode: unplug it and plug it in again";
@@ -168,12 +139,7 @@ std::string Camera::read_geometry() {
     view_ = camera_of_view(mode.resolutionX, mode.resolutionY, horizontal, vertical);
     OniBool is_mirrored = FALSE;
     is_mirrored_ = get(ONI_STREAM_PROPERTY_MIRRORING, is_mirrored) && is_mirrored != FALSE;
-    int count = 0;
-    const bool is_file = openni_->device_is_property_supported(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED);
-    frame_count_ = is_file && get(ONI_STREAM_PROPERTY_NUMBER_OF_FRAMES, count) ? std::max(count, 0) : 0;
-    return is_file && frame_count_ == 0 ? "the recording '" + std::string(info_.uri) +
-                                              "' holds no depth images, it may be damaged: name another one"
-                                        : "";
+    return "";
 }
 
 // What the stream gives from its start on. OpenNI2's recorder may end the program where it cannot write: the
@@ -196,17 +162,6 @@ std::string Camera::record(const std::string& path) {
     return runs ? "" : refused(openni_.last_error());
 }
 
-void Camera::play_recording(const Choice& choice) {
-    if (!is_recording()) {
-        return;
-    }
-    const OniBool repeats = choice.repeats ? TRUE : FALSE;
-    const float speed = choice.as_fast_as_read ? -1.0f : 1.0f;
-    openni_->device_set_property(device_, ONI_DEVICE_PROPERTY_PLAYBACK_REPEAT_ENABLED, &repeats,
-                                 sizeof repeats);
-    openni_->device_set_property(device_, ONI_DEVICE_PROPERTY_PLAYBACK_SPEED, &speed, sizeof speed);
-}
-
 void Camera::close() {
     if (recorder_ != nullptr) {
         openni_->recorder_stop(recorder_);
@@ -214,9 +169,8 @@ void Camera::close() {
         recorder_ = nullptr;
     }
     if (stream_ != nullptr) {
-        stop();
-        if (is_file_) {
-            std::this_thread::sleep_for(until_player_rests);
+        if (std::exchange(is_started_, false)) {
+            openni_->stream_stop(stream_);
         }
         openni_->stream_destroy(stream_);
         stream_ = nullptr;
@@ -231,12 +185,6 @@ void Camera::close() {
     }
 }
 
-void Camera::stop() {
-    if (std::exchange(is_started_, false)) {
-        openni_->stream_stop(stream_);
-    }
-}
-
 void Camera::on_disconnected(const OniDeviceInfo* info, void* self) {
     auto* const camera = static_cast<Camera*>(self);
     if (std::strncmp(info->uri, camera->info_.uri, sizeof info->uri) == 0) {
@@ -244,21 +192,9 @@ void Camera::on_disconnected(const OniDeviceInfo* info, void* self) {
     }
 }
 
-Camera::Reading Camera::without_frame() {
-    if (is_gone_) {
-        return Reading::lost;
-    }
-    // OpenNI2 says nothing when a file is at its end.
-    return is_recording() && !repeats_ && last_frame_ >= frame_count_ ? Reading::ended : Reading::nothing;
-}
-
-Camera::Reading Camera::read(DepthImage& image, int wait_ms) {
+FrameSource::Reading Camera::read(DepthImage& image, int wait_ms) {
     if (stream_ == nullptr || is_gone_) {
         return Reading::lost;
-    }
-    if (without_frame() == Reading::ended) {
-        stop();  // or its player takes all of a processor
-        return Reading::ended;
     }
     int index = 0;
     if (openni_->wait_for_any_stream(&stream_, 1, &index, wait_ms) != ONI_STATUS_OK) {
@@ -268,42 +204,22 @@ Camera::Reading Camera::read(DepthImage& image, int wait_ms) {
     if (openni_->stream_read_frame(stream_, &frame) != ONI_STATUS_OK || frame == nullptr) {
         return without_frame();
     }
-    last_frame_ = frame->frameIndex;
-    const bool is_whole = take(*frame, image);
+    const Reading reading = take(*frame, image);
     openni_->frame_release(frame);
-    return is_whole ? Reading::frame : Reading::damaged;
+    return reading;
 }
 
-// A frame may be cropped: what it leaves out has no depth.
-bool Camera::take(const OniFrame& frame, DepthImage& image) const {
-    const int tenths = tenths_of_millimeter(frame.videoMode.pixelFormat);
-    const int left = frame.croppingEnabled ? frame.cropOriginX : 0;
-    const int top = frame.croppingEnabled ? frame.cropOriginY : 0;
-    const bool is_inside = frame.width > 0 && frame.height > 0 && left >= 0 && top >= 0 &&
-                           frame.width <= view_.width - left && frame.height <= view_.height - top;
-    const auto row_bytes = static_cast<std::size_t>(frame.width) * sizeof(OniDepthPixel);
-    if (tenths == 0 || !is_inside || frame.data == nullptr || frame.stride < 0 ||
-        static_cast<std::size_t>(frame.stride) < row_bytes || frame.dataSize < 0 ||
-        static_cast<std::size_t>(frame.dataSize) <
-            static_cast<std::size_t>(frame.height - 1) * static_cast<std::size_t>(frame.stride) + row_bytes) {
-        return false;
+// Another program may have set another video mode.
+FrameSource::Reading Camera::take(const OniFrame& frame, DepthImage& image) {
+    std::string wrong;
+    if (!has_size_of(frame, view_)) {
+        wrong = read_geometry();
     }
-    image.camera = view_;
-    image.time_us = frame.timestamp;
-    image.depth_mm.assign(pixel_count(view_), 0);
-    for (int v = 0; v < frame.height; ++v) {
-        const std::byte* const bytes = static_cast<const std::byte*>(frame.data) +
-                                       static_cast<std::size_t>(v) * static_cast<std::size_t>(frame.stride);
-        std::uint16_t* const row =
-            image.depth_mm.data() + static_cast<std::size_t>(v + top) * static_cast<std::size_t>(view_.width);
-        for (int u = 0; u < frame.width; ++u) {
-            OniDepthPixel told = 0;
-            std::memcpy(&told, bytes + static_cast<std::size_t>(u) * sizeof told, sizeof told);
-            const int at = is_mirrored_ ? view_.width - 1 - (u + left) : u + left;
-            row[at] = tenths == 10 ? told : static_cast<std::uint16_t>((told + 5) / 10);
-        }
+    if (wrong.empty()) {
+        wrong = take_frame(frame, view_, is_mirrored_, image);
     }
-    return true;
+    trouble_ = wrong.empty() ? "" : name_ + ": " + wrong + "; unplug it and plug it in again";
+    return wrong.empty() ? Reading::frame : Reading::damaged;
 }
 
 }  // namespace tactus

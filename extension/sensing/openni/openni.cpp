@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <string_view>
 
 #include "platform/shared_library.hpp"
 #include "sensing/openni/staging.hpp"
@@ -109,8 +110,7 @@ std::vector<OniDeviceInfo> OpenNi::cameras() const {
         functions_.release_device_list(list);
     }
     std::erase_if(found, [](const OniDeviceInfo& device) {
-        const std::string uri = device.uri;
-        return uri.ends_with(".oni") || uri.starts_with("/") || uri.starts_with(synthetic_scheme);
+        return std::string_view(device.uri).starts_with(synthetic_scheme);
     });
     return found;
 }

@@ -53,8 +53,8 @@ public:
 
     const OpenNiFunctions* operator->() const { return &functions_; }
     std::string last_error() const;
-    // Those that are plugged in. What was opened by its name, recordings and scenes, stays among OpenNI2's
-    // devices; opening one that is gone ends the program.
+    // Those that are plugged in. A scene that was opened by its name stays among OpenNI2's devices; opening
+    // one that is gone ends the program.
     std::vector<OniDeviceInfo> cameras() const;
 
 private:

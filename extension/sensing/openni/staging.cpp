@@ -19,9 +19,10 @@ constexpr const char* drivers = "OpenNI2/Drivers";
 // The folder of a driver may hold what is not one.
 bool is_driver(const fs::path& file) {
     const std::string name = file.filename().string();
-    // A device that shows a ramp to everybody who asks for any camera.
+    // A device that shows a ramp to all who ask for any camera, and a player that any file whose name is
+    // asked for as a camera's ends, if it is damaged: see sensing/recording/.
     return name.starts_with("lib") && name.find(".so") != std::string::npos &&
-           !name.starts_with("libDummyDevice");
+           !name.starts_with("libDummyDevice") && !name.starts_with("libOniFile");
 }
 
 // OpenNI2 takes files that end so for drivers.

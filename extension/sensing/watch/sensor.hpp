@@ -6,6 +6,8 @@
 #pragma once
 
 #include <condition_variable>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -15,16 +17,29 @@
 #include "platform/beside_loop.hpp"
 #include "sensing/image/camera_clock.hpp"
 #include "sensing/image/depth_image.hpp"
-#include "sensing/lasting_thread.hpp"
-#include "sensing/observer.hpp"
-#include "sensing/openni/camera.hpp"
+#include "sensing/image/frame_source.hpp"
+#include "sensing/watch/lasting_thread.hpp"
+#include "sensing/watch/observer.hpp"
 
 namespace tactus {
 
+// A CameraChoice that owns its texts.
+struct SourceChoice {
+    std::string uri;
+    int width = 320;
+    bool repeats = true;
+    bool as_fast_as_read = false;
+    std::string record_to;
+};
+
+// Null: `error` says why not and what to do. Called on the sensor's thread.
+using OpenSource =
+    std::function<std::unique_ptr<FrameSource>(const SourceChoice& choice, std::string& error)>;
+
 class Sensor final : public SensorPort {
 public:
-    // Throws std::system_error where there is no thread for it. `own_driver`: see OpenNi::get().
-    explicit Sensor(std::string own_driver);
+    // Throws std::system_error where there is no thread for it.
+    explicit Sensor(OpenSource open_source);
     ~Sensor();
 
     void open(const CameraChoice& choice) noexcept override;
@@ -38,7 +53,7 @@ public:
 private:
     // What the owner wants, as the thread finds it.
     struct Wanted {
-        std::optional<Camera::Choice> camera;  // none: closed
+        std::optional<SourceChoice> camera;  // none: closed
         std::uint64_t camera_change = 0;
         std::shared_ptr<const MeshLibrary> library = std::make_shared<MeshLibrary>();
         std::uint64_t library_change = 0;
@@ -54,13 +69,14 @@ private:
     bool try_to_open();
     static std::string next_recording(const std::string& path, int before);
     void read_frame();
+    void miss_damaged();
     void see(const DepthImage& image, Nanoseconds arrived);
     void say(SensorState state, const std::string& text);
     void fade();
     void publish(bool is_new_frame);
     void wait(int milliseconds);
 
-    const std::string own_driver_;
+    const OpenSource open_source_;
 
     std::mutex mutex_;
     std::condition_variable wakes_;
@@ -74,7 +90,7 @@ private:
 
     // The thread's own.
     Wanted now_;
-    std::unique_ptr<Camera> camera_;
+    std::unique_ptr<FrameSource> camera_;
     Observer observer_;
     BesideLoop beside_loop_;
     CameraClock clock_;

@@ -1,4 +1,4 @@
-#include "sensing/sensor.hpp"
+#include "sensing/watch/sensor.hpp"
 
 #include <chrono>
 #include <cmath>
@@ -23,7 +23,7 @@ constexpr double half_life = 2.0;
 
 }  // namespace
 
-Sensor::Sensor(std::string own_driver) : own_driver_(std::move(own_driver)), thread_([this] { run(); }) {}
+Sensor::Sensor(OpenSource open_source) : open_source_(std::move(open_source)), thread_([this] { run(); }) {}
 
 Sensor::~Sensor() {
     {
@@ -47,8 +47,8 @@ void Sensor::want(const Change& change) noexcept {
 
 void Sensor::open(const CameraChoice& choice) noexcept {
     want([&] {
-        wanted_.camera = Camera::Choice{choice.uri, choice.width, choice.repeats, choice.as_fast_as_read,
-                                        choice.record_to};
+        wanted_.camera =
+            SourceChoice{choice.uri, choice.width, choice.repeats, choice.as_fast_as_read, choice.record_to};
         ++wanted_.camera_change;
     });
 }
@@ -155,45 +155,42 @@ std::string Sensor::next_recording(const std::string& path, int before) {
 }
 
 bool Sensor::try_to_open() {
+    SourceChoice choice = *now_.camera;
+    choice.record_to = next_recording(choice.record_to, recordings_);
     std::string error;
-    if (const OpenNi* const openni = OpenNi::get(own_driver_, error)) {
-        auto camera = std::make_unique<Camera>(*openni);
-        Camera::Choice choice = *now_.camera;
-        choice.record_to = next_recording(choice.record_to, recordings_);
-        error = camera->open(choice);
-        if (error.empty()) {
-            ++recordings_;
-            say(SensorState::waiting, camera->name() + " is open, waiting for its first frame");
-            camera_ = std::move(camera);
-            clock_.forget();
-            last_frame_ = monotonic_now();
-            return true;
-        }
+    std::unique_ptr<FrameSource> camera = open_source_(choice, error);
+    if (camera == nullptr) {
+        say(SensorState::opening, error);
+        return false;
     }
-    say(SensorState::opening, error);
-    return false;
+    ++recordings_;
+    say(SensorState::waiting, camera->name() + " is open, waiting for its first frame");
+    camera_ = std::move(camera);
+    clock_.forget();
+    last_frame_ = monotonic_now();
+    return true;
 }
 
 void Sensor::read_frame() {
     switch (camera_->read(image_, frame_wait_ms)) {
-        case Camera::Reading::frame:
+        case FrameSource::Reading::frame:
             see(image_, monotonic_now());
             return;
-        case Camera::Reading::damaged:
-            ++seen_.sight.dropped;
+        case FrameSource::Reading::damaged:
+            miss_damaged();
             break;
-        case Camera::Reading::ended:
+        case FrameSource::Reading::ended:
             if (seen_.sight.state != SensorState::ended) {
                 say(SensorState::ended, "the recording is at its end: open it again, or let it repeat");
             }
             wait(frame_wait_ms);
             break;
-        case Camera::Reading::lost:
+        case FrameSource::Reading::lost:
             say(SensorState::opening, camera_->name() + " is gone: plug it in again");
             camera_.reset();
             wait(frame_wait_ms);
             break;
-        case Camera::Reading::nothing:
+        case FrameSource::Reading::nothing:
             if (monotonic_now() - last_frame_ > silence && seen_.sight.state != SensorState::waiting) {
                 say(SensorState::waiting,
                     camera_->name() + " sends no frames: unplug it and plug it in again");
@@ -201,6 +198,14 @@ void Sensor::read_frame() {
             break;
     }
     fade();
+}
+
+// A single one is forgotten over the next.
+void Sensor::miss_damaged() {
+    ++seen_.sight.dropped;
+    if (seen_.sight.state != SensorState::seeing || monotonic_now() - last_frame_ > silence) {
+        say(SensorState::waiting, camera_->trouble());
+    }
 }
 
 void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
@@ -211,7 +216,7 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
         return;
     }
     last_frame_ = last_fade_ = arrived;
-    const Nanoseconds seen_at = camera_->has_our_clock() ? static_cast<Nanoseconds>(image.time_us) * 1000
+    const Nanoseconds seen_at = camera_->has_our_clock() ? time_of_stamp(image.time_us)
                                                          : clock_.taken_at(image.time_us, arrived) -
                                                                from_seconds(now_.settings.camera_delay);
     beside_loop_.begin_burst();

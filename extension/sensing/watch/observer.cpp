@@ -1,4 +1,4 @@
-#include "sensing/observer.hpp"
+#include "sensing/watch/observer.hpp"
 
 #include "platform/clock.hpp"
 
