@@ -23,6 +23,8 @@ const char* word_of(SightState state) {
             return "found";
         case SightState::tracked:
             return "tracked";
+        case SightState::cut:
+            return "cut";
         case SightState::hidden:
             return "hidden";
         case SightState::lost:

@@ -11,7 +11,7 @@
 
 namespace tactus {
 
-// "found", "tracked", "hidden", "lost".
+// "found", "tracked", "cut", "hidden", "lost".
 const char* word_of(SightState state);
 
 // Of all objects that are there, 0 to 1; 0 where there are none.

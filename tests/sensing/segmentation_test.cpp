@@ -113,10 +113,10 @@ TEST(Segmentation, WhatStandsOnThePlaneIsMarked) {
     const DepthImage image = noisy_image(exact, noise, 3, 0);
     PlaneSearch search;
     search.up = direction_to_local(camera, {0.0, 1.0, 0.0});
-    const auto plane = find_plane(image, {}, search);
-    ASSERT_TRUE(plane);
+    const auto planes = find_planes(image, {}, search, 1);
+    ASSERT_EQ(planes.size(), 1u);
     Segmenter segmenter;
-    const Segmentation& found = segmenter.segment(image, {}, plane->plane, {});
+    const Segmentation& found = segmenter.segment(image, {}, planes.front().plane, {});
     ASSERT_EQ(found.clusters.size(), 1u);
     const auto of_box = static_cast<double>(std::ranges::count(exact.seen, std::uint16_t{0}));
     double hits = 0.0;

@@ -134,6 +134,7 @@ TEST(SightRoll, TheLeastBelievedIsTold) {
 TEST(SightRoll, EveryStateHasAWord) {
     EXPECT_STREQ(word_of(SightState::found), "found");
     EXPECT_STREQ(word_of(SightState::tracked), "tracked");
+    EXPECT_STREQ(word_of(SightState::cut), "cut");
     EXPECT_STREQ(word_of(SightState::hidden), "hidden");
     EXPECT_STREQ(word_of(SightState::lost), "lost");
 }

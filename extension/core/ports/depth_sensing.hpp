@@ -17,7 +17,7 @@
 namespace tactus {
 
 // Both sides must have been built from the same file: another one has another number.
-inline constexpr int depth_sensing_version = 4;
+inline constexpr int depth_sensing_version = 5;
 
 // The one function that the library shows: const DepthSensing* (*)(int version); null where it is of another
 // version.
@@ -65,8 +65,8 @@ enum class SensorState : std::uint8_t {
     ended,  // the recording is at its end
 };
 
-// hidden: something nearer stands before it.
-enum class SightState : std::uint8_t { found, tracked, hidden, lost };
+// cut: it is followed, and partly outside the image; hidden: something nearer stands before it.
+enum class SightState : std::uint8_t { found, tracked, cut, hidden, lost };
 
 struct SightedObject {
     std::uint64_t id = 0;    // stays while it is followed, also when it is lost for a while

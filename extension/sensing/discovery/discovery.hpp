@@ -37,11 +37,13 @@ struct SeeingSettings {
     int tries = 3;                      // of a piece, before it is told as a hull, > 0
     double remembered = 3.0;            // lost objects keep their name for so long (unit: seconds), >= 0
     double largest = 0.5;               // what is larger is no object (unit: meters), > 0
+    double comes_out = 0.1;             // what was hidden appears no farther off (unit: meters), >= 0
+    double support_looks = 1.0;         // between searches for a better support (unit: seconds), >= 0
 };
 
-// found: seen for the first time, or again; tracked: seen in the last image, too; hidden: something nearer
-// stands before it; lost: it is not where it was.
-enum class SeenState : std::uint8_t { found, tracked, hidden, lost };
+// found: seen for the first time, or again; tracked: seen in the last image, too; cut: the same, of what is
+// partly outside the image; hidden: something nearer stands before it; lost: it is not where it was.
+enum class SeenState : std::uint8_t { found, tracked, cut, hidden, lost };
 
 struct SeenObject {
     static constexpr std::size_t no_mesh = static_cast<std::size_t>(-1);
@@ -75,6 +77,10 @@ public:
 
     std::span<const SeenObject> objects() const { return objects_; }
     const std::string& problem() const { return problem_; }  // empty: none
+    // Pieces of the last image that nothing known explains: of these, how many end where the image does, and
+    // are not looked at; and how many look like a mesh and are too small or too far away to be sure.
+    int cut_pieces() const { return cut_pieces_; }
+    int far_pieces() const { return far_pieces_; }
     // In the world; none: no level surface is seen.
     const std::optional<WorldPlane>& support() const { return support_; }
     double support_residual() const { return support_residual_; }  // (unit: meters)
@@ -98,17 +104,24 @@ private:
         MotionFilter motion;
         Nanoseconds seen = 0;  // last time
         double quality = 0.0;
-        int unseen = 0;    // images in succession
-        PoseDoubt lost;    // what it may have moved by since it was seen
-        Vec3 extent{0.0};  // of a hull
+        int unseen = 0;           // images in succession
+        bool is_covered = false;  // in the last of these, by something nearer
+        PoseDoubt lost;           // what it may have moved by since it was seen
+        Vec3 extent{0.0};         // of a hull
     };
     struct Stranger {
         Vec3 place{0.0};  // in the world
         int tries = 0;
+        bool is_far = false;  // it looks like a mesh, and too little of it is seen to be sure
         Nanoseconds seen = 0;
     };
 
+    void let_pass(std::uint64_t stamp_us);
     void find_support(const DepthImage& image);
+    std::optional<PlaneFit> look_for_support(const DepthImage& image);
+    std::optional<PlaneFit> most_used(const DepthImage& image, const std::vector<PlaneFit>& planes);
+    int standing_pieces(const DepthImage& image, const ImagePlane& plane);
+    bool is_support_used() const;
     void learn_scale(const ImagePlane& told);
     bool follow(const SeenScene& scene, SeenObject& object, Track& track);
     Recognised look_around(const SeenScene& scene, const LearntMesh& known, const Pose& expected);
@@ -117,12 +130,16 @@ private:
     void take_out_drawing(const DepthImage& image, const LearntMesh& mesh, const Pose& mesh_in_camera);
     bool is_there(const Recognised& one) const;
     bool accepts(const Recognised& one) const;
+    bool is_sure(const Recognised& one) const;
     void note(SeenObject& object, Track& track, const Recognised& one);
     void note_unseen(SeenObject& object, Track& track, bool hidden);
     void tell(SeenObject& object, const Track& track) const;
     void recognise_one(const SeenScene& scene);
     void note_new(const Recognised& one);
-    void note_stranger(const SeenScene& scene, std::uint16_t piece);
+    std::optional<std::size_t> known_as(const Recognised& one) const;
+    bool is_cut(const PixelBox& box) const;
+    bool reaches_out(const LearntMesh& mesh, const Pose& mesh_in_camera, const DepthCamera& camera) const;
+    void note_stranger(const Vec3& place, bool is_far);
     void note_hull(const SeenScene& scene, std::uint16_t piece, const Vec3& place);
     void forget_old();
     Vec3 place_of(const SeenScene& scene, std::uint16_t piece) const;
@@ -134,10 +151,15 @@ private:
     std::vector<Track> tracks_;  // of objects_
     std::vector<Stranger> strangers_;
     bool searched_ = false;  // in this image, every view of a mesh has been tried
+    bool waits_ = false;     // a new piece could not be recognised in the last image, because of that
+    PixelBox seen_part_;     // of this image
+    int cut_pieces_ = 0, far_pieces_ = 0;
+    Nanoseconds support_looked_ = 0;  // last time
     std::uint32_t next_id_ = 1;
 
-    Pose camera_;  // in the world
-    Nanoseconds now_ = 0;
+    Pose camera_;                 // in the world
+    Nanoseconds now_ = 0;         // of a clock of its own: see let_pass()
+    std::uint64_t stamp_us_ = 0;  // of the last image
     std::optional<ImagePlane> plane_;
     std::optional<WorldPlane> support_;
     double support_residual_ = 0.0;

@@ -131,20 +131,52 @@ HeightOverImage height_over_image(const DepthCamera& camera, const ImagePlane& p
     return {a, b, -n.z - a * camera.center_x - b * camera.center_y, plane.distance()};
 }
 
-std::optional<PlaneFit> find_plane(const DepthImage& image, const DepthAccuracy& accuracy,
-                                   const PlaneSearch& search) {
-    const std::vector<PlanePixel> pixels = sample(image, accuracy);
-    if (pixels.size() < 3) {
-        return std::nullopt;
+namespace {
+
+// Three pixels, anywhere or all of them within a window: those of a small table among all others are seldom
+// three of one plane.
+class Triples {
+public:
+    explicit Triples(const std::vector<PlanePixel>& pixels) : pixels_(pixels) {}
+
+    std::optional<ImagePlane> any() {
+        const std::size_t a = anyone(), b = anyone(), c = anyone();
+        return through(pixels_[a], pixels_[b], pixels_[c]);
     }
-    std::mt19937_64 random(1);
-    const auto any = [&]() -> const PlanePixel& { return pixels[random() % pixels.size()]; };
+    std::optional<ImagePlane> close() {
+        const std::size_t a = anyone(), b = near(a), c = near(a);
+        return through(pixels_[a], pixels_[b], pixels_[c]);
+    }
+
+private:
+    // Pixels are in the order of their rows.
+    static constexpr int looks = 40;
+    static constexpr double window = 0.15;  // of rays at depth 1 (dimensionless)
+
+    std::size_t anyone() { return random_() % pixels_.size(); }
+    std::size_t near(std::size_t to) {
+        const Vec3 ray = pixels_[to].ray;
+        for (int i = 0; i < looks; ++i) {
+            const std::size_t other = anyone();
+            const Vec3 apart = pixels_[other].ray - ray;
+            if (std::abs(apart.x) < window && std::abs(apart.y) < window) {
+                return other;
+            }
+        }
+        return anyone();
+    }
+
+    const std::vector<PlanePixel>& pixels_;
+    std::mt19937_64 random_{1};
+};
+
+std::optional<ImagePlane> most_seen_plane(const std::vector<PlanePixel>& pixels, const PlaneSearch& search) {
+    Triples triples(pixels);
     const double least_cosine = std::cos(search.max_tilt);
     std::optional<ImagePlane> best;
     std::size_t most = 0;
-    for (int i = 0; i < search.tries; ++i) {
-        const PlanePixel &a = any(), &b = any(), &c = any();
-        const std::optional<ImagePlane> plane = through(a, b, c);
+    for (int i = 0; i < 2 * search.tries; ++i) {
+        const std::optional<ImagePlane> plane = i < search.tries ? triples.any() : triples.close();
         if (!plane || !(glm::dot(plane->normal(), search.up) > least_cosine)) {
             continue;
         }
@@ -154,7 +186,67 @@ std::optional<PlaneFit> find_plane(const DepthImage& image, const DepthAccuracy&
             best = plane;
         }
     }
-    return best ? fit_near(*best, pixels, search.least_share) : std::nullopt;
+    return best;
+}
+
+// What is so near to a plane is not another one (unit: meters).
+constexpr double same_level = 0.02;
+
+void take_out_level(const ImagePlane& plane, std::vector<PlanePixel>& pixels) {
+    const double length = glm::length(plane.m);
+    std::erase_if(pixels, [&](const PlanePixel& pixel) {
+        const double height = (1.0 - pixel.depth * glm::dot(plane.m, pixel.ray)) / length;
+        return std::abs(height) < same_level || lies_in(plane, pixel, 3.0 * deviations);
+    });
+}
+
+// Depths that are all off by a share: so far, in steps that are less than chance (dimensionless).
+constexpr double most_error = 0.05, error_step = 0.0025;
+constexpr double least_share_of_known = 0.015;
+
+}  // namespace
+
+std::vector<PlaneFit> find_planes(const DepthImage& image, const DepthAccuracy& accuracy,
+                                  const PlaneSearch& search, std::size_t most) {
+    const std::vector<PlanePixel> all = sample(image, accuracy);
+    std::vector<PlanePixel> left = all;
+    std::vector<PlaneFit> found;
+    while (found.size() < most && left.size() >= 3) {
+        const std::optional<ImagePlane> plane = most_seen_plane(left, search);
+        std::optional<PlaneFit> fit = plane ? fit_near(*plane, left, 0.0) : std::nullopt;
+        if (!fit) {
+            break;
+        }
+        fit->share *= static_cast<double>(left.size()) / static_cast<double>(all.size());
+        const bool is_level = glm::dot(fit->plane.normal(), search.up) > std::cos(search.max_tilt);
+        if (!(fit->share >= search.least_share) || !is_level) {
+            break;
+        }
+        found.push_back(*fit);
+        take_out_level(fit->plane, left);
+    }
+    return found;
+}
+
+std::optional<PlaneFit> find_known_plane(const DepthImage& image, const DepthAccuracy& accuracy,
+                                         const ImagePlane& known) {
+    const std::vector<PlanePixel> pixels = sample(image, accuracy);
+    ImagePlane best = known;
+    std::size_t most = 0;
+    for (double error = -most_error; error <= most_error; error += error_step) {
+        const ImagePlane plane{known.m / (1.0 + error)};
+        const std::size_t count = count_in(plane, pixels);
+        if (count > most) {
+            most = count;
+            best = plane;
+        }
+    }
+    // A camera's place is known to a degree or two: each fit takes more of a plane that leans.
+    std::optional<PlaneFit> fit = fit_near(best, pixels, least_share_of_known);
+    for (int i = 0; i < 3 && fit; ++i) {
+        fit = fit_near(fit->plane, pixels, least_share_of_known);
+    }
+    return fit;
 }
 
 std::optional<PlaneFit> follow_plane(const DepthImage& image, const DepthAccuracy& accuracy,

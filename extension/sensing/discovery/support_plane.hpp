@@ -7,6 +7,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "sensing/discovery/depth_accuracy.hpp"
 #include "sensing/image/depth_image.hpp"
@@ -36,14 +37,19 @@ struct PlaneFit {
 struct PlaneSearch {
     Vec3 up{0.0, 1.0, 0.0};     // of the world, in the camera's frame, unit
     double max_tilt = 0.6;      // of the plane's normal from it (unit: radians), > 0
-    double least_share = 0.08;  // of the pixels: less is no support (dimensionless)
-    int tries = 150;            // planes through three pixels
+    double least_share = 0.04;  // of the pixels: less is no support (dimensionless)
+    int tries = 150;            // planes through three pixels, and as many through three that are close
 };
 
-// The plane that most pixels lie in, of those that are level enough; none where the image has no such plane.
-// The same image gives the same plane.
-std::optional<PlaneFit> find_plane(const DepthImage& image, const DepthAccuracy& accuracy,
-                                   const PlaneSearch& search);
+// Planes that are level enough, each with the most pixels of those that lie in none before it; none where the
+// image has no such plane. The same image gives the same planes.
+std::vector<PlaneFit> find_planes(const DepthImage& image, const DepthAccuracy& accuracy,
+                                  const PlaneSearch& search, std::size_t most);
+
+// A plane that is known, but for the share by which all depths may be off together: none where too little of
+// it is seen. `known`: for depths as they are.
+std::optional<PlaneFit> find_known_plane(const DepthImage& image, const DepthAccuracy& accuracy,
+                                         const ImagePlane& known);
 
 // The plane near `last` that fits best; none where too little of it is seen to tell.
 std::optional<PlaneFit> follow_plane(const DepthImage& image, const DepthAccuracy& accuracy,

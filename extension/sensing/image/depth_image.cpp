@@ -40,6 +40,32 @@ DepthCamera kinect_camera(int width, int height) {
     return camera_of_view(width, height, 1.0144686707507438, 0.78980943449644714);
 }
 
+PixelBox seen_part(const DepthImage& image) {
+    const int width = image.camera.width, height = image.camera.height;
+    const auto is_empty = [&](int u, int v, int du, int dv, int count) {
+        for (int i = 0; i < count; ++i) {
+            if (image.depth_mm[static_cast<std::size_t>((v + i * dv) * width + u + i * du)] != 0) {
+                return false;
+            }
+        }
+        return true;
+    };
+    PixelBox part{0, 0, width, height};
+    while (part.left < width / 25 && is_empty(part.left, 0, 0, 1, height)) {
+        ++part.left;
+    }
+    while (width - part.right < width / 25 && is_empty(part.right - 1, 0, 0, 1, height)) {
+        --part.right;
+    }
+    while (part.top < height / 25 && is_empty(0, part.top, 1, 0, width)) {
+        ++part.top;
+    }
+    while (height - part.bottom < height / 25 && is_empty(0, part.bottom - 1, 1, 0, width)) {
+        --part.bottom;
+    }
+    return part;
+}
+
 void DepthBuffer::clear(const DepthCamera& of) {
     camera = of;
     depth.assign(pixel_count(of), std::numeric_limits<float>::infinity());

@@ -59,6 +59,18 @@ struct DepthImage {
     std::uint64_t time_us = 0;            // of the camera's clock (unit: microseconds)
 };
 
+// Rectangle of pixels, without its last column and row.
+struct PixelBox {
+    int left = 0, top = 0, right = 0, bottom = 0;
+
+    bool is_empty() const { return right <= left || bottom <= top; }
+    bool operator==(const PixelBox&) const = default;
+};
+
+// What the camera sees: the image without the strips along its edges in which no pixel has depth, as where
+// the projector's light does not reach. No strip is broader than a twenty-fifth of the image.
+PixelBox seen_part(const DepthImage& image);
+
 // Depths as they are computed: meters, infinite where nothing is.
 struct DepthBuffer {
     DepthCamera camera;

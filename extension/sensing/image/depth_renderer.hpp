@@ -19,14 +19,6 @@ struct PosedMesh {
     Pose pose;                           // in the camera's frame
 };
 
-// Rectangle of pixels, without its last column and row.
-struct PixelBox {
-    int left = 0, top = 0, right = 0, bottom = 0;
-
-    bool is_empty() const { return right <= left || bottom <= top; }
-    bool operator==(const PixelBox&) const = default;
-};
-
 // Keeps memory from one call to the next.
 class DepthRenderer {
 public:

@@ -28,6 +28,8 @@ SightState state_of(SeenState state) {
             return SightState::found;
         case SeenState::tracked:
             return SightState::tracked;
+        case SeenState::cut:
+            return SightState::cut;
         case SeenState::hidden:
             return SightState::hidden;
         case SeenState::lost:
@@ -102,6 +104,20 @@ std::string Observer::look(const DepthImage& image, const SensorSettings& settin
     }
     tell(settings, picture);
     return "";
+}
+
+std::string Observer::remark() const {
+    if (!discovery_) {
+        return "";
+    }
+    std::string remark;
+    if (discovery_->cut_pieces() > 0) {
+        remark += "; what ends at the edge of the image is not told before it is whole";
+    }
+    if (discovery_->far_pieces() > 0) {
+        remark += "; what is too small or too far away to be told stays unknown";
+    }
+    return remark;
 }
 
 void Observer::tell(const SensorSettings& settings, Picture& picture) {

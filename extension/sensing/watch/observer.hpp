@@ -44,6 +44,9 @@ public:
     // image: all places stay as they were, and are believed less.
     std::string look(const DepthImage& image, const SensorSettings& settings, Picture& picture);
 
+    // Of the last image: what is seen and not told, and why; for the end of a sentence. Empty: nothing.
+    std::string remark() const;
+
 private:
     void begin(const SensorSettings& settings);
     void tell(const SensorSettings& settings, Picture& picture);

@@ -229,7 +229,7 @@ void Sensor::see(const DepthImage& image, Nanoseconds arrived) {
         return;
     }
     seen_.sight.state = SensorState::seeing;
-    seen_.text = "seeing through " + camera_->name();
+    seen_.text = "seeing through " + camera_->name() + observer_.remark();
     ++seen_.sight.frames;
     seen_.sight.camera_time = image.time_us;
     seen_.sight.seen_at = seen_at;
