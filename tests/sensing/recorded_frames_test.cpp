@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 #include <string>
+#include <system_error>
 
 #include "shared/oni_writer.hpp"
 
@@ -79,7 +80,11 @@ TEST(RecordedFrames, AFileThatBecomesShorterIsDamaged) {
     const Written file(shared::slope_recording(64, 48, 3, DepthCodec::none));
     RecordedFrames frames;
     ASSERT_EQ(frames.open(file.path(), at_once), "");
-    fs::resize_file(file.path(), 100);
+    std::error_code refused;
+    fs::resize_file(file.path(), 100, refused);
+    if (refused) {
+        GTEST_SKIP() << "this system keeps files whole that are open";
+    }
     DepthImage image;
     EXPECT_EQ(frames.read(image, 0), FrameSource::Reading::damaged);
 }
