@@ -127,8 +127,8 @@ RUN_ANYWHERE = ["extension/nodes/entry.cpp", "extension/platform/processor_x86_6
 # Stands in front of the C library and of the sanitizers: it runs before these are ready.
 NOT_WATCHED = ["tests/support/realtime_audit.cpp", "tests/support/realtime_audit_linux.cpp"]
 
-# Of tests alone: gcc 12 for Windows takes the variants in copied lists of shapes for uninitialised.
-FALSE_ALARMS = {"windows": ["-Wno-maybe-uninitialized"]}
+# Of tests alone: gcc 12 takes the variants in copied lists of shapes for uninitialized.
+FALSE_ALARMS = ["-Wno-maybe-uninitialized"]
 
 
 def flags_of_file(platform, source, sanitizers):

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace tactus {
+namespace tactus::device_recording_test {
 namespace {
 
 DeviceRecording read_text(const std::string& text) {
@@ -84,4 +84,4 @@ TEST(DeviceRecording, RefusesWhatIsNoRecording) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::device_recording_test

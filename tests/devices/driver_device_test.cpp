@@ -6,7 +6,7 @@
 #include "shared/driven_device.hpp"
 #include "support/process.hpp"
 
-namespace tactus {
+namespace tactus::driver_device_test {
 namespace {
 
 // Gone under a force, and slow to close.
@@ -88,4 +88,4 @@ TEST(DriverDevice, AForceThatComesAfterTheWatchdogIsTakenAwayAgain) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::driver_device_test

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::emulated_robot_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -75,4 +75,4 @@ TEST(EmulatedRobot, StaysWithinItsStopsWhateverItIsDrivenWith) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::emulated_robot_test

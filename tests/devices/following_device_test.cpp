@@ -10,7 +10,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::following_device_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -161,4 +161,4 @@ TEST(FollowingDevice, ReadingNeitherAllocatesNorLocks) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::following_device_test

@@ -8,7 +8,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::hand_path_test {
 namespace {
 
 constexpr Nanoseconds second = nanoseconds_per_second;
@@ -216,4 +216,4 @@ TEST(KeyframePath, AtOneSpeedEveryPieceTakesAsLongAsItIs) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_path_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::path_device_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -27,4 +27,4 @@ TEST(PathDevice, IsAlwaysConnectedAndFeelsNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::path_device_test

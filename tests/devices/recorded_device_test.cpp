@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::recorded_device_test {
 namespace {
 
 DeviceSample sample_at(double x) {
@@ -38,4 +38,4 @@ TEST(RecordedDevice, StaysAtItsEndAndIsGone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::recorded_device_test

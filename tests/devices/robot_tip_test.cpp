@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::robot_tip_test {
 namespace {
 
 TEST(RobotTip, IsTheHandOfAnotherWorldAndIsPushedByIt) {
@@ -32,4 +32,4 @@ TEST(RobotTip, IsTheHandOfAnotherWorldAndIsPushedByIt) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::robot_tip_test

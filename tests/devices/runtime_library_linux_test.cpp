@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::runtime_library_linux_test {
 namespace {
 
 TEST(RuntimeLibrary, FindsAllFunctionsOrNone) {
@@ -23,4 +23,4 @@ TEST(RuntimeLibrary, IsNotThereWithoutTheFunctionThatTellsIt) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::runtime_library_linux_test

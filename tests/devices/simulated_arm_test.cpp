@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::simulated_arm_test {
 namespace {
 
 HandPath resting(const Vec3& place) {
@@ -84,4 +84,4 @@ TEST(SimulatedArm, BecomesAnotherOneWhereItIs) {
     EXPECT_NEAR(arm.read(10'000'000'000).position.y, rest.y + 3.0 / 600.0, 1e-9);
 }
 
-}  // namespace tactus
+}  // namespace tactus::simulated_arm_test

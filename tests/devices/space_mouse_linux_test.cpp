@@ -14,7 +14,7 @@
 #include <span>
 #include <string>
 
-namespace tactus {
+namespace tactus::space_mouse_linux_test {
 namespace {
 
 constexpr Nanoseconds second = 1'000'000'000;
@@ -212,4 +212,4 @@ TEST(SpaceMouse, NonsenseIsNotFollowed) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::space_mouse_linux_test

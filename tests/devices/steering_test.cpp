@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace tactus {
+namespace tactus::steering_test {
 namespace {
 
 TEST(Steering, AStickAtRestIsNoDeflection) {
@@ -61,4 +61,4 @@ TEST(Steering, NoDeflectionLeadsOutOfReach) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::steering_test

@@ -8,7 +8,7 @@
 #include "network/link_conditions.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::clock_sync_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -157,4 +157,4 @@ TEST(ClockSync, ForgetsOnRequest) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::clock_sync_test

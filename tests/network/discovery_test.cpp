@@ -11,7 +11,7 @@
 #include "shared/object_samples.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::discovery_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -494,4 +494,4 @@ TEST(Discovery, TheHapticThreadsPartAllocatesLocksAndAsksForNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::discovery_test

@@ -8,7 +8,7 @@
 
 #include "network/messages.hpp"
 
-namespace tactus {
+namespace tactus::doorman_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -56,4 +56,4 @@ TEST(Doorman, ARefusalIsNoKnock) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::doorman_test

@@ -10,7 +10,7 @@
 #include "shared/wire_samples.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::endpoint_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -437,4 +437,4 @@ TEST(RandomEpoch, IsAnotherOneEachTime) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::endpoint_test

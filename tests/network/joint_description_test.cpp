@@ -8,7 +8,7 @@
 #include "published_vectors.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::joint_description_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -109,4 +109,4 @@ TEST(JointDescription, TravelsInPiecesAndIsTold) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::joint_description_test

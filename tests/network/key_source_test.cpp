@@ -9,7 +9,7 @@
 #include "support/file_access.hpp"
 #include "support/process.hpp"
 
-namespace tactus {
+namespace tactus::key_source_test {
 namespace {
 
 class KeyFile : public ::testing::Test {
@@ -60,4 +60,4 @@ TEST_F(KeyFile, TheEnvironmentIsAskedOnlyWhereNoFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::key_source_test

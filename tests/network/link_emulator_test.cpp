@@ -10,7 +10,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::link_emulator_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -370,4 +370,4 @@ TEST(MemoryLink, RefusesTheEmptyTheTooLongAndTheFull) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::link_emulator_test

@@ -17,7 +17,7 @@
 #include "shared/random_values.hpp"
 #include "shared/wire_samples.hpp"
 
-namespace tactus {
+namespace tactus::messages_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -417,4 +417,4 @@ TEST(RefusalCounts, AddUp) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::messages_test

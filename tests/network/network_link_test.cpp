@@ -8,7 +8,7 @@
 #include "network/endpoint.hpp"
 #include "platform/clock.hpp"
 
-namespace tactus {
+namespace tactus::network_link_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -124,4 +124,4 @@ TEST(NetworkLink, SaysWhatIsWrong) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::network_link_test

@@ -11,7 +11,7 @@
 #include "shared/object_samples.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::object_description_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -174,4 +174,4 @@ TEST(ContentHash, IsBlake2b) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::object_description_test

@@ -15,7 +15,7 @@
 #include "shared/random_values.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::sample_stream_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -271,4 +271,4 @@ TEST(SampleStream, ATickAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::sample_stream_test

@@ -17,7 +17,7 @@
 #include "shared/random_values.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::secure_session_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -478,4 +478,4 @@ TEST(SecureSession, SealsAsThePublishedVectorsSay) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::secure_session_test

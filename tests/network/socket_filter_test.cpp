@@ -10,7 +10,7 @@
 #include "shared/random_values.hpp"
 #include "support/emulation.hpp"
 
-namespace tactus {
+namespace tactus::socket_filter_test {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -130,4 +130,4 @@ TEST(SocketFilter, TheSystemAdmitsTheSame) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::socket_filter_test

@@ -14,7 +14,7 @@
 #include "support/emulation.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::udp_link_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -441,4 +441,4 @@ TEST(UdpLink, ClosingSendsWhatWasSaidLast) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::udp_link_test

@@ -8,7 +8,7 @@
 #include "scene.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::far_islands_test {
 namespace {
 
 using namespace scene;
@@ -237,4 +237,4 @@ TEST(FarIslands, NothingIsAllocated) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::far_islands_test

@@ -10,7 +10,7 @@
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::hand_contact_test {
 namespace {
 
 using namespace scene;
@@ -328,4 +328,4 @@ TEST(HandContact, DoorOpensUnderTheFinger) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_contact_test

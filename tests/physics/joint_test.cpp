@@ -11,7 +11,7 @@
 #include "scene.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::joint_test {
 namespace {
 
 using namespace scene;
@@ -271,4 +271,4 @@ TEST(Joint, AddingSteppingAndRemovingAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::joint_test

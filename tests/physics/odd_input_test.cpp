@@ -12,7 +12,7 @@
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::odd_input_test {
 namespace {
 
 using namespace scene;
@@ -369,4 +369,4 @@ TEST(OddInput, RandomCallsBreakNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::odd_input_test

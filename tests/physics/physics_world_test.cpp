@@ -6,7 +6,7 @@
 
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::physics_world_test {
 namespace {
 
 using namespace scene;
@@ -313,4 +313,4 @@ TEST(PhysicsWorld, SameCallsGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::physics_world_test

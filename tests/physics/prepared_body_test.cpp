@@ -7,7 +7,7 @@
 
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::prepared_body_test {
 namespace {
 
 using namespace scene;
@@ -149,4 +149,4 @@ TEST(PreparedBody, MovedFromOwnsNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::prepared_body_test

@@ -10,7 +10,7 @@
 #include "scene.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::realtime_test {
 namespace {
 
 using namespace scene;
@@ -149,4 +149,4 @@ TEST_F(PhysicsInTheLoop, TakesNoLockThatPreparingTakes) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::realtime_test

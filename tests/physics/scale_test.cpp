@@ -7,7 +7,7 @@
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::scale_test {
 namespace {
 
 using namespace scene;
@@ -115,4 +115,4 @@ TEST(Scale, AWallOfTenMetresPushesACubeOfFiveMillimetres) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::scale_test

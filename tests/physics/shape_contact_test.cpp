@@ -9,7 +9,7 @@
 #include "physics/physics_world.hpp"
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::shape_contact_test {
 namespace {
 
 using namespace scene;
@@ -221,4 +221,4 @@ TEST(ShapeContact, AMovingConcaveMeshCollidesAsItsHullAndACompoundAsItsParts) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::shape_contact_test

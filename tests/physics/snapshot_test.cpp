@@ -10,7 +10,7 @@
 #include "scene.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::snapshot_test {
 namespace {
 
 using namespace scene;
@@ -195,4 +195,4 @@ TEST(Snapshot, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::snapshot_test

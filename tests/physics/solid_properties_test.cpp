@@ -9,7 +9,7 @@
 
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::solid_properties_test {
 namespace {
 
 using namespace scene;
@@ -100,4 +100,4 @@ TEST(SolidProperties, OpenInsideOutAndFlatMeshesEncloseNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::solid_properties_test

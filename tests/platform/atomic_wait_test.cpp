@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::atomic_wait_test {
 namespace {
 
 // Each waits for the other's count; a wake that is lost leaves both waiting for good.
@@ -52,4 +52,4 @@ TEST(AtomicWait, WhatHasChangedAlreadyIsNotWaitedFor) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::atomic_wait_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::beside_loop_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -34,4 +34,4 @@ TEST(CrowdedOut, ComesBackWhereItMostlyWaitsAndTriesAgainLater) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::beside_loop_test

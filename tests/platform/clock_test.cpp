@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace tactus {
+namespace tactus::clock_test {
 namespace {
 
 TEST(Clock, NeverGoesBackAndIsFinerThanTenMicroseconds) {
@@ -33,4 +33,4 @@ TEST(Clock, TheWallClockIsTheSystems) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::clock_test

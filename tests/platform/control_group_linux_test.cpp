@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::control_group_linux_test {
 namespace {
 
 TEST(LimitsProcessorTime, ReadsTheControlGroupsAllowance) {
@@ -12,4 +12,4 @@ TEST(LimitsProcessorTime, ReadsTheControlGroupsAllowance) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::control_group_linux_test

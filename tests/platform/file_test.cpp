@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace tactus {
+namespace tactus::file_test {
 namespace {
 
 TEST(File, IsFoundByItsNameInUtf8) {
@@ -30,4 +30,4 @@ TEST(File, InAFolderThatCannotBeMadeIsNone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::file_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::held_by_threads_test {
 namespace {
 
 std::string granted(bool) {
@@ -48,4 +48,4 @@ TEST(HeldByThreads, TheFirstIsToldSo) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::held_by_threads_test

@@ -6,7 +6,7 @@
 
 #include "support/file_access.hpp"
 
-namespace tactus {
+namespace tactus::private_file_test {
 namespace {
 
 class APrivateFile : public ::testing::Test {
@@ -48,4 +48,4 @@ TEST_F(APrivateFile, ThatIsTooLongOrNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::private_file_test

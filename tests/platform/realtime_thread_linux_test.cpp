@@ -7,7 +7,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::realtime_thread_linux_test {
 namespace {
 
 // In a thread of its own, so that the test's thread keeps its scheduling.
@@ -66,4 +66,4 @@ TEST(RealtimeThreadOnLinux, WhereIdlingIsRefusedNothingIsChanged) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::realtime_thread_linux_test

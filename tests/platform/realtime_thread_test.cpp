@@ -5,7 +5,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::realtime_thread_test {
 namespace {
 
 // In a thread of its own, so that the test's thread keeps its scheduling.
@@ -60,4 +60,4 @@ TEST(RealtimeThread, AProcessorThatIsNotThereIsRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::realtime_thread_test

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace tactus {
+namespace tactus::shared_library_test {
 namespace {
 
 TEST(SharedLibrary, OneThatIsNotThereIsSaid) {
@@ -46,4 +46,4 @@ TEST(SharedLibrary, TheExtensionLoadsAndTellsAnEngineThatIsTooOld) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::shared_library_test

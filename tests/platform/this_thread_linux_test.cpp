@@ -5,7 +5,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::this_thread_linux_test {
 namespace {
 
 int processors() {
@@ -30,4 +30,4 @@ TEST(ThisThreadOnLinux, LeavesOneProcessorOfSeveralAndTakesItBack) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::this_thread_linux_test

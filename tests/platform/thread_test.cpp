@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::thread_test {
 namespace {
 
 TEST(Thread, RunsElsewhereAndIsWaitedFor) {
@@ -29,4 +29,4 @@ TEST(Thread, JoiningNoneDoesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::thread_test

@@ -9,7 +9,7 @@
 #include "platform/clock.hpp"
 #include "support/emulation.hpp"
 
-namespace tactus {
+namespace tactus::udp_socket_test {
 namespace {
 
 constexpr Nanoseconds patience = 20 * nanoseconds_per_second;
@@ -172,4 +172,4 @@ TEST(SocketWait, EndsWhenADatagramComesAndWhileItStays) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::udp_socket_test

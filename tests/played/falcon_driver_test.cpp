@@ -14,7 +14,7 @@
 #include "played/played_stall.hpp"
 #include "played/played_usb.hpp"
 
-namespace tactus {
+namespace tactus::falcon_driver_test {
 namespace {
 
 using shared::PlayedFalcon;
@@ -229,4 +229,4 @@ TEST(PlayedFalcon, AWrongImageIsNoFalcon) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::falcon_driver_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::awake_processor_test {
 namespace {
 
 TEST(AwakeProcessor, NeedsOneProcessor) {
@@ -22,4 +22,4 @@ TEST(AwakeProcessor, StartsAndStopsAgainAndAgain) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::awake_processor_test

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::byte_ring_test {
 namespace {
 
 std::vector<std::byte> read(ByteRing& ring) {
@@ -71,4 +71,4 @@ TEST(ByteRing, BetweenTwoThreadsEveryGroupArrivesWholeAndInOrder) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::byte_ring_test

@@ -6,7 +6,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::recorder_ring_test {
 namespace {
 
 struct Row {
@@ -69,4 +69,4 @@ TEST(RecorderRing, AppendingNeitherAllocatesNorLocks) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::recorder_ring_test

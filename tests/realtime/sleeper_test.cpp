@@ -6,7 +6,7 @@
 #include "platform/clock.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::sleeper_test {
 namespace {
 
 TEST(Sleeper, NeverReturnsBeforeTheDeadline) {
@@ -47,4 +47,4 @@ TEST(Sleeper, WithoutALookOutNothingIsLearnt) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::sleeper_test

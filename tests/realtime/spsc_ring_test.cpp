@@ -8,7 +8,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::spsc_ring_test {
 namespace {
 
 TEST(SpscRing, GivesBackInTheOrderOfPushing) {
@@ -120,4 +120,4 @@ TEST(SpscRing, NeitherAllocatesNorLocks) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::spsc_ring_test

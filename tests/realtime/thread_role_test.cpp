@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace tactus {
+namespace tactus::thread_role_test {
 namespace {
 
 TEST(HapticRole, IsHeldForABlockAndNests) {
@@ -39,4 +39,4 @@ TEST(HapticRoleDeathTest, TheAssertStopsAnyOtherThread) {
 #endif
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::thread_role_test

@@ -14,7 +14,7 @@
 #include "realtime/thread_role.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tick_loop_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -246,4 +246,4 @@ TEST(BaselineLoop, TicksBesideTheMeasuredLoopAndCountsItsOwn) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tick_loop_test

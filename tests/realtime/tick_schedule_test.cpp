@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::tick_schedule_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -52,4 +52,4 @@ TEST(TickSchedule, BeingEarlyChangesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tick_schedule_test

@@ -8,7 +8,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tick_statistics_test {
 namespace {
 
 constexpr Nanoseconds us = 1'000;
@@ -151,4 +151,4 @@ TEST(TickStatistics, CountingNeitherAllocatesNorLocks) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tick_statistics_test

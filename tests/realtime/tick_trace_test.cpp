@@ -9,7 +9,7 @@
 #include "platform/clock.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tick_trace_test {
 namespace {
 
 // One tick with a stage inside a stage, recorded by the real clock.
@@ -155,4 +155,4 @@ TEST(WriteTraceEvents, ATimeBeforeTheOriginIsNegative) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tick_trace_test

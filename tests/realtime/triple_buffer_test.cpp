@@ -9,7 +9,7 @@
 
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::triple_buffer_test {
 namespace {
 
 TEST(TripleBuffer, StartsWithTheInitialValueEverywhere) {
@@ -99,4 +99,4 @@ TEST(TripleBuffer, NeitherAllocatesNorLocks) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::triple_buffer_test

@@ -10,7 +10,7 @@
 
 #include "platform/atomic_wait.hpp"
 
-namespace tactus {
+namespace tactus::workers_test {
 
 namespace {
 
@@ -130,4 +130,4 @@ TEST(Workers, WhatIsDiscardedFasterThanItIsDestroyedIsDestroyedAtOnce) {
 
 }  // namespace
 
-}  // namespace tactus
+}  // namespace tactus::workers_test

@@ -4,7 +4,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::camera_clock_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -91,4 +91,4 @@ TEST(CameraClock, NothingIsTakenAfterItHasArrived) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::camera_clock_test

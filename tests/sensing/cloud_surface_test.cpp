@@ -8,7 +8,7 @@
 #include "core/math/body_motion.hpp"
 #include "shared/depth_scenes.hpp"
 
-namespace tactus {
+namespace tactus::cloud_surface_test {
 namespace {
 
 using namespace shared;
@@ -120,4 +120,4 @@ TEST(CloudSurface, GivesWayToWhatIsRecognised) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::cloud_surface_test

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tactus {
+namespace tactus::depth_image_test {
 namespace {
 
 DepthImage slanted_image(const DepthCamera& camera) {
@@ -87,4 +87,4 @@ TEST(DepthImage, ACameraThatMakesNoSenseIsSaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::depth_image_test

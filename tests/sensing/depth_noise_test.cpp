@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tactus {
+namespace tactus::depth_noise_test {
 namespace {
 
 constexpr int width = 160, height = 120;
@@ -166,4 +166,4 @@ TEST(DepthNoise, NothingStaysNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::depth_noise_test

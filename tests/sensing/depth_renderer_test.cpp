@@ -10,7 +10,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::depth_renderer_test {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -164,4 +164,4 @@ TEST(DepthRenderer, TrianglesWithoutAreaAreNotSeen) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::depth_renderer_test

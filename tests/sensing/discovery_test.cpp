@@ -10,7 +10,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::discovery_test {
 namespace {
 
 using namespace shared;
@@ -553,4 +553,4 @@ TEST(Discovery, MeshesThatCannotBeLearntAreRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::discovery_test

@@ -9,7 +9,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::mesh_field_test {
 namespace {
 
 double box_distance(const Vec3& p, const Vec3& half) {
@@ -84,4 +84,4 @@ TEST(MeshField, FarAwayTheNearestCellAnswers) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::mesh_field_test

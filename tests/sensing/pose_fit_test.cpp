@@ -10,7 +10,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::pose_fit_test {
 namespace {
 
 const Vec3 half(0.05, 0.03, 0.04);
@@ -147,4 +147,4 @@ TEST(PoseFit, ATurnedCovarianceKeepsItsTrace) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::pose_fit_test

@@ -8,7 +8,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::segmentation_test {
 namespace {
 
 using shared::DepthScene;
@@ -142,4 +142,4 @@ TEST(Segmentation, WhatIsTakenOutIsInNoPiece) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::segmentation_test

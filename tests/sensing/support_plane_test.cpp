@@ -9,7 +9,7 @@
 #include "shared/depth_scenes.hpp"
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::support_plane_test {
 namespace {
 
 using shared::camera_above_table;
@@ -152,4 +152,4 @@ TEST(SupportPlane, NoDepthHasNone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::support_plane_test

@@ -9,7 +9,7 @@
 
 #include "scene.hpp"
 
-namespace tactus {
+namespace tactus::camera_test {
 namespace {
 
 using testing::Scene;
@@ -140,4 +140,4 @@ TEST(Camera, RefusesASceneThatIsDamaged) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::camera_test

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <thread>
 
-namespace tactus {
+namespace tactus::lasting_thread_test {
 namespace {
 
 std::thread::id thread_of_one() {
@@ -40,4 +40,4 @@ TEST(LastingThread, ThoseAtOnceAreSeveral) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::lasting_thread_test

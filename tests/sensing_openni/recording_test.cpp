@@ -12,7 +12,7 @@
 #include "sensing/recording/recorded_frames.hpp"
 #include "sensing/source.hpp"
 
-namespace tactus {
+namespace tactus::recording_test {
 namespace {
 
 using testing::Scene;
@@ -157,4 +157,4 @@ TEST_F(Recording, WithAnyByteOfItsHeaderChangedEndsNoProgram) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::recording_test

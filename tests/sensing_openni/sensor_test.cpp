@@ -14,7 +14,7 @@
 #include "scene.hpp"
 #include "sensing/source.hpp"
 
-namespace tactus {
+namespace tactus::sensor_test {
 namespace {
 
 using testing::Scene;
@@ -257,4 +257,4 @@ TEST(Sensor, RefusesAnImageInWhichNothingCanBeSeen) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::sensor_test

@@ -6,7 +6,7 @@
 
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::coupling_test {
 namespace {
 
 using namespace session_test;
@@ -324,4 +324,4 @@ TEST(Coupling, TwoFingersLiftABox) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::coupling_test

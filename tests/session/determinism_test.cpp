@@ -10,7 +10,7 @@
 #include "shared/meshes.hpp"
 #include "support/process.hpp"
 
-namespace tactus {
+namespace tactus::determinism_test {
 namespace {
 
 using namespace session_test;
@@ -135,4 +135,4 @@ TEST(SessionDeterminism, TheForceLawChangesTheRun) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::determinism_test

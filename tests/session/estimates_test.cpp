@@ -9,7 +9,7 @@
 #include "model_rig.hpp"
 #include "shared/rough_eyes.hpp"
 
-namespace tactus {
+namespace tactus::estimates_test {
 namespace {
 
 using session_test::body;
@@ -246,4 +246,4 @@ TEST(Estimates, AModelComesToFeelAsWhatTheRobotTouches) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::estimates_test

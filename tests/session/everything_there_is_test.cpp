@@ -4,7 +4,7 @@
 
 #include "linked_places.hpp"
 
-namespace tactus {
+namespace tactus::everything_there_is_test {
 namespace {
 
 using namespace session_test;
@@ -178,4 +178,4 @@ TEST(EverythingThereIs, WorldsMayStandAnywhere) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::everything_there_is_test

@@ -6,7 +6,7 @@
 
 #include "model_rig.hpp"
 
-namespace tactus {
+namespace tactus::frugal_test {
 namespace {
 
 using namespace session_test;
@@ -235,4 +235,4 @@ TEST(Frugal, StatesDoNotFillUpANarrowWay) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::frugal_test

@@ -3,7 +3,7 @@
 
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::guide_test {
 namespace {
 
 using namespace session_test;
@@ -42,4 +42,4 @@ TEST(Guide, WhatLeadsNowhereIsRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::guide_test

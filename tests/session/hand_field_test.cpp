@@ -6,7 +6,7 @@
 #include "session_rig.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::hand_field_test {
 namespace {
 
 using namespace session_test;
@@ -109,4 +109,4 @@ TEST(SessionField, IsPlayedAgainToTheSameBitsAndAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_field_test

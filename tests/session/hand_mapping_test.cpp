@@ -8,7 +8,7 @@
 
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::hand_mapping_test {
 namespace {
 
 using namespace session_test;
@@ -111,4 +111,4 @@ TEST(HandMapping, HalfTheForceMakesTwiceTheStiffnessSafe) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_mapping_test

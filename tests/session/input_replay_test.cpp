@@ -10,7 +10,7 @@
 #include "shared/meshes.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::input_replay_test {
 namespace {
 
 using namespace session_test;
@@ -607,4 +607,4 @@ TEST(InputRecorder, WhatFindsNoRoomIsCountedAndEndsTheRecording) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::input_replay_test

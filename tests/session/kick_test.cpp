@@ -9,7 +9,7 @@
 #include "linked_places.hpp"
 #include "shared/kicks.hpp"
 
-namespace tactus {
+namespace tactus::kick_test {
 namespace {
 
 using session_test::HeldDevice;
@@ -100,4 +100,4 @@ INSTANTIATE_TEST_SUITE_P(Family, Kicks, ::testing::ValuesIn(shared::kick_cases),
                          [](const auto& tested) { return std::string(shared::name_of(tested.param)); });
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::kick_test

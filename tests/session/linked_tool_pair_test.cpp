@@ -8,7 +8,7 @@
 #include "recorded_inputs.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::linked_tool_pair_test {
 namespace {
 
 using namespace session_test;
@@ -384,4 +384,4 @@ TEST(LinkedToolPair, ATickAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::linked_tool_pair_test

@@ -7,7 +7,7 @@
 #include "recorded_inputs.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::linked_tools_test {
 namespace {
 
 using namespace session_test;
@@ -324,4 +324,4 @@ TEST(LinkedTools, AToolWithoutOneAtTheFarSideTouchesTheModelAlone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::linked_tools_test

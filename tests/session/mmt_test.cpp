@@ -5,7 +5,7 @@
 
 #include "shared/teleop_run.hpp"
 
-namespace tactus {
+namespace tactus::mmt_test {
 namespace {
 
 using namespace shared;
@@ -331,4 +331,4 @@ TEST(Mmt, PlacesThatAreSeenRoughlyAreNotFelt) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::mmt_test

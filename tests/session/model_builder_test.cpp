@@ -11,7 +11,7 @@
 
 #include "model_rig.hpp"
 
-namespace tactus {
+namespace tactus::model_builder_test {
 namespace {
 
 using namespace session_test;
@@ -250,4 +250,4 @@ TEST(EnvironmentTeller, HoldsBackWhatFindsNoRoomAndKeepsTheOrder) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::model_builder_test

@@ -9,7 +9,7 @@
 
 #include "model_rig.hpp"
 
-namespace tactus {
+namespace tactus::model_joints_test {
 namespace {
 
 using namespace session_test;
@@ -230,4 +230,4 @@ TEST(ModelJoints, TwoBodiesAreJoinedAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::model_joints_test

@@ -5,7 +5,7 @@
 #include "shared/meshes.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::narrow_test {
 namespace {
 
 using namespace session_test;
@@ -96,4 +96,4 @@ TEST(NarrowTouch, WhoIsInsideStaysInside) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::narrow_test

@@ -7,7 +7,7 @@
 #include "session_rig.hpp"
 #include "shared/sound_snapshot.hpp"
 
-namespace tactus {
+namespace tactus::odd_input_test {
 namespace {
 
 using namespace session_test;
@@ -158,4 +158,4 @@ TEST(SessionOddInput, AThousandBodiesInOneTick) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::odd_input_test

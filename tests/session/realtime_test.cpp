@@ -7,7 +7,7 @@
 #include "shared/meshes.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::realtime_test {
 namespace {
 
 using namespace session_test;
@@ -142,4 +142,4 @@ TEST(SessionRealtime, NoLockOfATickIsTakenByAnyOtherThread) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::realtime_test

@@ -6,7 +6,7 @@
 #include <clocale>
 #include <limits>
 
-namespace tactus {
+namespace tactus::record_csv_test {
 namespace {
 
 std::string row(const SessionRecord& record, Nanoseconds epoch = 0) {
@@ -69,4 +69,4 @@ TEST(RecordCsv, WritesTheSameBytesInALocaleWithDecimalCommas) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::record_csv_test

@@ -76,8 +76,8 @@ public:
 private:
     static std::string name() {
         static int count = 0;
-        const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-        return testing::TempDir() + test->test_suite_name() + test->name() + std::to_string(++count) +
+        const auto* const test = ::testing::UnitTest::GetInstance()->current_test_info();
+        return ::testing::TempDir() + test->test_suite_name() + test->name() + std::to_string(++count) +
                ".tactus";
     }
     static InputReplay::Report played(const std::string& path, const InputReplay::TakeRow& take_row) {

@@ -8,7 +8,7 @@
 #include "shared/robot_at_block.hpp"
 #include "shared/teleop_run.hpp"
 
-namespace tactus {
+namespace tactus::robot_side_test {
 namespace {
 
 using shared::TeleopCase;
@@ -102,4 +102,4 @@ TEST(RobotSide, LearnsHowStiffHowRoughAndHowHeavyWhatItTouchesIs) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::robot_side_test

@@ -10,7 +10,7 @@
 #include "shared/played_robot.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::robot_tools_test {
 namespace {
 
 using namespace session_test;
@@ -523,4 +523,4 @@ TEST(RobotTools, ATickAllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::robot_tools_test

@@ -7,7 +7,7 @@
 #include "core/math/bit_hash.hpp"
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::same_bits_test {
 namespace {
 
 using namespace session_test;
@@ -109,4 +109,4 @@ TEST(SameBits, OfATouchAmongThingsThatMove) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::same_bits_test

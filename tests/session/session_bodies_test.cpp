@@ -9,7 +9,7 @@
 #include "core/haptics/fading_force.hpp"
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::session_bodies_test {
 namespace {
 
 using namespace session_test;
@@ -259,4 +259,4 @@ TEST(Session, ARemovedBodyIsGoneFromTouchAndPhysics) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::session_bodies_test

@@ -6,7 +6,7 @@
 
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::session_hands_test {
 namespace {
 
 using namespace session_test;
@@ -200,4 +200,4 @@ TEST(Session, ADeviceThatLeavesIsGivenNoForce) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::session_hands_test

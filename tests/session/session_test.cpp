@@ -5,7 +5,7 @@
 
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::session_test {
 namespace {
 
 using namespace session_test;
@@ -205,4 +205,4 @@ TEST(Session, ADisabledProxyFindsBodiesWhereTheyWentMeanwhile) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::session_test

@@ -8,7 +8,7 @@
 #include "model_rig.hpp"
 #include "session/shared_environment.hpp"
 
-namespace tactus {
+namespace tactus::several_operators_test {
 namespace {
 
 using namespace session_test;
@@ -229,4 +229,4 @@ TEST(SeveralOperators, OneHasNoPointerOfAnother) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::several_operators_test

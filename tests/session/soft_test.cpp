@@ -12,7 +12,7 @@
 #include "shared/soft_figures.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::soft_test {
 namespace {
 
 using session_test::body;
@@ -480,4 +480,4 @@ TEST(Soft, AClothIsNotPassed) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::soft_test

@@ -18,7 +18,7 @@
 #include "shared/endpoints.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::teleop_bad_input_test {
 namespace {
 
 using session_test::body;
@@ -505,4 +505,4 @@ TEST(TeleopRealtime, NorInTraditionalTouch) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::teleop_bad_input_test

@@ -7,7 +7,7 @@
 #include "shared/meshes.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tool_pair_test {
 namespace {
 
 using namespace session_test;
@@ -225,4 +225,4 @@ TEST(ToolPair, ARecordingGivesTheSameBitsAgain) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tool_pair_test

@@ -7,7 +7,7 @@
 #include "shared/stack_figures.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tool_test {
 namespace {
 
 using namespace session_test;
@@ -178,4 +178,4 @@ TEST(Tool, WhatMakesNoSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tool_test

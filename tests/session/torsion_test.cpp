@@ -5,7 +5,7 @@
 #include "shared/torsion_figures.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::torsion_test {
 namespace {
 
 using namespace session_test;
@@ -120,4 +120,4 @@ TEST(Torsion, FingersWithoutFormAreRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::torsion_test

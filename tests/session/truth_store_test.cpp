@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::truth_store_test {
 namespace {
 
 BodyMotion at(double x) {
@@ -55,4 +55,4 @@ TEST(TruthStore, AForgottenBodyGivesItsPlaceBack) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::truth_store_test

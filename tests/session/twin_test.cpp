@@ -5,7 +5,7 @@
 #include "session/session_loop.hpp"
 #include "session_rig.hpp"
 
-namespace tactus {
+namespace tactus::twin_test {
 namespace {
 
 using namespace session_test;
@@ -165,4 +165,4 @@ TEST(SessionTwin, ANarrowedShapeIsThatOfBoth) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::twin_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::body_form_test {
 namespace {
 
 // A sheet of two triangles; its texture coordinates are its places.
@@ -61,4 +61,4 @@ TEST(BodyForm, WhatIsSaidOfOtherTrianglesIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::body_form_test

@@ -10,7 +10,7 @@
 
 #include "shared/played_scene.hpp"
 
-namespace tactus {
+namespace tactus::body_mirrors_test {
 namespace {
 
 using shared::box_prop;
@@ -322,4 +322,4 @@ TEST(JointMirror, OneThatJoinsNothingDoesNot) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::body_mirrors_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tactus {
+namespace tactus::body_queries_test {
 namespace {
 
 struct Row {
@@ -49,4 +49,4 @@ TEST(BodyQueries, AllThatABallMeets) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::body_queries_test

@@ -7,7 +7,7 @@
 
 #include "core/geometry/surface_query.hpp"
 
-namespace tactus {
+namespace tactus::body_twin_test {
 namespace {
 
 BodyPlan box_plan(Motion motion = Motion::Dynamic) {
@@ -283,4 +283,4 @@ TEST(BodyForm, AnOpenMeshIsNotTouchedFromOneSide) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::body_twin_test

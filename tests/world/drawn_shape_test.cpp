@@ -10,7 +10,7 @@
 
 #include "shared/mesh_volume.hpp"
 
-namespace tactus {
+namespace tactus::drawn_shape_test {
 namespace {
 
 using shared::volume;
@@ -116,4 +116,4 @@ TEST(DrawnCorners, AFlatFacetHasItsOwnNormalAndASphereOneForEachPlace) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::drawn_shape_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::frame_budget_test {
 namespace {
 
 constexpr double budget = 1e-3;
@@ -37,4 +37,4 @@ TEST(FrameBudget, OneThatIsFarTooLateIsTooMany) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::frame_budget_test

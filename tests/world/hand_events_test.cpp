@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace tactus {
+namespace tactus::hand_events_test {
 namespace {
 
 std::string told(const DeviceState& before, const DeviceState& now) {
@@ -49,4 +49,4 @@ TEST(HandEvents, EachButtonIsToldByItsNumber) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_events_test

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::hand_picture_test {
 namespace {
 
 TEST(HandPicture, BeforeItRunsOnlyTheProxyIsSeen) {
@@ -44,4 +44,4 @@ TEST(HandPicture, AHandInsideABodyIsSeenAlone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_picture_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::hand_twins_test {
 namespace {
 
 SessionSettings settings() {
@@ -90,4 +90,4 @@ TEST(ProxyTwin, ComesChangesAndGoes) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_twins_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::joint_limits_test {
 namespace {
 
 void expect_same(const JointRange& range, double lower, double upper) {
@@ -24,4 +24,4 @@ TEST(JointLimits, AnglesAreSeenFromTheOtherBody) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::joint_limits_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::joint_twin_test {
 namespace {
 
 struct Scene {
@@ -84,4 +84,4 @@ TEST(JointTwin, JoinsABodyToTheWorld) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::joint_twin_test

@@ -6,7 +6,7 @@
 
 #include "core/haptics/touch_values.hpp"
 
-namespace tactus {
+namespace tactus::material_presets_test {
 namespace {
 
 TEST(MaterialPresets, EachIsKnownByItsValues) {
@@ -78,4 +78,4 @@ TEST(TouchImage, IsMadeOfPackedFloatsBetweenZeroAndOne) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::material_presets_test

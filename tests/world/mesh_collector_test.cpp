@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-namespace tactus {
+namespace tactus::mesh_collector_test {
 namespace {
 
 const std::vector<PackedPlace> two_triangles = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},
@@ -111,4 +111,4 @@ TEST(LateSurface, AreReadTogetherWhenSomebodyAsks) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::mesh_collector_test

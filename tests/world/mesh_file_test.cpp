@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::mesh_file_test {
 namespace {
 
 TEST(MeshFile, ANameIsNoWayOutOfTheFolder) {
@@ -32,4 +32,4 @@ TEST(MeshFile, ReadsWhatItHoldsOrNamesTheFile) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::mesh_file_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::model_roll_test {
 namespace {
 
 // Shows each object as a node with the next number.
@@ -90,4 +90,4 @@ TEST(ModelRoll, IsShownInTheFormThatWasDescribed) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::model_roll_test

@@ -12,7 +12,7 @@
 #include "shared/played_scene.hpp"
 #include "shared/rough_meshes.hpp"
 
-namespace tactus {
+namespace tactus::narrowed_touch_test {
 namespace {
 
 using shared::box_prop;
@@ -297,4 +297,4 @@ TEST(NarrowedTouch, AFewTrianglesAreLeftAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::narrowed_touch_test

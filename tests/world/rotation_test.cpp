@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace tactus {
+namespace tactus::rotation_test {
 namespace {
 
 TEST(Turns, AreAllWithinARoundAndNoMoreThanThereIsTimeFor) {
@@ -41,4 +41,4 @@ TEST(Rotation, GoesOnWhereItemsHaveGone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::rotation_test

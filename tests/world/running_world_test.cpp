@@ -11,7 +11,7 @@
 #include "world/hand_twins.hpp"
 #include "world/scene_telling.hpp"
 
-namespace tactus {
+namespace tactus::running_world_test {
 namespace {
 
 constexpr std::uint8_t model_mediated = 4;
@@ -155,4 +155,4 @@ TEST(RunningWorld, OneThatEndsTakesItsLeave) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::running_world_test

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace tactus {
+namespace tactus::scaled_shape_test {
 namespace {
 
 Mat3 along_axes(double x, double y, double z) {
@@ -87,4 +87,4 @@ TEST(ScaledShape, AHullOfScaledPointsAndOneWithoutVolume) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::scaled_shape_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::scene_facts_test {
 namespace {
 
 BodyForm form_of(const Shape& shape) {
@@ -62,4 +62,4 @@ TEST(SceneFacts, AHandInsideASolidIsFoundAndOneThatTouchesItIsNot) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::scene_facts_test

@@ -5,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
-namespace tactus {
+namespace tactus::scene_frame_test {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -104,4 +104,4 @@ TEST(SceneFrame, AShapeMayBeSmallButNotFlat) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::scene_frame_test

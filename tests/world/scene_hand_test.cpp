@@ -7,7 +7,7 @@
 
 #include "devices/path_device.hpp"
 
-namespace tactus {
+namespace tactus::scene_hand_test {
 namespace {
 
 // Where the hand is, in the device's own frame, once it has had time to follow.
@@ -180,4 +180,4 @@ TEST(ProblemOfGamepad, NamesThoseThatAreThere) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::scene_hand_test

@@ -4,7 +4,7 @@
 
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::seen_library_test {
 namespace {
 
 constexpr Vec3 half{0.05, 0.1, 0.15};  // of a box of six litres
@@ -73,4 +73,4 @@ TEST(SeenLibrary, NothingWeighsNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::seen_library_test

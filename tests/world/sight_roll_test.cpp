@@ -6,7 +6,7 @@
 
 #include "core/math/body_motion.hpp"
 
-namespace tactus {
+namespace tactus::sight_roll_test {
 namespace {
 
 SightedObject object(std::uint64_t id, SightState state = SightState::tracked, std::int32_t mesh = 0) {
@@ -140,4 +140,4 @@ TEST(SightRoll, EveryStateHasAWord) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::sight_roll_test

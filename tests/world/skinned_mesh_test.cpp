@@ -8,7 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace tactus {
+namespace tactus::skinned_mesh_test {
 namespace {
 
 SceneFrame turned(double angle, const Vec3& origin = Vec3(0.0)) {
@@ -85,4 +85,4 @@ TEST(SkinnedMesh, FromOnePoseToTheNextTheTreeIsRefitted) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::skinned_mesh_test

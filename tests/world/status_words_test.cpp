@@ -4,7 +4,7 @@
 
 #include "session/session_types.hpp"
 
-namespace tactus {
+namespace tactus::status_words_test {
 namespace {
 
 TEST(StatusWords, NothingIsSaidOfNothing) {
@@ -28,4 +28,4 @@ TEST(StatusWords, SeveralAreSaidOneAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::status_words_test

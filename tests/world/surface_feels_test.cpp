@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::surface_feels_test {
 namespace {
 
 SurfaceFeel plain() {
@@ -74,4 +74,4 @@ TEST(SurfaceFeels, WhatIsNotFeltIsTold) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::surface_feels_test

@@ -5,7 +5,7 @@
 
 #include "world/hand_twins.hpp"
 
-namespace tactus {
+namespace tactus::tick_listeners_test {
 namespace {
 
 struct Scene {
@@ -108,4 +108,4 @@ TEST(TickListeners, AreNoMoreThanThereIsRoomFor) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tick_listeners_test

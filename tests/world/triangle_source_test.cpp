@@ -5,7 +5,7 @@
 #include <future>
 #include <thread>
 
-namespace tactus {
+namespace tactus::triangle_source_test {
 namespace {
 
 TriangleMesh sheet(double height) {
@@ -178,4 +178,4 @@ TEST(OwnSource, WhoeverSucceedsHasTheTreesOfTheOneBefore) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::triangle_source_test

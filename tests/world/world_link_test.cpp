@@ -9,7 +9,7 @@
 
 #include "world/model_error.hpp"
 
-namespace tactus {
+namespace tactus::world_link_test {
 namespace {
 
 constexpr Nanoseconds period = 1'000'000;
@@ -286,4 +286,4 @@ TEST(UsualPorts, AreTheOtherSidesTurnedRoundAndOnlyWhereNoneIsGiven) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::world_link_test

@@ -10,7 +10,7 @@
 #include "shared/poses.hpp"
 #include "shared/rough_eyes.hpp"
 
-namespace tactus {
+namespace tactus::motion_filter_test {
 namespace {
 
 using shared::at;
@@ -211,4 +211,4 @@ TEST(MotionFilter, NonsenseChangesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::motion_filter_test

@@ -6,7 +6,7 @@
 
 #include "shared/touched_block.hpp"
 
-namespace tactus {
+namespace tactus::touch_estimate_test {
 namespace {
 
 using shared::touch_block;
@@ -86,4 +86,4 @@ TEST(TouchEstimate, NonsenseTeachesNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::touch_estimate_test

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tactus {
+namespace tactus::touch_feedback_test {
 namespace {
 
 constexpr double rate = 22050.0;
@@ -54,4 +54,4 @@ TEST(TouchFeedback, FallsSilent) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::touch_feedback_test

@@ -8,7 +8,7 @@
 
 #include "core/feedback/touch_sound.hpp"
 
-namespace tactus {
+namespace tactus::touch_vibration_test {
 namespace {
 
 constexpr double tick = 0.001;
@@ -170,4 +170,4 @@ TEST(TouchSound, ATapIsHeardThreeOctavesHigher) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::touch_vibration_test

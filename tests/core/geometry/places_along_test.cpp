@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::places_along_test {
 namespace {
 
 TEST(PlacesAlong, WhatIsNearerThanThatToTheOneBeforeIsLeftOut) {
@@ -36,4 +36,4 @@ TEST(PlacesAlong, OnePlaceIsNoWay) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::places_along_test

@@ -6,7 +6,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::solid_test {
 namespace {
 
 using shared::RandomValues;
@@ -184,4 +184,4 @@ TEST(Solid, CentresHaveADistanceAndADirection) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::solid_test

@@ -9,7 +9,7 @@
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
 
-namespace tactus {
+namespace tactus::surface_query_test {
 
 namespace {
 
@@ -121,4 +121,4 @@ TEST(SurfaceQuery, ARayThatPassesTheBallOfAPartNeedsNoMoreQuestions) {
 
 }  // namespace
 
-}  // namespace tactus
+}  // namespace tactus::surface_query_test

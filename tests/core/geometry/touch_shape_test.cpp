@@ -7,7 +7,7 @@
 
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::touch_shape_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -124,4 +124,4 @@ TEST(TouchShape, RefusesAHeightFieldWithASpacingThatIsNoLength) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::touch_shape_test

@@ -19,7 +19,7 @@
 #include "shared/rough_meshes.hpp"
 #include "shared/unseen_meshes.hpp"
 
-namespace tactus {
+namespace tactus::touchable_test {
 namespace {
 
 using shared::RandomValues;
@@ -223,4 +223,4 @@ TEST(Touchable, ANarrowedShapeSaysNothingOfAnotherTree) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::touchable_test

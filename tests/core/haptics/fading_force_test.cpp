@@ -7,7 +7,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::fading_force_test {
 namespace {
 
 using shared::RandomValues;
@@ -123,4 +123,4 @@ TEST(FadingForce, RandomChangesOneUponAnother) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::fading_force_test

@@ -8,7 +8,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::force_law_test {
 namespace {
 
 using shared::TouchRig;
@@ -155,4 +155,4 @@ TEST(ForceLaw, SmoothedFadesAfterContact) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::force_law_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::hand_field_test {
 namespace {
 
 constexpr Nanoseconds tick = 1'000'000;
@@ -136,4 +136,4 @@ TEST(HandField, FarFromWhereItWasLookedAtItGrowsNoMore) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_field_test

@@ -8,7 +8,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::hand_guide_test {
 namespace {
 
 using Form = HandGuide::Form;
@@ -100,4 +100,4 @@ TEST(HandGuide, WhatLeadsNowhereIsSaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_guide_test

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::measured_field_test {
 namespace {
 
 constexpr HandMotion hand{{0.1, -0.2, 0.3}, {0.4, 0.5, -0.6}};
@@ -58,4 +58,4 @@ TEST(MeasuredField, WhatSeveralTellAddsUp) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::measured_field_test

@@ -7,7 +7,7 @@
 
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::nearest_body_test {
 namespace {
 
 constexpr double within = 0.05;
@@ -96,4 +96,4 @@ TEST(NearestBody, WhatIsFarCostsNextToNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::nearest_body_test

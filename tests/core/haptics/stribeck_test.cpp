@@ -9,7 +9,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::stribeck_test {
 namespace {
 
 using shared::TouchRig;
@@ -144,4 +144,4 @@ TEST(Stribeck, AProxyThatIsTakenBackGoesOnAsItDid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::stribeck_test

@@ -10,7 +10,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::surface_effects_test {
 namespace {
 
 using shared::RandomValues;
@@ -246,4 +246,4 @@ TEST(SurfaceEffects, APullTurnsGradually) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::surface_effects_test

@@ -11,7 +11,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::surface_feel_test {
 namespace {
 
 using shared::TouchRig;
@@ -187,4 +187,4 @@ TEST(SurfaceFeel, AMapOfAnotherMeshIsRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::surface_feel_test

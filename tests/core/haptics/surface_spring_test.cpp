@@ -12,7 +12,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::surface_spring_test {
 namespace {
 
 using shared::TouchRig;
@@ -180,4 +180,4 @@ TEST(StiffeningSurface, NoDeviceGetsMoreThanItRendersSafely) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::surface_spring_test

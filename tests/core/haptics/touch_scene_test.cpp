@@ -6,7 +6,7 @@
 #include "shared/poses.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::touch_scene_test {
 namespace {
 
 using shared::at;
@@ -166,4 +166,4 @@ TEST(TouchScene, OfOtherPartsABodyIsNotNarrowed) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::touch_scene_test

@@ -10,7 +10,7 @@
 #include "shared/delta_figures.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::delta_test {
 namespace {
 
 class EachFalcon : public testing::TestWithParam<DeltaGeometry> {};
@@ -139,4 +139,4 @@ TEST(Delta, AnglesThatNoPlaceHasAreNotFound) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::delta_test

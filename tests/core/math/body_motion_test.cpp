@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::body_motion_test {
 namespace {
 
 TEST(BodyMotion, SmallAnglesKeepTheirDigits) {
@@ -45,4 +45,4 @@ TEST(BodyMotion, DiffersAboveItsThresholdsOnly) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::body_motion_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace tactus {
+namespace tactus::least_turn_test {
 namespace {
 
 TEST(LeastTurn, TakesEveryDirectionToEveryOther) {
@@ -32,4 +32,4 @@ TEST(LeastTurn, TakesEveryDirectionToEveryOther) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::least_turn_test

@@ -9,7 +9,7 @@
 
 #include "shared/mesh_volume.hpp"
 
-namespace tactus {
+namespace tactus::convex_hull_test {
 namespace {
 
 using shared::volume;
@@ -117,4 +117,4 @@ TEST(ConvexHull, GivesTheSameBitsAgain) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::convex_hull_test

@@ -14,7 +14,7 @@
 #include "shared/mesh_volume.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::iso_surface_test {
 namespace {
 
 using shared::OwnField;
@@ -177,4 +177,4 @@ TEST(IsoSurface, WhatIsNoFieldIsSaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::iso_surface_test

@@ -6,7 +6,7 @@
 
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::mesh_check_test {
 namespace {
 
 TriangleMesh one_triangle() {
@@ -74,4 +74,4 @@ TEST(MeshCheck, AcceptsSingleTrianglesWithoutArea) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::mesh_check_test

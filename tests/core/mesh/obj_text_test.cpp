@@ -4,7 +4,7 @@
 
 #include <clocale>
 
-namespace tactus {
+namespace tactus::obj_text_test {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -152,4 +152,4 @@ TEST(ObjText, ReadsTheSameNumbersInALocaleWithDecimalCommas) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::obj_text_test

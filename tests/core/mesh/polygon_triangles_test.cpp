@@ -9,7 +9,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::polygon_triangles_test {
 namespace {
 
 using shared::RandomValues;
@@ -144,4 +144,4 @@ TEST(PolygonTriangles, WhatHasNoAreaOrCrossesItselfEnds) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::polygon_triangles_test

@@ -6,7 +6,7 @@
 
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::same_places_test {
 namespace {
 
 TEST(SamePlaces, TheFirstStandsForAllAndMinusZeroIsZero) {
@@ -50,4 +50,4 @@ TEST(SamePlaces, AnIndexWithoutAVertexStaysOne) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::same_places_test

@@ -8,7 +8,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::constrained_step_test {
 namespace {
 
 using shared::RandomValues;
@@ -250,4 +250,4 @@ TEST(ConstrainedStep, NeverMovesAwayFromTheHandOverFlatContacts) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::constrained_step_test

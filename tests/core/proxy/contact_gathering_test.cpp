@@ -7,7 +7,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::contact_gathering_test {
 namespace {
 
 using shared::RandomValues;
@@ -116,4 +116,4 @@ TEST(ContactGathering, TellsWhichAreAsFar) {
     }
 }
 
-}  // namespace tactus
+}  // namespace tactus::contact_gathering_test

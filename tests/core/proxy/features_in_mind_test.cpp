@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace tactus {
+namespace tactus::features_in_mind_test {
 namespace {
 
 bool has(std::span<const FeatureId> features, std::uint32_t part) {
@@ -55,4 +55,4 @@ TEST(FeaturesInMind, NoMoreIsInsistedOnThanThereIsRoomFor) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::features_in_mind_test

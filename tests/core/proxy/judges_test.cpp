@@ -13,7 +13,7 @@
 #include "shared/rough_paths.hpp"
 #include "shared/stress_judge.hpp"
 
-namespace tactus {
+namespace tactus::judges_test {
 namespace {
 
 using shared::FreeWay;
@@ -238,4 +238,4 @@ TEST(RoughPaths, StartWithRoomAndGoOnEvenly) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::judges_test

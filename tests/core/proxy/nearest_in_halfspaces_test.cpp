@@ -8,7 +8,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::nearest_in_halfspaces_test {
 namespace {
 
 using shared::RandomValues;
@@ -198,4 +198,4 @@ TEST(NearestInHalfSpaces, AgreesWithEnumerationWhereAllBordersMeet) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::nearest_in_halfspaces_test

@@ -4,7 +4,7 @@
 #include "shared/meshes.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::pass_through_test {
 namespace {
 
 using shared::TouchRig;
@@ -37,4 +37,4 @@ TEST(PassThrough, OtherBodiesStayWhole) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::pass_through_test

@@ -9,7 +9,7 @@
 #include "core/proxy/proxy.hpp"
 #include "shared/many_bodies.hpp"
 
-namespace tactus {
+namespace tactus::proxy_among_many_test {
 namespace {
 
 using shared::ManyBodies;
@@ -94,4 +94,4 @@ TEST(ProxyAmongMany, InAHeapOfThousandsItEntersNoneAndComesToRest) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_among_many_test

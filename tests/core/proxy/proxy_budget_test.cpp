@@ -18,7 +18,7 @@
 #include "shared/rough_paths.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_budget_test {
 namespace {
 
 using shared::around_sphere;
@@ -419,4 +419,4 @@ TEST(ProxyBudget, ItAppearsOnlyWhereItIsNotTooDeep) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_budget_test

@@ -17,7 +17,7 @@
 #include "shared/rough_paths.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_crowd_test {
 namespace {
 
 using shared::RandomValues;
@@ -219,4 +219,4 @@ TEST(ProxyCrowd, NoForceJumpsUnsaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_crowd_test

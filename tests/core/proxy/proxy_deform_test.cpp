@@ -9,7 +9,7 @@
 #include "shared/meshes.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_deform_test {
 namespace {
 
 using shared::TouchRig;
@@ -169,4 +169,4 @@ TEST(ProxyDeformRandom, NoneOfManyPasses) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_deform_test

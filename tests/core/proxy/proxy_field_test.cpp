@@ -13,7 +13,7 @@
 #include "shared/touch_rig.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::proxy_field_test {
 namespace {
 
 using shared::RandomValues;
@@ -135,4 +135,4 @@ TEST(ProxyField, ATickAllocatesLocksAndCallsNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_field_test

@@ -10,7 +10,7 @@
 #include "shared/meshes.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_friction_test {
 namespace {
 
 using shared::TouchRig;
@@ -199,4 +199,4 @@ TEST(ProxyFriction, HoldsAllTheWayAroundAFacetedBall) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_friction_test

@@ -10,7 +10,7 @@
 #include "shared/rough_meshes.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_jump_test {
 namespace {
 
 using shared::at;
@@ -117,4 +117,4 @@ TEST(ProxyJump, WhatATickDidNotFinish) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_jump_test

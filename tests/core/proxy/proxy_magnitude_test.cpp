@@ -9,7 +9,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_magnitude_test {
 namespace {
 
 using shared::at;
@@ -88,4 +88,4 @@ TEST(ProxyMagnitude, AMeshFarAwayDoesNotBlurWhatIsNear) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_magnitude_test

@@ -11,7 +11,7 @@
 #include "shared/slow_distance.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_moving_test {
 namespace {
 
 using shared::at;
@@ -225,4 +225,4 @@ TEST(ProxyMoving, AnotherProxyGoesOnFromWhatOneRemembers) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_moving_test

@@ -14,7 +14,7 @@
 #include "shared/rough_paths.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_narrowed_test {
 namespace {
 
 using shared::JudgeTree;
@@ -138,4 +138,4 @@ TEST(ProxyNarrowed, OverNoiseItTakesLessWork) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_narrowed_test

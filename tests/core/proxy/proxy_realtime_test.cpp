@@ -6,7 +6,7 @@
 #include "shared/touch_rig.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::proxy_realtime_test {
 namespace {
 
 TEST(ProxyRealtime, ATickAllocatesLocksAndCallsNothing) {
@@ -32,4 +32,4 @@ TEST(ProxyRealtime, ATickAllocatesLocksAndCallsNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_realtime_test

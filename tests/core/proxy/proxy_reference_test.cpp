@@ -12,7 +12,7 @@
 #include "shared/reference_descent.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_reference_test {
 namespace {
 
 using shared::RandomValues;
@@ -140,4 +140,4 @@ TEST(ProxyReference, OnATerrainItIsNeverStuck) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_reference_test

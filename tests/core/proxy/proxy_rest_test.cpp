@@ -11,7 +11,7 @@
 #include "shared/random_values.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_rest_test {
 namespace {
 
 using shared::RandomValues;
@@ -385,4 +385,4 @@ TEST(ProxyRest, AHandThatIsNoNumberIsPassedOver) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_rest_test

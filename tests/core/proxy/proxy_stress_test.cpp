@@ -3,7 +3,7 @@
 
 #include "shared/stress.hpp"
 
-namespace tactus {
+namespace tactus::proxy_stress_test {
 namespace {
 
 const shared::StressCounts& counts() {
@@ -69,4 +69,4 @@ TEST(ProxyStress, OnACrestAHairDecides) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_stress_test

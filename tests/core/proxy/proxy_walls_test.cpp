@@ -10,7 +10,7 @@
 #include "shared/slow_distance.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::proxy_walls_test {
 namespace {
 
 using shared::RandomValues;
@@ -188,4 +188,4 @@ TEST(ProxyWalls, ATerrainIsSlidAcrossWithoutAStop) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::proxy_walls_test

@@ -16,7 +16,7 @@
 #include "shared/slow_distance.hpp"
 #include "shared/touch_rig.hpp"
 
-namespace tactus {
+namespace tactus::surroundings_test {
 namespace {
 
 using shared::corners_of;
@@ -157,4 +157,4 @@ TEST(Surroundings, TheUnseenGapHoldsOnTheWayBesideOtherBodies) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::surroundings_test

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace tactus {
+namespace tactus::force_exit_test {
 namespace {
 
 constexpr double tick = 0.001;
@@ -78,4 +78,4 @@ TEST(ForceExit, NoMoreEnergyThanAllowedIsGivenToAHandThatRunsAway) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::force_exit_test

@@ -9,7 +9,7 @@
 #include "core/safety/stiffness_limit.hpp"
 #include "shared/safety_figures.hpp"
 
-namespace tactus {
+namespace tactus::hand_safety_test {
 namespace {
 
 SafetySample pushed(double newtons) {
@@ -234,4 +234,4 @@ TEST(ForceWatch, AForceDiesWithItsLoop) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::hand_safety_test

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-namespace tactus {
+namespace tactus::limited_force_test {
 namespace {
 
 TEST(LimitedForce, IsShorterAndKeepsTheDirection) {
@@ -21,4 +21,4 @@ TEST(LimitedForce, IsNoneWhereItIsNoNumber) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::limited_force_test

@@ -12,7 +12,7 @@
 #include "shared/random_values.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::soft_body_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -362,4 +362,4 @@ TEST(SoftBody, APushNeverPulls) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::soft_body_test

@@ -8,7 +8,7 @@
 
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::soft_model_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -103,4 +103,4 @@ TEST(SoftModel, TetrahedraThatAreNoneAreToldByTheirNumber) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::soft_model_test

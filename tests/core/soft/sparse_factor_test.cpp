@@ -7,7 +7,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::sparse_factor_test {
 namespace {
 
 using Entry = SparseFactor::Entry;
@@ -104,4 +104,4 @@ TEST(SparseFactor, WhatIsNotPositiveDefiniteIsRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::sparse_factor_test

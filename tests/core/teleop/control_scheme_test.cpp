@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::control_scheme_test {
 namespace {
 
 // An operator that presses 2 mm into a ground at y = 0, whose far side is 1 mm higher.
@@ -72,4 +72,4 @@ TEST(ControlScheme, AForceLeadsTheHandNoFartherThanTheLeash) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::control_scheme_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::deadband_test {
 namespace {
 
 TEST(Deadband, WithoutItEverythingIsSent) {
@@ -40,4 +40,4 @@ TEST(Deadband, WebersShareGrowsWithTheForce) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::deadband_test

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::derivation_test {
 namespace {
 
 constexpr double late = 0.1;
@@ -80,4 +80,4 @@ TEST(Derivation, DoesNotExtrapolateWithoutEnd) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::derivation_test

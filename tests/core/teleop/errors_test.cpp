@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::errors_test {
 namespace {
 
 TEST(Errors, AForceInAWrongDirectionIsAnError) {
@@ -63,4 +63,4 @@ TEST(PortEnergy, WhatOneContactTookIsNothingThatTheNextMayGive) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::errors_test

@@ -9,7 +9,7 @@
 #include "core/teleop/wrench_passivity.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::felt_pointer_test {
 namespace {
 
 constexpr double tick = 0.001;
@@ -261,4 +261,4 @@ TEST(WrenchPassivity, GivesNoMoreThanItWasGiven) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::felt_pointer_test

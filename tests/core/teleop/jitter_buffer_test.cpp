@@ -8,7 +8,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::jitter_buffer_test {
 namespace {
 
 struct Sample {
@@ -495,4 +495,4 @@ TEST(JitterBuffer, AHandThatFlipsIsTurnedNoFasterThanAHand) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::jitter_buffer_test

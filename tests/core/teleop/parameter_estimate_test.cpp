@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::parameter_estimate_test {
 namespace {
 
 constexpr double gravity = 9.81;
@@ -102,4 +102,4 @@ TEST(ParameterEstimate, ARightModelLearnsNothing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::parameter_estimate_test

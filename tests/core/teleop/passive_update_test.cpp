@@ -8,7 +8,7 @@
 #include "core/teleop/errors.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::passive_update_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -150,4 +150,4 @@ TEST(PassiveUpdate, WhatACorrectionGaveABodyInSpeedIsDamped) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::passive_update_test

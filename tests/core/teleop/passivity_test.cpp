@@ -11,7 +11,7 @@
 
 #include "core/teleop/errors.hpp"
 
-namespace tactus {
+namespace tactus::passivity_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -139,4 +139,4 @@ TEST(Passivity, AFarHandThatHasYieldedComesBack) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::passivity_test

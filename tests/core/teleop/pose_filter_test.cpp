@@ -9,7 +9,7 @@
 #include "shared/poses.hpp"
 #include "shared/rough_eyes.hpp"
 
-namespace tactus {
+namespace tactus::pose_filter_test {
 namespace {
 
 using shared::at;
@@ -150,4 +150,4 @@ TEST(PoseFilter, AWayThatIsOpenIsSeen) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::pose_filter_test

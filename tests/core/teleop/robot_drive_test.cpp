@@ -8,7 +8,7 @@
 #include "core/math/body_motion.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::robot_drive_test {
 namespace {
 
 constexpr double tick = 1e-3;
@@ -88,4 +88,4 @@ TEST(RobotDrive, ATorqueTurnsItWhereItIsWanted) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::robot_drive_test

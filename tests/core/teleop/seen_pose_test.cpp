@@ -8,7 +8,7 @@
 #include "shared/poses.hpp"
 #include "shared/rough_eyes.hpp"
 
-namespace tactus {
+namespace tactus::seen_pose_test {
 namespace {
 
 using shared::at;
@@ -89,4 +89,4 @@ TEST(SeenPose, OnlyCovariancesAreSound) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::seen_pose_test

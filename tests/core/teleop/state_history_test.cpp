@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::state_history_test {
 namespace {
 
 BodyMotion at(double x, double speed = 0.0) {
@@ -53,4 +53,4 @@ TEST(StateHistory, ForgetsABody) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::state_history_test

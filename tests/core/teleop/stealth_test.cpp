@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace tactus {
+namespace tactus::stealth_test {
 namespace {
 
 TEST(Stealth, SmallForcesHaveALeastNoticeableChange) {
@@ -50,4 +50,4 @@ TEST(DriftRate, OneLargeCorrectionIsNoDrift) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::stealth_test

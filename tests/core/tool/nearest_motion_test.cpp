@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace tactus {
+namespace tactus::nearest_motion_test {
 namespace {
 
 constexpr double length = 0.5;
@@ -160,4 +160,4 @@ TEST(NearestMotion, WithoutWorkWhatIsMissingIsSaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::nearest_motion_test

@@ -9,7 +9,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::part_balls_test {
 namespace {
 
 using shared::RandomValues;
@@ -64,4 +64,4 @@ TEST(PartBalls, OfNoneNoneIsTold) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::part_balls_test

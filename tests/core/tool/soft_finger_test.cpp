@@ -8,7 +8,7 @@
 
 #include "shared/slow_torsion.hpp"
 
-namespace tactus {
+namespace tactus::soft_finger_test {
 namespace {
 
 constexpr SoftFinger skin{1e5, 0.008};
@@ -102,4 +102,4 @@ TEST(SoftFinger, AGripGoesOnWithItsBodyAndNormal) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::soft_finger_test

@@ -10,7 +10,7 @@
 #include "shared/many_bodies.hpp"
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::tool_among_many_test {
 namespace {
 
 // A bar is led through a heap of a thousand balls and out of it again: it enters none, and is at the hand.
@@ -94,4 +94,4 @@ TEST(ToolAmongMany, AmongMoreThanATickCanAskItSaysThatItIsLetGo) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tool_among_many_test

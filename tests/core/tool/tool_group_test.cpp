@@ -14,7 +14,7 @@
 #include "shared/pair_figures.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tool_group_test {
 namespace {
 
 using shared::PairRig;
@@ -404,4 +404,4 @@ TEST(ToolGroup, ACorrectionTakesItNoFartherThanTheOther) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tool_group_test

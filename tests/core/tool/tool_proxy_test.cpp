@@ -17,7 +17,7 @@
 #include "shared/tool_figures.hpp"
 #include "support/realtime_audit.hpp"
 
-namespace tactus {
+namespace tactus::tool_proxy_test {
 namespace {
 
 using shared::ToolRig;
@@ -359,4 +359,4 @@ TEST(ToolProxy, GoesAlongWithACorrectionUpToWhatIsInTheWay) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tool_proxy_test

@@ -14,7 +14,7 @@
 #include "shared/slow_distance.hpp"
 #include "shared/tool_figures.hpp"
 
-namespace tactus {
+namespace tactus::tool_shape_test {
 namespace {
 
 // No sphere sticks out, and no corner or middle of a triangle lies farther out than is told.
@@ -118,4 +118,4 @@ TEST(ToolShape, WhatIsNoSolidIsRefused) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tool_shape_test

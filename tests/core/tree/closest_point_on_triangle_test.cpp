@@ -7,7 +7,7 @@
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
 
-namespace tactus {
+namespace tactus::closest_point_on_triangle_test {
 namespace {
 
 using shared::Corners;
@@ -106,4 +106,4 @@ TEST(ClosestPointOnTriangle, FarFromTheOriginIsAsGoodAsTheCoordinates) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::closest_point_on_triangle_test

@@ -12,7 +12,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::pack_memory_test {
 namespace {
 
 using shared::RandomValues;
@@ -128,4 +128,4 @@ TEST(PackMemory, WhatIsNotVisitedIsFartherThanSaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::pack_memory_test

@@ -9,7 +9,7 @@
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::tree_boxes_test {
 namespace {
 
 bool holds(const TreeBox& box, const Vec3& point) {
@@ -54,4 +54,4 @@ TEST(TreeBoxes, NoMoreThanAreWantedAndLargerBeforeSmaller) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::tree_boxes_test

@@ -7,7 +7,7 @@
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
 
-namespace tactus {
+namespace tactus::triangle_pack_test {
 namespace {
 
 using shared::Corners;
@@ -321,4 +321,4 @@ TEST(TrianglePack, APointAboveASliverAlongItsRoundedNormalIsNotTakenFartherThanI
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::triangle_pack_test

@@ -8,7 +8,7 @@
 #include "core/tree/triangle_tree.hpp"
 #include "shared/meshes.hpp"
 
-namespace tactus {
+namespace tactus::triangle_tree_rim_test {
 namespace {
 
 constexpr double wide = 0.1, height = 0.2, radius = 0.11;
@@ -72,4 +72,4 @@ TEST(TriangleTreeRim, OneThatIsAboutAsNearAsAnyIsFoundByTheFirstBranches) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::triangle_tree_rim_test

@@ -8,7 +8,7 @@
 #include "shared/slow_distance.hpp"
 #include "shared/tree_samples.hpp"
 
-namespace tactus {
+namespace tactus::triangle_tree_sweep_test {
 namespace {
 
 using namespace shared;
@@ -208,4 +208,4 @@ TEST(TriangleTree, OfThousandsThatTouchTheOneInTheWayIsFoundFirst) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::triangle_tree_sweep_test

@@ -10,7 +10,7 @@
 #include "shared/slow_distance.hpp"
 #include "shared/tree_samples.hpp"
 
-namespace tactus {
+namespace tactus::triangle_tree_test {
 namespace {
 
 using namespace shared;
@@ -362,4 +362,4 @@ TEST(TriangleTree, HoldsEveryTriangleOfLargeMeshes) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::triangle_tree_test

@@ -11,7 +11,7 @@
 #include "shared/random_values.hpp"
 #include "shared/slow_distance.hpp"
 
-namespace tactus {
+namespace tactus::winding_test {
 namespace {
 
 using shared::RandomValues;
@@ -202,4 +202,4 @@ TEST(Winding, LooksAtFewOfManyTriangles) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::winding_test

@@ -8,7 +8,7 @@
 #include "shared/delta_figures.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::falcon_arm_test {
 namespace {
 
 FalconReport at(const FalconData& data, const Vec3& place) {
@@ -62,4 +62,4 @@ TEST(FalconArm, TheMeanForceHasTheDirectionThatWasAsked) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::falcon_arm_test

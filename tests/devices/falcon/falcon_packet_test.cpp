@@ -6,7 +6,7 @@
 
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::falcon_packet_test {
 namespace {
 
 FalconReport random_report(shared::RandomValues& random) {
@@ -77,4 +77,4 @@ TEST(FalconPacket, FindsTheNextWholePacketAfterWhateverIsMissing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::falcon_packet_test

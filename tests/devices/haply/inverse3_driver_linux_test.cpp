@@ -10,7 +10,7 @@
 #include "shared/driven_device.hpp"
 #include "shared/haply_service.hpp"
 
-namespace tactus {
+namespace tactus::inverse3_driver_linux_test {
 namespace {
 
 using shared::HaplyService;
@@ -98,4 +98,4 @@ TEST(Inverse3, SaysWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::inverse3_driver_linux_test

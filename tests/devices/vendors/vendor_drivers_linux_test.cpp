@@ -10,7 +10,7 @@
 #include "shared/driven_device.hpp"
 #include "stand_ins/stand_ins.hpp"
 
-namespace tactus {
+namespace tactus::vendor_drivers_linux_test {
 namespace {
 
 template <typename StandIn>
@@ -182,4 +182,4 @@ TEST(OpenHaptics, ADeviceThatIsNotThereIsSaidAndFoundLater) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::vendor_drivers_linux_test
