@@ -13,6 +13,7 @@ extends SceneTree
 ## JSON: time since the epoch and since the hand has set out (s; below 0: it has not), place and force of the
 ## hand, force on the robot's tip, and where the bodies are, by their names; once, what the camera sees.
 
+const Sides := preload("res://experiments/sides.gd")
 const OBJECTS := 3
 const SHOWN_POINTS := 2  ## of so many one is said
 const KEPT := {
@@ -39,8 +40,12 @@ func _initialize() -> void:
 	var settings := {}
 	for argument in OS.get_cmdline_user_args():
 		var words := argument.trim_prefix("--").split("=", true, 1)
-		settings[words[0]] = words[1]
-	_part = settings["part"]
+		settings[words[0]] = words[1] if words.size() == 2 else ""
+	_part = settings.get("part", "")
+	if not KEPT.has(_part):
+		printerr("camera_side: --part=%s is refused: it must be one of %s." % [_part, ", ".join(KEPT.keys())])
+		quit(2)
+		return
 	_moves = settings.get("moves", "0") == "1"
 	_way = (scene.get_node("HapticWorld/HapticDevice") as HapticDevice).path
 	for part: String in ["HapticWorld", "Far", "Reality", "Tip", "Placard"]:
@@ -59,8 +64,11 @@ func _initialize() -> void:
 		_link.partner = NodePath()
 		for property: String in settings:
 			if property not in ["part", "moves"]:
-				var value: Variant = JSON.parse_string(settings[property])
-				_link.set(property, settings[property] if value == null else value)
+				var problem := Sides.set_property(_link, "--%s=%s" % [property, settings[property]])
+				if not problem.is_empty():
+					printerr("camera_side: ", problem, ".")
+					quit(2)
+					return
 	if _part == "far":
 		scene.get_node("Far/DepthSensor").show_cloud = true
 	root.add_child(scene)

@@ -25,14 +25,23 @@ extends Node
 ##                      is a bundle
 ## --watch=1            it is drawn as it is played
 ## --camera.NAME=VALUE  a property of the scene's DepthSensor
+## --sides=NAME,NAME    the cases that belong to the same bundle, this one among them
 ## --replay=BUNDLE      instead of all this: plays it again, see replay.gd
 ## --launch=form        instead of all this: the launcher; --launch=now: what it does, without its form
 ##                      (../launcher/launch.gd)
+##
+## What does not fit is refused with what is allowed (exit code 2). Where a file could not be kept, something
+## of the scene does not work, or the far side was not met, the exit code is 1. Files of before stay: a second
+## run of the same CASE is called CASE_2. While a run lasts, and after it was killed, there is a folder
+## CASE.unfinished.
 
+const OptionWords := preload("res://addons/tactus/studies/option_words.gd")
 const Quietly := preload("res://experiments/quietly.gd")
 const Replay := preload("res://experiments/replay.gd")
 
 const FRAMES_PER_SECOND := 60
+## The exit code where something is asked for that there is not.
+const REFUSED := 2
 
 ## To find the far side, in seconds.
 const LONGEST_MEETING := 30.0
@@ -44,18 +53,24 @@ var _options := {
 	"scene": "res://gallery/static_testbed/static_testbed.tscn",
 	"output": "user://",
 	"case": "",
-	"duration": "10",
+	"duration": 10.0,
 	"clock": "real",
-	"warmup": "0.5",
-	"baseline": "0",
-	"screenshots": "",
-	"processor": "",
+	"warmup": 0.5,
+	"baseline": false,
+	"screenshots": PackedFloat64Array(),
+	"processor": null,
 	"corrects": "always",
-	"inputs": "0",
-	"watch": "0",
+	"inputs": false,
+	"watch": false,
+	"sides": PackedStringArray(),
 }
 var _camera_options := {}
+## What the properties were after they had been set, by the words of the options.
+var _played := {}
 var _stops := false
+var _has_ticked := false
+## Of the files of this side.
+var _endings := [".csv", "_trace.json", "_statistics.json", "_periods.json"]
 
 
 ## Returns the exit code of the program: 0 when all was written.
@@ -71,38 +86,105 @@ func run(arguments: PackedStringArray) -> int:
 		var launch: Node = load("res://launcher/run.gd").new()
 		add_child(launch)
 		return await launch.run(arguments)
-	for argument in arguments:
-		var words := argument.trim_prefix("--").split("=", true, 1)
-		if words.size() != 2 or not _take(words[0], words[1]):
-			return _fail(
-				"'%s' is not understood: the options are --%s=…" % [argument, "=…, --".join(_options.keys())]
-			)
+	var problem := _take(arguments)
+	if problem.is_empty() and not ResourceLoader.exists(_options.scene, "PackedScene"):
+		problem = "--scene=%s is refused: there is no such scene" % _options.scene
+	if not problem.is_empty():
+		return _fail(problem, REFUSED)
 	if _options.case == "":
 		_options.case = _options.scene.get_file().get_basename()
-	var packed := load(_options.scene) as PackedScene
-	if packed == null:
-		return _fail("the scene '%s' cannot be loaded" % _options.scene)
-	var scene := packed.instantiate()
+	problem = _claim()
+	if not problem.is_empty():
+		return _fail(problem)
+	var scene := (load(_options.scene) as PackedScene).instantiate()
 	var code := await _run_scene(scene)
 	Quietly.free_containers(scene)
 	scene.free()
+	if code == REFUSED or (code == 0 and _has_ticked):
+		DirAccess.remove_absolute(_unfinished())
 	return code
 
 
-func _take(option: String, value: String) -> bool:
-	var name := option.substr(option.find(".") + 1).replace(".", ":")
-	match option.get_slice(".", 0):
-		"link":
-			_link_options[name] = JSON.parse_string(value)
-		"device":
-			_device_options[name] = JSON.parse_string(value)
-		"camera":
-			_camera_options[name] = JSON.parse_string(value)
-		_:
-			if not _options.has(option):
-				return false
-			_options[option] = value
-	return true
+static func _declared() -> Dictionary:
+	return {
+		"scene": OptionWords.text(),
+		"output": OptionWords.text(),
+		"case": OptionWords.text(),
+		"duration": OptionWords.number(0.001, 1e6, "s"),
+		"clock": OptionWords.choice(["real", "stepped"]),
+		"warmup": OptionWords.number(0.0, 1e6, "s"),
+		"baseline": OptionWords.switch(),
+		"screenshots": OptionWords.numbers(0.0, 1e6, "s"),
+		"processor": OptionWords.whole(-2, 4095),
+		"corrects": OptionWords.choice(["always", "touch"]),
+		"inputs": OptionWords.switch(),
+		"watch": OptionWords.switch(),
+		"sides": {"type": TYPE_PACKED_STRING_ARRAY},
+	}
+
+
+## Empty, or what is wrong with the words.
+func _take(arguments: PackedStringArray) -> String:
+	var own := PackedStringArray()
+	for argument in arguments:
+		var option := argument.trim_prefix("--").get_slice("=", 0)
+		var properties: Variant = (
+			{"link": _link_options, "device": _device_options, "camera": _camera_options}
+			. get(option.get_slice(".", 0))
+		)
+		if properties == null or not "." in option or not "=" in argument:
+			own.append(argument)
+			continue
+		var name := option.substr(option.find(".") + 1).replace(".", ":")
+		# An object of its own says nothing where it cannot read.
+		var json := JSON.new()
+		if properties.has(name):
+			return "--%s is given twice: say it once" % option
+		if json.parse(argument.substr(argument.find("=") + 1)) != OK or json.data == null:
+			return '%s is refused: it must be a number, true, false, "text", […] or {…}' % argument
+		properties[name] = json.data
+	var words := OptionWords.new()
+	words.declared = _declared()
+	var problem := words.read(own)
+	_options.merge(words.values, true)
+	if problem.is_empty() and (_options.case.contains("/") or _options.case.begins_with(".")):
+		return "--case=%s is refused: it must be the name of a file" % _options.case
+	return problem
+
+
+## The folder, and in it a name that no file of before has. Empty, or why not.
+func _claim() -> String:
+	_options.output = ProjectSettings.globalize_path(_options.output)
+	DirAccess.make_dir_recursive_absolute(_options.output)
+	var asked: String = _options.case
+	var number := 1
+	while true:
+		_options.case = asked if number == 1 else "%s_%d" % [asked, number]
+		if not _is_taken():
+			# Making a folder either succeeds or finds it: two programs never get the same name.
+			var code := DirAccess.make_dir_absolute(_unfinished())
+			if code == OK:
+				break
+			if code != ERR_ALREADY_EXISTS:
+				return (
+					"'%s' cannot be written (%s): choose another --output"
+					% [_options.output, error_string(code)]
+				)
+		number += 1
+	if number > 1:
+		print("experiment: there is a %s already, this run is called %s." % [asked, _options.case])
+	return ""
+
+
+func _is_taken() -> bool:
+	for ending: String in [".csv", "_statistics.json", "_settings.json", "_inputs.tactus"]:
+		if FileAccess.file_exists(_file(ending)):
+			return true
+	return DirAccess.dir_exists_absolute(_unfinished())
+
+
+func _unfinished() -> String:
+	return _file(".unfinished")
 
 
 ## Before its time is over.
@@ -110,9 +192,9 @@ func stop() -> void:
 	_stops = true
 
 
-func _fail(message: String) -> int:
+func _fail(message: String, code := 1) -> int:
 	printerr("experiment: ", message, ".")
-	return 1
+	return code
 
 
 func _file(ending: String) -> String:
@@ -127,19 +209,22 @@ func _run_scene(scene: Node) -> int:
 	var stepped: bool = _options.clock == "stepped"
 	Engine.max_fps = 0 if stepped else FRAMES_PER_SECOND
 	world.clock = HapticWorld.CLOCK_STEPPED if stepped else HapticWorld.CLOCK_REAL_TIME
-	world.measure_baseline = _options.baseline == "1"
-	if _options.inputs == "1":
+	world.measure_baseline = _options.baseline
+	if _options.inputs:
 		_record_inputs(scene, world)
-	if _options.processor != "":
-		world.processor = int(_options.processor)
+	if _options.processor != null:
+		world.processor = _options.processor
 	var link := _first(scene, "MMTLink") as MMTLink
-	if link == null and not _link_options.is_empty():
-		return _fail("the scene '%s' has no MMTLink" % _options.scene)
 	_give_own_resources(link)
-	_set_all(link, _link_options)
 	var device := _first(scene, "HapticDevice") as HapticDevice
-	_set_all(device, _device_options)
-	_set_all(_first(scene, "DepthSensor"), _camera_options)
+	for one: Array in [
+		["link", link, _link_options],
+		["device", device, _device_options],
+		["camera", _first(scene, "DepthSensor"), _camera_options]
+	]:
+		var problem := _set_all(one[0], one[1], one[2])
+		if not problem.is_empty():
+			return _fail(problem, REFUSED)
 	if _is_operator(link):
 		_way = device.path
 		device.path = _rest_at(_way.sample(0.0))
@@ -152,6 +237,7 @@ func _run_scene(scene: Node) -> int:
 	if _is_networked(link) and not await _meet(link, device):
 		return _fail("the far side was not met: %s" % link.get_state_text())
 	await _play(world, link, stepped)
+	_has_ticked = world.get_ticks() > 0
 	# Before the recorder stops: writing its files takes a while, in which the loop goes on.
 	var statistics := world.get_statistics()
 	var periods := {
@@ -162,13 +248,16 @@ func _run_scene(scene: Node) -> int:
 	recorder.stop()
 	statistics["recorded_rows"] = recorder.get_rows()
 	statistics["lost_rows"] = recorder.get_lost_rows()
-	for problem in world.get_problems():
+	var problems := world.get_problems()
+	if not _has_ticked:
+		problems.append("there was not one tick")
+	for problem in problems:
 		printerr(problem)
 	remove_child(scene)
 	var written := _write("_statistics.json", statistics) and _write("_periods.json", periods)
-	if _options.inputs == "1":
+	if _options.inputs:
 		written = _write("_settings.json", _settings()) and written
-	return 0 if written else 1
+	return 0 if written and problems.is_empty() else 1
 
 
 ## Of the world that is played, and of those beside it, which it meets inside of the scene.
@@ -176,22 +265,35 @@ func _record_inputs(scene: Node, played: HapticWorld) -> void:
 	for world: HapticWorld in scene.find_children("*", "HapticWorld", true, false):
 		var of_whom := "" if world == played else "_" + String(world.name).to_snake_case()
 		world.inputs_path = _file(of_whom + "_inputs.tactus")
+		_endings.append(of_whom + "_inputs.tactus")
 	var camera := _first(scene, "DepthSensor") as DepthSensor
 	if camera != null:
 		camera.images_path = _file("_images.oni")
+		_endings.append("_images.oni")
 
 
 ## How it was played, for whoever finds the bundle.
 func _settings() -> Dictionary:
 	return {
 		"options": _options,
-		"link": _link_options,
-		"device": _device_options,
-		"camera": _camera_options,
+		"played": _played,
+		"parts": _parts(),
+		"sides": _options.sides if not _options.sides.is_empty() else PackedStringArray([_options.case]),
 		"godot": Engine.get_version_info().string,
 		"machine": "%s, %s" % [OS.get_processor_name(), OS.get_distribution_name()],
 		"utc": Time.get_datetime_string_from_system(true),
 	}
+
+
+## Every file of this side, with its size and its hash.
+func _parts() -> Dictionary:
+	var parts := {}
+	for ending in _endings:
+		if FileAccess.file_exists(_file(ending)):
+			parts[_file(ending).get_file()] = {
+				"bytes": FileAccess.get_size(_file(ending)), "sha256": FileAccess.get_sha256(_file(ending))
+			}
+	return parts
 
 
 ## Options change nothing that another scene shares.
@@ -201,9 +303,32 @@ func _give_own_resources(link: MMTLink) -> void:
 		link.tuning = link.tuning.duplicate() if link.tuning != null else TeleopTuning.new()
 
 
-func _set_all(node: Node, properties: Dictionary) -> void:
+## Empty, or what was refused: what the node has afterwards counts, not what it was given.
+func _set_all(word: String, node: Node, properties: Dictionary) -> String:
 	for name: String in properties:
+		var option := "--%s.%s" % [word, name.replace(":", ".")]
+		if node == null:
+			return "%s is refused: the scene '%s' has nothing to set it at" % [option, _options.scene]
+		var owner_of: Object = node
+		for part in name.split(":"):
+			if owner_of == null or not part in owner_of:
+				return "%s is refused: there is no such property" % option
+			owner_of = owner_of.get(part) if owner_of.get(part) is Object else null
 		node.set_indexed(name, properties[name])
+		var now: Variant = node.get_indexed(name)
+		_played[option.trim_prefix("--")] = now
+		if not _is_same(now, properties[name]):
+			return "%s=%s is refused: it stays %s" % [option, JSON.stringify(properties[name]), now]
+	return ""
+
+
+## A number of JSON is a float, and a property may be whole or have the precision of a float.
+static func _is_same(now: Variant, asked: Variant) -> bool:
+	if asked is float and (now is float or now is int):
+		return is_equal_approx(now, asked)
+	if asked is bool and (now is float or now is int):
+		return false
+	return JSON.stringify(now, "", true) == JSON.stringify(asked, "", true)
 
 
 func _is_networked(link: MMTLink) -> bool:
@@ -240,12 +365,12 @@ func _is_over(world: HapticWorld, link: MMTLink, begin: float) -> bool:
 		return true
 	if _is_networked(link) and link.side == MMTLink.SIDE_TELEOPERATOR:
 		return link.get_state() in [MMTLink.STATE_LOST, MMTLink.STATE_LEFT]
-	return world.get_time() - begin >= float(_options.duration)
+	return world.get_time() - begin >= _options.duration
 
 
 func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
-	var screenshots := Array(_options.screenshots.split_floats(",", false))
-	var warmup := float(_options.warmup)
+	var screenshots := Array(_options.screenshots)
+	var warmup: float = _options.warmup
 	var begin := world.get_time()
 	var waits_for_touch: bool = _options.corrects == "touch"
 	var correction := link.correction_scheme if waits_for_touch else MMTLink.CORRECTION_NONE
@@ -253,7 +378,7 @@ func _play(world: HapticWorld, link: MMTLink, stepped: bool) -> void:
 		link.correction_scheme = MMTLink.CORRECTION_NONE
 	var proxy := _first(world, "ProxyPointer") as ProxyPointer
 	# Nobody looks until a picture is taken, and a processor that draws is slow.
-	RenderingServer.render_loop_enabled = _options.watch == "1"
+	RenderingServer.render_loop_enabled = _options.watch
 	while not _is_over(world, link, begin):
 		await get_tree().process_frame
 		if stepped:
@@ -274,7 +399,7 @@ func _take_screenshot(time: float) -> void:
 		return
 	RenderingServer.render_loop_enabled = true
 	await RenderingServer.frame_post_draw
-	RenderingServer.render_loop_enabled = _options.watch == "1"
+	RenderingServer.render_loop_enabled = _options.watch
 	get_viewport().get_texture().get_image().save_png(_file("_%s.png" % String.num(time)))
 
 
@@ -283,7 +408,13 @@ func _write(ending: String, content: Dictionary) -> bool:
 	if file == null:
 		_fail("'%s' cannot be written" % _file(ending))
 		return false
-	return file.store_string(JSON.stringify(content, "  ", true, true) + "\n")
+	var text := JSON.stringify(content, "  ", true, true) + "\n"
+	file.store_string(text)
+	file.close()
+	if FileAccess.get_file_as_string(_file(ending)) != text:
+		_fail("'%s' could not be written to its end: is the disk full?" % _file(ending))
+		return false
+	return true
 
 
 func _first(node: Node, kind: String) -> Node:

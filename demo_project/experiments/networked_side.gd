@@ -9,6 +9,7 @@ extends SceneTree
 ## pressing. Each line is JSON: time (s since the epoch), state and text of the link, force on the hand (N),
 ## whether it touches, objects that are known, and where the box is (m).
 
+const Sides := preload("res://experiments/sides.gd")
 const SCENE := "res://gallery/dynamic_testbed/dynamic_testbed.tscn"
 const OBJECTS := 2
 const SAY_EVERY := 0.05
@@ -31,9 +32,11 @@ func _initialize() -> void:
 	_box = scene.find_child("Box")
 	_link.scenario = MMTLink.SCENARIO_MMT
 	for argument in OS.get_cmdline_user_args():
-		var words := argument.trim_prefix("--").split("=", true, 1)
-		var value: Variant = JSON.parse_string(words[1])
-		_link.set(words[0], words[1] if value == null else value)
+		var problem := Sides.set_property(_link, argument)
+		if not problem.is_empty():
+			printerr("networked_side: ", problem, ".")
+			quit(2)
+			return
 	_device.path = _way([Vector3(0.0, 0.3, 0.25), Vector3(0.0, 0.3, 0.25)], [0.0, 1.0])
 	root.add_child(scene)
 

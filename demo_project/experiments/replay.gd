@@ -10,16 +10,24 @@ extends RefCounted
 
 enum { SAME, DIFFERENT, DAMAGED }
 
+const OptionWords := preload("res://addons/tactus/studies/option_words.gd")
 const INPUTS := "_inputs.tactus"
+const SETTINGS := "_settings.json"
 ## Of a recording's own time, in one go (unit: seconds).
 const A_WHILE := 60.0
 
 
 ## Returns the exit code of the program: 0 when everything was the same, 1 when something was not, 2 when
-## there was nothing or not all of it could be played.
+## there was nothing, a part was missing, or not all of it could be played.
 static func run(arguments: PackedStringArray) -> int:
-	var bundle := _value(arguments, "replay")
-	var output := _value(arguments, "output")
+	var words := OptionWords.new()
+	words.declared = {"replay": OptionWords.text(), "output": OptionWords.text()}
+	var wrong := words.read(arguments)
+	if not wrong.is_empty():
+		printerr("replay: ", wrong, ".")
+		return DAMAGED
+	var bundle: String = words.values.get("replay", "")
+	var output: String = words.values.get("output", "")
 	if output.is_empty():
 		output = bundle.path_join("replay")
 	var worst := SAME
@@ -31,7 +39,49 @@ static func run(arguments: PackedStringArray) -> int:
 	if found == 0:
 		printerr("replay: '%s' is no bundle: no file of it ends in %s." % [bundle, INPUTS])
 		return DAMAGED
+	for missing in _missing(bundle):
+		printerr("replay: ", missing, ".")
+		worst = maxi(worst, DAMAGED)
 	return worst
+
+
+## What the bundle should have, as each of its sides has listed it, and has not.
+static func _missing(bundle: String) -> PackedStringArray:
+	var missing := PackedStringArray()
+	for folder in DirAccess.get_directories_at(bundle):
+		if folder.ends_with(".unfinished"):
+			missing.append(
+				"%s was not ended: it was killed, or it is still being played" % folder.get_basename()
+			)
+	for file in DirAccess.get_files_at(bundle):
+		if file.ends_with(INPUTS) and not _is_listed(bundle, file):
+			missing.append("no CASE%s lists %s: what belongs to it is not known" % [SETTINGS, file])
+		if file.ends_with(SETTINGS):
+			missing.append_array(_missing_of(bundle, file))
+	return missing
+
+
+static func _missing_of(bundle: String, settings_file: String) -> PackedStringArray:
+	var missing := PackedStringArray()
+	var settings: Variant = JSON.parse_string(FileAccess.get_file_as_string(bundle.path_join(settings_file)))
+	if not settings is Dictionary or not settings.get("parts") is Dictionary:
+		return PackedStringArray(["%s has no list of the parts" % settings_file])
+	for side: String in settings.get("sides", []):
+		if not FileAccess.file_exists(bundle.path_join(side + SETTINGS)):
+			missing.append("its side '%s' is missing" % side)
+	for part: String in settings.parts:
+		if not FileAccess.file_exists(bundle.path_join(part)):
+			missing.append("its part %s is missing" % part)
+	return missing
+
+
+static func _is_listed(bundle: String, inputs: String) -> bool:
+	for file in DirAccess.get_files_at(bundle):
+		if file.ends_with(SETTINGS):
+			var settings: Variant = JSON.parse_string(FileAccess.get_file_as_string(bundle.path_join(file)))
+			if settings is Dictionary and settings.get("parts") is Dictionary and settings.parts.has(inputs):
+				return true
+	return false
 
 
 ## One side of a bundle.
@@ -53,6 +103,8 @@ static func play(bundle: String, side: String, output: String) -> int:
 	print("%s: %s" % [side, _in_words(report)])
 	if not report.same or report.rows == "different":
 		return DIFFERENT
+	if report.ticks == 0:
+		return DAMAGED
 	return SAME if report.problem == "" else DAMAGED
 
 
@@ -67,7 +119,9 @@ static func _compared(then: String, now: String, whole: bool) -> String:
 
 static func _in_words(report: Dictionary) -> String:
 	var words := "%d ticks, " % report.ticks
-	if report.same:
+	if report.ticks == 0:
+		words += "there is nothing to compare"
+	elif report.same:
 		words += "the same to the bit, %s" % report.outcome
 	else:
 		words += "from tick %d on not the same" % report.first_different
@@ -76,10 +130,3 @@ static func _in_words(report: Dictionary) -> String:
 	if report.problem != "":
 		words += "; not all of it could be played: %s" % report.problem
 	return words
-
-
-static func _value(arguments: PackedStringArray, option: String) -> String:
-	for argument in arguments:
-		if argument.begins_with("--%s=" % option):
-			return argument.get_slice("=", 1)
-	return ""

@@ -5,6 +5,8 @@ extends RefCounted
 ##     tactus.x86_64 -- --launch=form
 ##     tactus.x86_64 --headless -- --launch=now --scenario=4 --seconds=5 --output=FOLDER
 
+const OptionWords := preload("res://addons/tactus/studies/option_words.gd")
+
 const BOTH := "both, on this machine"
 const OPERATOR := "operator"
 const ENVIRONMENT := "environment"
@@ -56,14 +58,37 @@ var chosen := {
 
 ## Takes --NAME=VALUE; empty, or what is wrong with it.
 func take(arguments: PackedStringArray) -> String:
-	for argument in arguments:
-		var words := argument.trim_prefix("--").split("=", true, 1)
-		if words[0] == "launch":
-			continue
-		if words.size() != 2 or not chosen.has(words[0]):
-			return "'%s' is not understood: the choices are --%s=…" % [argument, "=…, --".join(chosen.keys())]
-		chosen[words[0]] = type_convert(words[1], typeof(chosen[words[0]]))
+	var words := OptionWords.new()
+	words.declared = _declared()
+	var wrong := words.read(arguments)
+	if not wrong.is_empty():
+		return wrong
+	words.values.erase("launch")
+	chosen.merge(words.values, true)
 	return problem()
+
+
+static func _declared() -> Dictionary:
+	return {
+		"launch": OptionWords.text(),
+		"scenario": OptionWords.whole(1, 5),
+		"side": OptionWords.choice([BOTH, OPERATOR, ENVIRONMENT]),
+		"seconds": OptionWords.number(0.1, 1e6, "s"),
+		"output": OptionWords.text(),
+		"driver": OptionWords.choice(names_of(DRIVERS)),
+		"remote_address": OptionWords.text(),
+		"local_port": OptionWords.whole(1, 65535),
+		"remote_port": OptionWords.whole(1, 65535),
+		"key_file": OptionWords.text(),
+		"delay_ms": OptionWords.number(0.0, 20000.0, "ms"),
+		"jitter_ms": OptionWords.number(0.0, 10000.0, "ms"),
+		"loss": OptionWords.number(0.0, 1.0, "share"),
+		"correction": OptionWords.choice(names_of(CORRECTIONS)),
+		"derivation": OptionWords.choice(names_of(DERIVATIONS)),
+		"control": OptionWords.choice(names_of(CONTROLS)),
+		"camera": OptionWords.choice(names_of(SOURCES)),
+		"watch": OptionWords.whole(0, 1),
+	}
 
 
 ## What keeps it from being started, and what to do; empty where nothing does.
@@ -113,6 +138,14 @@ func sides() -> Dictionary:
 	return here
 
 
+## Of the sides that start here, which are one bundle together.
+func _names() -> PackedStringArray:
+	if not has_network():
+		return PackedStringArray(["hand"])
+	var both := PackedStringArray([OPERATOR, ENVIRONMENT])
+	return both if chosen.side == BOTH else PackedStringArray([chosen.side])
+
+
 func _options(side: String, number: int) -> PackedStringArray:
 	var options := {
 		"scene": SCENES[chosen.scenario],
@@ -122,6 +155,7 @@ func _options(side: String, number: int) -> PackedStringArray:
 		"inputs": 1,
 		"warmup": 0.2,
 		"watch": chosen.watch if number == 0 else 0,
+		"sides": ",".join(_names()),
 	}
 	if number == 0 or chosen.side != BOTH:
 		options[DRIVERS[2]] = value_of(DRIVERS, chosen.driver)

@@ -22,14 +22,17 @@ func run(arguments: PackedStringArray) -> int:
 	var problem := launch.take(arguments)
 	if not problem.is_empty():
 		printerr("launch: ", problem, ".")
-		return 1
+		return Experiment.REFUSED
 	return await start(launch)
 
 
 ## Ends when all sides have; the bundle is in `folder` then.
 func start(launch: Launch) -> int:
-	folder = ProjectSettings.globalize_path(launch.chosen.output)
-	DirAccess.make_dir_recursive_absolute(folder)
+	folder = _own_folder(ProjectSettings.globalize_path(launch.chosen.output))
+	if folder.is_empty():
+		printerr("launch: '%s' cannot be made: choose another folder." % launch.chosen.output)
+		return 1
+	launch.chosen.output = folder
 	var sides := launch.sides()
 	var names := sides.keys()
 	var peer := _start_process(sides[names[1]]) if names.size() > 1 else -1
@@ -46,6 +49,26 @@ func start(launch: Launch) -> int:
 		Plots.draw(folder, side)
 	finished.emit("The bundle is in %s" % folder if code == 0 else "It failed: the output says why")
 	return code
+
+
+## Where nothing is yet: a bundle never takes the place of another one. Empty where none can be made.
+static func _own_folder(asked: String) -> String:
+	var place := asked.trim_suffix("/")
+	var number := 1
+	while true:
+		var found := place if number == 1 else "%s_%d" % [place, number]
+		DirAccess.make_dir_recursive_absolute(found.get_base_dir())
+		var code := DirAccess.make_dir_absolute(found)
+		if code == OK or (code == ERR_ALREADY_EXISTS and _is_empty(found)):
+			return found
+		if code != ERR_ALREADY_EXISTS:
+			return ""
+		number += 1
+	return ""
+
+
+static func _is_empty(place: String) -> bool:
+	return DirAccess.get_files_at(place).is_empty() and DirAccess.get_directories_at(place).is_empty()
 
 
 ## Before its time is over; the bundle is as long as it has lasted.

@@ -47,7 +47,7 @@ def test_a_bundle_has_what_its_page_says(bundle):
     assert len(described) > 4
     of_others = {"hand_force.svg", "hand_hand.svg", "hand_images.oni"}  # by the launcher, of a camera
     assert {f"hand{ending}" for ending in described} - of_others == {path.name for path in bundle.iterdir()}
-    assert json.loads((bundle / "hand_settings.json").read_text())["options"]["duration"] == "2"
+    assert json.loads((bundle / "hand_settings.json").read_text())["options"]["duration"] == 2.0
 
 
 def test_it_gives_the_same_bits_again(bundle, capsys):
@@ -106,13 +106,14 @@ def test_the_launcher_plays_every_world_of_a_scene_with_a_robot(exported, tmp_pa
 
 def test_the_launcher_refuses_what_there_is_not(exported, tmp_path):
     for option, said in {
-        "--scenario=7": "choose 1 to 5",
+        "--scenario=7": "a whole number from 1 to 5",
         "--driver=DRIVER_X": "DRIVER_FALCON",
-        "--seconds=0": "more than 0",
-        "--colour=red": "is not understood",
+        "--seconds=0": "a number from 0.1",
+        "--delay_ms=nan": "a number from 0.0 to 20000.0 (ms",
+        "--colour=red": "there is no --colour",
     }.items():
         done = play(exported, "--launch=now", f"--output={tmp_path}", option)
-        assert done.returncode == 1 and said in done.stdout, done.stdout
+        assert done.returncode == 2 and said in done.stdout, done.stdout
     assert not list(tmp_path.iterdir())
 
 

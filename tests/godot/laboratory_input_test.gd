@@ -1,0 +1,151 @@
+extends "nodes_case.gd"
+## What an experiment in Godot is asked: nothing that cannot be is played, what was played is written down,
+## and nothing that was there before is lost.
+
+const Experiment := preload("res://experiments/experiment.gd")
+const Replay := preload("res://experiments/replay.gd")
+const Launch := preload("res://launcher/launch.gd")
+const Run := preload("res://launcher/run.gd")
+const Sides := preload("res://experiments/sides.gd")
+const BOX := "res://gallery/dynamic_testbed/dynamic_testbed.tscn"
+const NONSENSE := ["nan", "inf", "-9", "1e300", "", "abc", "5O", "10s", "1_0"]
+
+var _folder := ProjectSettings.globalize_path("user://laboratory_%d" % OS.get_process_id())
+
+
+func _exit_tree() -> void:
+	if DirAccess.dir_exists_absolute(_folder):
+		_remove(_folder)
+
+
+func _remove(folder: String) -> void:
+	for inner in DirAccess.get_directories_at(folder):
+		_remove(folder.path_join(inner))
+	for file in DirAccess.get_files_at(folder):
+		DirAccess.remove_absolute(folder.path_join(file))
+	DirAccess.remove_absolute(folder)
+
+
+func _run(more: Array) -> int:
+	var experiment := Experiment.new()
+	add_child(experiment)
+	var words := ["--scene=" + BOX, "--output=" + _folder, "--case=hand", "--clock=stepped", "--duration=0.1"]
+	for word: String in more:
+		words = words.filter(
+			func(one: String) -> bool: return one.get_slice("=", 0) != word.get_slice("=", 0)
+		)
+	var code: int = await experiment.run(PackedStringArray(words + more))
+	experiment.queue_free()
+	return code
+
+
+func _files() -> Array:
+	return Array(DirAccess.get_files_at(_folder)) + Array(DirAccess.get_directories_at(_folder))
+
+
+func test_nonsense_is_refused_and_nothing_is_written() -> void:
+	for option: String in [
+		"duration", "warmup", "processor", "baseline", "inputs", "watch", "screenshots", "clock"
+	]:
+		for value: String in NONSENSE:
+			check_equal(
+				await _run(["--%s=%s" % [option, value]]), Experiment.REFUSED, "%s=%s" % [option, value]
+			)
+	for word: String in [
+		"--secnds=2",
+		"--clock=Stepped",
+		"--scene=res://nothing.tscn",
+		"--case=../hand",
+		"duration=2",
+		"--duration",
+		"--camera.source=1",
+		"--device.colour=3",
+		"--link.conditions.dely=0.1",
+		"--link.conditions.delay.far=1"
+	]:
+		check_equal(await _run([word]), Experiment.REFUSED, word)
+	check_equal(await _run(["--warmup=0", "--warmup=0"]), Experiment.REFUSED, "an option that is given twice")
+	check(not DirAccess.dir_exists_absolute(_folder) or _files().is_empty(), "left: %s" % [_files()])
+
+
+func test_a_property_that_refuses_its_value_ends_the_run() -> void:
+	expect_error("was refused, the old value stays")
+	check_equal(await _run(["--link.conditions.loss=5"]), Experiment.REFUSED, "a loss of 5")
+	check_equal(await _run(["--link.conditions.delay=-1"]), Experiment.REFUSED, "a delay below 0")
+	check_equal(await _run(["--device.force_limit=nan"]), Experiment.REFUSED, "a limit that is no number")
+	check(_files().is_empty(), "left: %s" % [_files()])
+
+
+func test_what_was_played_is_written_down() -> void:
+	check_equal(
+		await _run(["--inputs=1", "--link.conditions.loss=0.25", "--device.force_limit=7"]), 0, "exit code"
+	)
+	var settings: Dictionary = JSON.parse_string(
+		FileAccess.get_file_as_string(_folder.path_join("hand_settings.json"))
+	)
+	check_equal(settings.played, {"link.conditions.loss": 0.25, "device.force_limit": 7.0}, "played")
+	check_equal(settings.options.duration, 0.1, "duration")
+	for part: String in settings.parts:
+		var path := _folder.path_join(part)
+		check_equal(FileAccess.get_sha256(path), settings.parts[part].sha256, "hash of " + part)
+	check_equal(settings.sides, ["hand"], "sides")
+
+
+func test_a_second_run_of_the_same_name_loses_nothing() -> void:
+	check_equal(await _run([]), 0, "exit code")
+	var before := FileAccess.get_sha256(_folder.path_join("hand.csv"))
+	check_equal(await _run(["--duration=0.2"]), 0, "exit code")
+	check_equal(FileAccess.get_sha256(_folder.path_join("hand.csv")), before, "the first one's rows")
+	check(FileAccess.file_exists(_folder.path_join("hand_2.csv")), "the second one has no file")
+
+
+func test_a_bundle_that_lacks_a_part_is_not_the_same() -> void:
+	check_equal(await _run(["--inputs=1"]), 0, "exit code")
+	var again := ["--replay=" + _folder, "--output=" + _folder.path_join("again=1")]
+	check_equal(
+		Replay.run(PackedStringArray(again)), Replay.SAME, "the whole bundle, into a path with an equals sign"
+	)
+	check(FileAccess.file_exists(_folder.path_join("again=1/hand.csv")), "its rows are elsewhere")
+	for part: String in ["hand.csv", "hand_statistics.json", "hand_settings.json"]:
+		DirAccess.rename_absolute(_folder.path_join(part), _folder.path_join("kept"))
+		check_equal(Replay.run(PackedStringArray(again)), Replay.DAMAGED, "without " + part)
+		DirAccess.rename_absolute(_folder.path_join("kept"), _folder.path_join(part))
+	DirAccess.make_dir_absolute(_folder.path_join("hand.unfinished"))
+	check_equal(Replay.run(PackedStringArray(again)), Replay.DAMAGED, "of a run that was killed")
+	DirAccess.remove_absolute(_folder.path_join("hand.unfinished"))
+	var path := _folder.path_join("hand_settings.json")
+	var text := FileAccess.get_file_as_string(path)
+	FileAccess.open(path, FileAccess.WRITE).store_string(
+		text.replace('"sides": [', '"sides": [ "environment",')
+	)
+	check_equal(Replay.run(PackedStringArray(again)), Replay.DAMAGED, "without its second side")
+
+
+func test_the_launcher_refuses_by_type_unit_and_range() -> void:
+	for option: String in ["scenario", "seconds", "local_port", "delay_ms", "jitter_ms", "loss", "watch"]:
+		for value: String in NONSENSE:
+			var said := Launch.new().take(PackedStringArray(["--%s=%s" % [option, value]]))
+			check("--%s=%s is refused: it must be a" % [option, value] in said, said)
+	for word: String in [
+		"--driver=DRIVER_X", "--correction=CORRECTION_STEALTHY", "--side=far", "--colour=red"
+	]:
+		check(Launch.new().take(PackedStringArray([word])) != "", word)
+
+
+func test_each_launch_has_a_folder_of_its_own() -> void:
+	DirAccess.make_dir_recursive_absolute(_folder)
+	var first := Run._own_folder(_folder.path_join("bundle"))
+	FileAccess.open(first.path_join("hand.csv"), FileAccess.WRITE).store_string("rows")
+	var second := Run._own_folder(_folder.path_join("bundle"))
+	check(first != second and second.ends_with("bundle_2"), "both are %s" % second)
+
+
+func test_a_side_by_itself_refuses_what_there_is_not() -> void:
+	expect_error("was refused, the old value stays")
+	var link := MMTLink.new()
+	add_child(link)
+	for right: String in ["--side=1", "--remote_address=10.0.0.1", "--local_port=47001"]:
+		check_equal(Sides.set_property(link, right), "", right)
+	check_equal(link.local_port, 47001, "port")
+	for wrong: String in ["--sied=1", "--local_port=abc", "--local_port=70000", "side=1", "--side"]:
+		check(Sides.set_property(link, wrong) != "", wrong)
