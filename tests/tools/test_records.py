@@ -47,3 +47,10 @@ def test_a_file_without_rows_is_refused(tmp_path):
     path.write_text(HEADER)
     with pytest.warns(UserWarning), pytest.raises(RuntimeError, match="has no rows"):
         records.read(path)
+
+
+def test_the_last_seconds_have_as_many_rows(tmp_path):
+    path = tmp_path / "rows.csv"
+    path.write_text(HEADER + "".join(row(number) for number in range(5001)))
+    for seconds in (1.0, 3.0, 4.0, 4.7):
+        assert len(records.last_seconds(records.read(path), seconds).time) == round(1000 * seconds)

@@ -40,7 +40,8 @@ def read(path: Path) -> Record:
 
 def last_seconds(record: Record, seconds: float) -> Record:
     """The end of it, with a clock that starts there."""
-    rows = record.time > record.time[-1] - seconds
+    # Times are whole microseconds: half of one keeps rounding from adding a row.
+    rows = record.time > record.time[-1] - seconds + 0.5e-6
     start = record.time[rows][0]
     return Record(
         record.time[rows] - start, record.force[rows], record.object_position[rows], record.hand[rows],
