@@ -9,7 +9,9 @@ from pathlib import Path
 import bench
 import commands
 import front_door
+import project
 import pytest
+from setup import godot
 from stand_in_clone import Clone
 
 RUN = Path(__file__).resolve().parents[2] / "run"
@@ -213,6 +215,13 @@ def test_a_failed_export_leaves_the_last_one(clone):
     assert answer.returncode == 1 and "could not export" in answer.stderr, answer.stderr
     assert kept.read_text() == "the last one"
     assert [path.name for path in kept.parent.parent.iterdir() if path.name.startswith(".export")] == []
+
+
+def test_an_export_says_whom_it_runs_for(monkeypatch):
+    monkeypatch.setattr(godot, "installed", lambda: None)
+    assert "for this user" in project._runs_on()
+    monkeypatch.setattr(godot, "installed", lambda: "/usr/bin/godot")
+    assert project._runs_on() == "runs on its own"
 
 
 def test_an_interrupted_export_leaves_the_last_one(clone):

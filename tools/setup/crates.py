@@ -7,7 +7,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from . import cache
+from . import cache, fetching
 
 
 def fetch(crate: str, sha256: str, description: str, target: Path) -> None:
@@ -36,4 +36,4 @@ def _vendor(work: Path) -> None:
         environment["RUSTC_BOOTSTRAP"] = "1"
     done = subprocess.run([*cargo, "vendor", "vendor"], cwd=work, env=environment, text=True, capture_output=True)
     if done.returncode != 0:
-        raise RuntimeError(f"cargo vendor failed:\n{done.stderr[-2000:]}")
+        raise fetching.trouble("cargo vendor", done.stderr)

@@ -7,6 +7,8 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from . import fetching
+
 KEYRING = "/usr/share/keyrings/debian-archive-keyring.gpg"
 LIBRARY_FOLDER = "usr/lib/x86_64-linux-gnu"
 
@@ -64,7 +66,8 @@ class DebianRoot:
         (self.apt / "status").write_text("")
         (self.apt / "sources.list").write_text(f"deb [signed-by={KEYRING}] {self.address} {self.suite} main\n")
         (self.apt / "apt.conf").write_text(self._configuration())
-        self._run("apt-get", "update")
+        # Else a server that does not answer leaves an empty list, and no error.
+        self._run("apt-get", "update", "--option=APT::Update::Error-Mode=any")
 
     def fetch(self, packages: list[str]) -> list[Path]:
         """Downloads the packages and all they depend on; apt resumes what is partly there and checks every hash."""
@@ -110,5 +113,5 @@ APT::Sandbox::User "";
         environment = os.environ | {"APT_CONFIG": str(self.apt / "apt.conf"), "LC_ALL": "C"}
         done = subprocess.run(command, env=environment, text=True, capture_output=True)
         if done.returncode != 0:
-            raise AptError(f"{' '.join(command[:2])} failed:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+            raise fetching.trouble(" ".join(command[:2]), done.stdout[-2000:] + done.stderr[-2000:])
         return done.stdout

@@ -7,7 +7,8 @@ import subprocess
 from pathlib import Path
 
 from . import cache, progress
-from .debian_root import LIBRARY_FOLDER, AptError, DebianRoot, mirrors
+from .debian_root import LIBRARY_FOLDER, DebianRoot, mirrors
+from .fetching import Unreachable
 
 OLDEST = (4, 4)
 TESTED = "4.6.3"
@@ -93,22 +94,25 @@ def fetch() -> str:
 
 def _first_suite_with_godot() -> tuple[DebianRoot, str]:
     """A suite that has one that is new enough, and its version. Every archive of the machine's apt sources is asked."""
-    troubles = []
+    troubles, reached = [], False
     for suite in SUITES:
         for address in mirrors():
             packages = DebianRoot(cache.root() / "downloads" / f"debian-{suite}", suite, address)
             try:
                 packages.update()
+                reached = True
                 found = packages.candidate("godot")
-            except AptError as error:
-                troubles.append(f"{suite}: {error}")
+            except RuntimeError as error:
+                troubles.append(error if isinstance(error, Unreachable) else f"{suite}: {error}")
                 continue
             if _numbers(found) >= OLDEST:
                 return packages, found
             troubles.append(f"{suite} has Godot {found}: too old")
+    if not reached and isinstance(troubles[0], Unreachable):
+        raise troubles[0]
     raise RuntimeError(
         "no Debian archive of this machine's apt sources has a Godot of at least version 4.4. Install one and name it in"
-        " GODOT.\n" + "\n".join(troubles)
+        " GODOT.\n" + "\n".join(map(str, troubles))
     )
 
 

@@ -4,7 +4,7 @@ import shutil
 import subprocess
 import sys
 
-from . import cache
+from . import cache, fetching
 
 
 def is_done() -> bool:
@@ -19,7 +19,7 @@ def install() -> None:
     command = [cache.venv_bin("python"), "-m", "pip", "install", *options, "-r", requirements]
     done = subprocess.run(command, text=True, capture_output=True)
     if done.returncode != 0:
-        raise RuntimeError(f"pip failed:\n{done.stderr[-2000:]}")
+        raise fetching.trouble("pip", done.stderr)
     cache.mark_done(_folder(), _key())
 
 
