@@ -96,6 +96,11 @@ def _bench_words(words: tuple[str, ...]) -> None:
             raise Refused(f"{word} is given twice: say it once")
 
 
+def _options_of_the_bench(words: tuple[str, ...]) -> str:
+    options = bench.options(words[0]) if len(words) == 1 and words[0] in bench.names() else []
+    return "\n".join(option.name + (f"={option.value}" if option.value else "") for option in options)
+
+
 def _bench_options(words: tuple[str, ...]) -> Sequence[Option]:
     return bench.options(words[0]) if len(words) == 1 else ()
 
@@ -243,6 +248,7 @@ TABLE = (
         [("[NAME] [--key=value …]", "benches, results in build/bench/NAME.json")],
         options=_bench_options,
         words=_bench_words,
+        details=_options_of_the_bench,
     ),
     Command(
         "experiment",

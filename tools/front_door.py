@@ -38,7 +38,7 @@ def read(words: Sequence[str]) -> str | tuple[str, Given]:
     except Refused as refusal:
         raise Refused(f"./run: {refusal}{'' if str(refusal).endswith('?') else '.'} See ./run --help") from None
     if arguments.asks_for_help(words[1:]):
-        details = command.details(tuple(words[1:]))
+        details = command.details(tuple(word for word in words[1:] if word not in arguments.HELP))
         return arguments.usage([command]) + (f"\n{details}\n" if details else "")
     return command.name, arguments.read(command, words[1:])
 

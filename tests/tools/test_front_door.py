@@ -73,6 +73,20 @@ def test_each_command_says_what_it_takes_without_setting_up(command):
     assert front_door.read([command, "-h"]) == front_door.read([command, "--help"]) == answer.stdout
 
 
+def test_help_of_one_bench_or_experiment_has_its_options():
+    assert "--deformations=VALUE" in front_door.read(["bench", "kick", "--help"])
+    assert "--quick\n" in front_door.read(["bench", "physics", "-h"])
+    assert "--warmup " in front_door.read(["experiment", "scenario1", "--help"])
+
+
+def test_scripts_keep_their_line_endings_in_every_checkout():
+    if not (RUN.parent / ".git").exists():
+        pytest.skip("this is no checkout")
+    asked = ["git", "check-attr", "eol", "run", ".ci/run", "tools/debian_packages.sh", "tools/front_door.py"]
+    said = subprocess.run(asked, cwd=RUN.parent, text=True, capture_output=True, check=True).stdout
+    assert [line.rpartition(" ")[2] for line in said.splitlines()] == ["lf"] * 4
+
+
 def test_what_it_does_not_know_it_refuses():
     answer = ask("exprot")
     assert answer.returncode == 2 and "did you mean export?" in answer.stderr

@@ -53,6 +53,28 @@ def test_who_does_not_listen_is_ended_and_the_code_is_that_of_the_work():
     assert not any(_is_there(pid) for pid in pids)
 
 
+SAVING = """
+import os, signal, sys, threading
+sys.path.insert(0, {tools!r})
+import entry
+from setup import processes
+def work():
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGTERM)).start()
+    return processes.run(["sh", "-c", "trap : TERM; sleep 30; echo saved >{file}"])
+sys.exit(processes.kept(lambda: entry.ended(work)))
+"""
+
+
+def test_who_waits_for_what_it_has_started_can_save_what_it_has(tmp_path):
+    """As SCons does: it waits for the compilers, and then writes down what is built."""
+    code = SAVING.format(tools=str(cache.clone() / "tools"), file=tmp_path / "file")
+    begun = time.monotonic()
+    done = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, timeout=60)
+    assert done.returncode == 128 + signal.SIGTERM, done.stderr
+    assert (tmp_path / "file").read_text() == "saved\n"
+    assert time.monotonic() - begun < 25.0  # not the 30 s of what it has started
+
+
 @pytest.fixture
 def clone(tmp_path):
     """With the clone's own script for packages, and an apt-get beside it that takes its time."""

@@ -63,12 +63,14 @@ def _leave_with(work: Callable[[], int]) -> None:
 
 @contextmanager
 def started(command: list, **options) -> Iterator[subprocess.Popen]:
-    """A program that is asked to end where the body does not come to its own end, and then has the time to do so."""
+    """A program that is asked to end where the body does not come to its own end, with all that it has started, as a terminal
+    does it. Then it has the time to do so: SCons writes down what is built when its compilers have ended."""
     with subprocess.Popen(command, **options) as process:
         try:
             yield process
         except BaseException:
-            process.terminate()
+            for pid in descendants():
+                _signal(pid, signal.SIGTERM)
             try:
                 process.wait(PATIENCE)
             except subprocess.TimeoutExpired:
@@ -135,8 +137,8 @@ def descendants() -> list[int]:
 def _signal(pid: int, number: int) -> None:
     try:
         os.kill(pid, number)
-    except ProcessLookupError:
-        pass
+    except (ProcessLookupError, PermissionError):
+        pass  # it has ended, or belongs to another user
 
 
 def _reap() -> None:
