@@ -9,7 +9,7 @@
 #include "shared/oni_writer.hpp"
 #include "shared/random_values.hpp"
 
-namespace tactus {
+namespace tactus::depth_codec_test {
 namespace {
 
 constexpr std::array all_codecs{DepthCodec::none, DepthCodec::differences, DepthCodec::indices};
@@ -98,4 +98,4 @@ TEST(DepthCodec, NoImageTakesMoreBytesThanIsSaid) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::depth_codec_test

@@ -6,7 +6,7 @@
 
 #include "shared/oni_writer.hpp"
 
-namespace tactus {
+namespace tactus::oni_file_test {
 namespace {
 
 using shared::OniWriter;
@@ -189,4 +189,4 @@ TEST(OniFile, AnImageThatIsNotOfItsSizeIsNone) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::oni_file_test

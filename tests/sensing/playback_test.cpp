@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tactus {
+namespace tactus::playback_test {
 namespace {
 
 constexpr Nanoseconds ms = 1'000'000;
@@ -67,4 +67,4 @@ TEST(Playback, GoesOnWhereItWasLeft) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::playback_test

@@ -10,7 +10,7 @@
 
 #include "shared/oni_writer.hpp"
 
-namespace tactus {
+namespace tactus::recorded_frames_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ TEST(RecordedFrames, AFileThatBecomesShorterIsDamaged) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::recorded_frames_test

@@ -12,7 +12,7 @@
 
 #include "shared/depth_scenes.hpp"
 
-namespace tactus {
+namespace tactus::sensor_test {
 namespace {
 
 using Reading = FrameSource::Reading;
@@ -193,4 +193,4 @@ TEST_F(Watching, AnyImageIsSurvived) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::sensor_test

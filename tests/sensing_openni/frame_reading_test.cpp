@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace tactus {
+namespace tactus::frame_reading_test {
 namespace {
 
 constexpr int width = 8, height = 4;
@@ -94,4 +94,4 @@ TEST(FrameReading, EachFieldMayBeWrong) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::frame_reading_test

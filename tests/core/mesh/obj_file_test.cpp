@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-namespace tactus {
+namespace tactus::obj_file_test {
 namespace {
 
 using namespace std::string_literals;
@@ -92,4 +92,4 @@ TEST(ObjFile, LimitsHoldBeforeAnythingIsConverted) {
 }
 
 }  // namespace
-}  // namespace tactus
+}  // namespace tactus::obj_file_test
