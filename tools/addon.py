@@ -144,7 +144,7 @@ def main(arguments: list[str]) -> int:
             build.build(target, "extension", f"platform={platform.name}")
             print("done", flush=True)
     path = pack(others)
-    print(f"{path.relative_to(cache.clone())}: {path.stat().st_size / 1e6:.1f} MB, for")
+    print(f"{cache.shown(path)}: {path.stat().st_size / 1e6:.1f} MB, for")
     for platform in [platforms.host(), *others]:
         for library in built(platform):
             glibc = shipped_library.read(library, platform).glibc

@@ -98,7 +98,7 @@ def main(arguments: list[str]) -> int:
         if code != 0:
             return code
         if result.is_file():
-            print(f"   {result.relative_to(cache.clone())}")
+            print(f"   {cache.shown(result)}")
             draw(name, result)
     return 0
 

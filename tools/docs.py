@@ -31,7 +31,7 @@ def main(_: list[str]) -> int:
     with cache.replacing(cache.clone() / "build/docs") as fresh:
         if problems := make(source, fresh):
             raise RuntimeError(problems)
-    print("build/docs/index.html")
+    print(cache.shown(cache.clone() / "build/docs/index.html"))
     return 0
 
 

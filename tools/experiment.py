@@ -59,7 +59,7 @@ def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
             if not isinstance(error, options.Refused):
                 print(f"Not whole: {output.folder} is what there is of it. The results of before are as they were.", file=sys.stderr)
             raise
-    print((folder / "summary.json").relative_to(cache.clone()))
+    print(cache.shown(folder / "summary.json"))
     return 0
 
 

@@ -87,7 +87,7 @@ def export() -> int:
     folder = cache.clone() / "build/export"
     with cache.replacing(folder) as fresh:
         export_to(fresh / "tactus.x86_64")
-    print(f"{folder.relative_to(cache.clone())}/tactus.x86_64 {_runs_on()}")
+    print(f"{cache.shown(folder / 'tactus.x86_64')} {_runs_on()}")
     return 0
 
 

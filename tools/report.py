@@ -45,7 +45,7 @@ def main() -> int:
     target = cache.clone() / "build/report/index.html"
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page(folder, folder.with_name("scenario4"), folder.with_name("scenario5")))
-    print(target.relative_to(cache.clone()))
+    print(cache.shown(target))
     return 0
 
 

@@ -31,6 +31,7 @@
 #include "realtime/baseline_loop.hpp"
 #include "realtime/tick_loop.hpp"
 #include "session/session.hpp"
+#include "shared/bench_kit.hpp"
 
 namespace {
 
@@ -42,7 +43,7 @@ struct Options {
     bool compare = false;
     bool alone = false;
     std::string only;
-    std::filesystem::path output = "build/bench/pacing.json";
+    std::filesystem::path output = shared::result_path("pacing");
 };
 
 struct Case {

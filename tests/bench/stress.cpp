@@ -208,7 +208,8 @@ int main(int argc, char** argv) {
     const bool undense = options.has("undense");
     const double minutes = options.number("minutes", 1e6);
     const auto processes = static_cast<int>(options.number("processes", 2.0));
-    const std::filesystem::path folder = options.text("folder", "build/bench/stress_chunks");
+    const std::filesystem::path folder =
+        options.text("folder", (result_path("stress").parent_path() / "stress_chunks").string());
     if (!options.understood() || !(ticks >= 1.0) || processes < 1) {
         return 2;
     }

@@ -32,7 +32,7 @@ case " $WAITS " in
 esac
 {otherwise}
 """
-GODOT = 'case "$*" in --version) echo 4.6.3.stable.stand_in ;; *--dump*) echo "{}" >extension_api.json; touch gdextension_interface.h ;; *--export*) exit ${EXPORT_ENDS:-0} ;; esac'
+GODOT = 'case "$*" in --version) echo 4.6.3.stable.stand_in ;; *--dump*) echo "{}" >extension_api.json; touch gdextension_interface.h ;; *--export*) [ ${EXPORT_ENDS:-0} = 0 ] && echo new >"${@: -1}"; exit ${EXPORT_ENDS:-0} ;; esac'
 SCREEN = """while [ $# -gt 0 ]; do [ "$1" = -displayfd ] && fd=$2; shift; done
 echo 99 >&$fd
 setsid sleep 1000 &

@@ -221,6 +221,14 @@ def test_a_build_that_fails_says_so_and_starts_nothing(clone):
     assert clone.left_running() == []
 
 
+def test_what_was_made_is_named_as_the_caller_can_type_it(clone, tmp_path):
+    answer = clone.ask("export", cwd=tmp_path)
+    assert answer.returncode == 0, answer.stderr
+    program = tmp_path / answer.stdout.splitlines()[-1].partition(" runs on")[0]
+    assert program.resolve() == clone.folder / "build/export/tactus.x86_64" and program.read_text() == "new\n"
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_failed_export_leaves_the_last_one(clone):
     kept = clone.folder / "build/export/tactus.x86_64"
     kept.parent.mkdir(parents=True, exist_ok=True)

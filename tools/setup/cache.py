@@ -102,6 +102,11 @@ def variant(target: str, sanitizers: str = "", foreign: str = "") -> str:
     return ".".join(part for part in (target, foreign, sanitizers.replace(",", "_")) if part)
 
 
+def shown(path: Path) -> str:
+    """As the caller can type it."""
+    return os.path.relpath(path)
+
+
 def run_tool(script: str, *arguments: str) -> int:
     """A script of tools/ with the packages of the virtual environment."""
     path = clone() / "tools"
