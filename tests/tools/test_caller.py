@@ -28,6 +28,8 @@ def ask(tmp_path):
     folder.mkdir()
     (tmp_path / "here").mkdir()
     shutil.copy(project.FOLDER / "experiments/caller.gd", folder)
+    (folder / "addons/tactus/studies").mkdir(parents=True)
+    shutil.copy(project.FOLDER / "addons/tactus/studies/caller_path.gd", folder / "addons/tactus/studies")
     (folder / "project.godot").write_text("config_version=5\n")
     (folder / "asks.gd").write_text(SCRIPT)
     # As a shell starts it: PWD is its folder.

@@ -11,6 +11,7 @@ extends Node3D
 signal finished
 
 const StudyFile := preload("study_file.gd")
+const CallerPath := preload("caller_path.gd")
 const OptionWords := preload("option_words.gd")
 
 ## Without contact for so long, a hand counts as lifted (unit: seconds).
@@ -56,6 +57,12 @@ func _ready() -> void:
 			return
 		for key: String in words.values:
 			set(key, words.values[key])
+		folder = CallerPath.whole(folder)
+		wrong = CallerPath.problem(folder)
+		if not wrong.is_empty():
+			_end_with(wrong)
+			get_tree().quit.call_deferred(2)
+			return
 	start()
 
 
