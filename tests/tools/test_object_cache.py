@@ -41,7 +41,9 @@ class Builds:
         (folder / "main.cpp").write_text("int part();\nint main() { return part(); }\n")
 
     def source(self, answer: int) -> None:
-        (self.folder / "part.cpp").write_text(f"int part() {{ return {answer}; }}\n")
+        path = self.folder / "part.cpp"
+        path.write_text(f"int part() {{ return {answer}; }}\n")
+        os.utime(path, (1e9 + answer, 1e9 + answer))  # SCons counts in seconds: a test changes it within one
 
     def compiler(self, which: str) -> None:
         (self.folder / "compile").write_text(COMPILER.format(which=which))
