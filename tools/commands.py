@@ -267,7 +267,14 @@ TABLE = (
         [("BUNDLE", "the same inputs again: does the same come of them, to the bit")],
         words=_replay_words,
     ),
-    Command("docs", [("", "this documentation and the class reference as pages, in build/docs/")]),
+    Command(
+        "docs",
+        [
+            ("", "this documentation and the class reference as pages, in build/docs/"),
+            ("--figures", "each table of the documents that a command makes, made anew: an hour or so"),
+        ],
+        options=lambda _: [Option("--figures")],
+    ),
     Command("edit", [("[SCENE]", "the demo project in the Godot editor")], words=_scene_words),
     Command(
         "app",

@@ -1,4 +1,5 @@
-"""./run docs: README.md, docs/ and the class reference as pages in build/docs/, made by Sphinx.
+"""./run docs --figures: makes each table anew that a command makes (doc_tables/make.py).
+./run docs: README.md, docs/ and the class reference as pages in build/docs/, made by Sphinx.
 
 Sphinx, for it reads Markdown (by MyST), checks every reference between pages, writes plain files that work from a folder as well
 as from a server, brings its own themes, and has been kept well for many years; MkDocs, which does most of this, has had no release
@@ -25,7 +26,13 @@ CONTENTS = {
 }
 
 
-def main(_: list[str]) -> int:
+def main(arguments: list[str]) -> int:
+    if "--figures" in arguments:
+        from doc_tables import make as tables
+
+        changed = tables.all_tables()
+        print(f"{len(changed)} tables are others than they were{': ' if changed else ''}{', '.join(changed)}")
+        return 0
     source = cache.emptied(cache.clone() / "build/docs_source")
     write(source)
     with cache.replacing(cache.clone() / "build/docs") as fresh:

@@ -18,7 +18,7 @@ from types import ModuleType
 
 import entry
 import replay
-from measuring import bundles, host, made_by, options, outputs
+from measuring import bundles, columns, host, made_by, options, outputs
 from setup import cache
 from sweeps import command as sweep
 from sweeps import description, sources
@@ -54,6 +54,7 @@ def _carry_out(name: str, run: Callable[[Path], dict[str, object]]) -> int:
         try:
             summary = {**citation(), **{key: _sound(value) for key, value in run(output.folder).items()}}
             (output.folder / "summary.json").write_text(json.dumps(summary, indent=2, allow_nan=False) + "\n")
+            columns.write(output.folder)
             folder = output.keep()
         except (RuntimeError, ValueError, OSError) as error:
             if not isinstance(error, options.Refused):

@@ -54,7 +54,7 @@ def packages(name: str, given: Given) -> list[str]:
     """What must come from the system: words of debian_packages.sh. What only other platforms need is asked for where they are."""
     if given.has("--device-access"):
         return ["python"]
-    if name == "docs":
+    if name == "docs" and not given.has("--figures"):
         return ["pages"]
     elsewhere = platforms.tested_by(given.words[0]) if name == "test" and given.words else None
     if elsewhere:
@@ -74,13 +74,13 @@ def needed(name: str, given: Given) -> list[Step]:
         return steps.for_platforms([emulated])
     if given.has("--device-access"):
         return []
-    if name == "docs":
+    if name == "docs" and not given.has("--figures"):
         return [steps.python()]
     plan = steps.dependencies()
     if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
         plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
     debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
-    if name == "bench" or given.has("--sanitize"):
+    if name == "bench" or given.has("--sanitize") or given.has("--figures"):
         return plan
     plan += steps.of_platforms(_others(given))
     if name in ("setup", "export", "addon", "test", "proof"):

@@ -2,6 +2,7 @@
 //
 // Both files are lines of words (tests/shared/teleop_words.hpp). The result is one line of JSON a case: its
 // name, its figures and, with --bins=1, how the ticks spread.
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -40,6 +41,19 @@ void print(const TeleopCase& experiment, const TeleopFigures& figures, const Tel
     std::fflush(stdout);
 }
 
+// What a case names and the scene has not; empty where it has all.
+std::string unknown_body(const TeleopScene& scene, const TeleopCase& experiment) {
+    const auto is_there = [&scene](const std::string& name) {
+        return name.empty() || std::ranges::find(scene.bodies, name, &TeleopBody::name) != scene.bodies.end();
+    };
+    for (const auto& [name, wrong] : experiment.wrong) {
+        if (!is_there(name)) {
+            return name;
+        }
+    }
+    return is_there(experiment.object) ? "" : experiment.object;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,7 +82,11 @@ int main(int argc, char** argv) {
         }
         TeleopCase experiment;
         if (!read_case(in, experiment)) {
-            return 1;
+            return 2;
+        }
+        if (const std::string unknown = unknown_body(scene, experiment); !unknown.empty()) {
+            std::cerr << experiment.name << ": there is no body " << unknown << " in " << scene_file << "\n";
+            return 2;
         }
         TeleopBins bins;
         const TeleopFigures figures = run_teleop(scene, experiment, with_bins ? &bins : nullptr);

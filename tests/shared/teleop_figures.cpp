@@ -46,7 +46,7 @@ double percentile(std::vector<double> values, double share) {
 
 }  // namespace
 
-void write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
+bool write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
     std::ofstream file(path);
     file << "time_us,hand_x,hand_y,hand_z,force_x,force_y,force_z,direct_x,direct_y,direct_z,far_x,far_y,"
             "far_z,model_x,model_y,model_z,truth_x,truth_y,truth_z,box_error_m,offset_m,jnd_share,depth_m,"
@@ -68,6 +68,8 @@ void write_rows(const std::string& path, const std::vector<TeleopRow>& rows) {
              << ',' << row.depth << ',' << row.local_depth << ',' << row.excess_1ms.newtons << ','
              << row.excess_100ms.newtons << ',' << row.excess_100ms.jnd << ',' << row.let_go << '\n';
     }
+    file.close();
+    return !file.fail();
 }
 
 namespace {
@@ -99,7 +101,7 @@ struct Pushing {
 void evaluate_arm(const std::vector<TeleopRow>& rows, const TeleopCase& experiment, TeleopFigures& figures) {
     Pushing over_the_link, local;
     PortEnergy local_port;
-    Series deviation, speed, felt, direct, off;
+    Series deviation, speed, felt, direct, off, contact;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const TeleopRow& row = rows[i];
         const double time = to_seconds(row.time);
@@ -114,10 +116,14 @@ void evaluate_arm(const std::vector<TeleopRow>& rows, const TeleopCase& experime
             felt.add(glm::length(row.force));
             direct.add(glm::length(row.direct));
             off.add(force_error(row.force, row.direct));
+            contact.add(row.direct_touches ? 1.0 : 0.0);
         }
     }
     figures["local_energy_created_J"] = local_port.created();
     figures["restless_mm_s"] = 1e3 * speed.mean();
+    // Of the ticks while the hand holds, in which it would touch the environment where it is: without any,
+    // the force errors there are those of two hands in the air.
+    figures["settled_contact_share"] = contact.mean();
     figures["settled_direct_force_N"] = direct.mean();
     figures["settled_force_error_N"] = off.mean();
     figures["settled_force_share"] = direct.sum > 0.0 ? felt.sum / direct.sum : 0.0;
@@ -307,6 +313,7 @@ TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experimen
     figures["seconds_until_right"] = first_touch < 0.0 ? 0.0 : std::max(0.0, last_wrong - first_touch);
     figures["energy_at_hand_J"] = ports.hand.total();
     figures["energy_at_far_side_J"] = ports.far.total();
+    figures["energy_at_hand_most_J"] = ports.hand_most;
     figures["energy_created_J"] = ports.hand.created();
     figures["link_energy_created_J"] = ports.link_created;
     evaluate_excess(rows, experiment, figures, bins);

@@ -43,12 +43,15 @@ inline constexpr int no_bin = -400, last_bin = 600;
 // `ports`: the hand's and the far side's, of the whole run.
 struct TeleopPorts {
     PortEnergy hand, far;
-    double link_created = 0.0;  // the most that both together have given at any moment (unit: joules)
+    // The most that the hand, and that both together, have been given on balance at any moment since the
+    // start (unit: joules).
+    double hand_most = 0.0, link_created = 0.0;
 };
 
 TeleopFigures evaluate(std::vector<TeleopRow>& rows, const TeleopCase& experiment, const TeleopPorts& ports,
                        TeleopBins* bins);
 
-void write_rows(const std::string& path, const std::vector<TeleopRow>& rows);
+// False where not all of them are in the file.
+bool write_rows(const std::string& path, const std::vector<TeleopRow>& rows);
 
 }  // namespace tactus::shared

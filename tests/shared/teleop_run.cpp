@@ -327,6 +327,7 @@ void TeleopRun::note_energy(std::size_t tick) {
     }
     const ProxyState& there = truth_.pointer();
     ports_.far.add(-far_force_, there.hand - far_hand_);
+    ports_.hand_most = std::max(ports_.hand_most, ports_.hand.total());
     ports_.link_created = std::max(ports_.link_created, ports_.hand.total() + ports_.far.total());
     far_hand_ = there.hand;
     far_force_ = truth_.device.force;
@@ -413,7 +414,10 @@ TeleopFigures TeleopRun::figures(TeleopBins* bins) {
     figures["samples_filled"] = static_cast<double>(theirs.buffer.filled);
     figures["round_trip_ms"] = 1e3 * ours.round_trip;
     if (!experiment_.rows.empty()) {
-        write_rows(experiment_.rows, rows_);
+        if (!write_rows(experiment_.rows, rows_)) {
+            std::fprintf(stderr, "%s could not be written: is the disk full?\n", experiment_.rows.c_str());
+            std::exit(EXIT_FAILURE);
+        }
     }
     return figures;
 }

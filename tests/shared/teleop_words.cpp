@@ -1,11 +1,14 @@
 #include "shared/teleop_words.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 namespace tactus::shared {
 
@@ -122,12 +125,17 @@ bool choose(const std::string& value, std::initializer_list<const char*> names, 
     return false;
 }
 
+// All was read, and nothing is left over.
+bool has_ended(std::istream& in) {
+    return !in.fail() && (in >> std::ws).eof();
+}
+
 // X,Y,Z
 bool read_vector(std::string text, Vec3& out) {
     std::ranges::replace(text, ',', ' ');
     std::istringstream in(text);
     out = read_vector(in);
-    return !in.fail();
+    return has_ended(in);
 }
 
 // wrong.NAME.what
@@ -174,7 +182,7 @@ bool set_wrong(const std::string& key, const std::string& value, TeleopCase& c) 
     } else {
         return false;
     }
-    return !in.fail();
+    return has_ended(in);
 }
 
 // SECONDS,KIND[,BODY or AMOUNT]
@@ -193,148 +201,154 @@ bool read_event(std::string text, TeleopEvent& event) {
     return true;
 }
 
-bool set(const std::string& key, const std::string& value, TeleopCase& c) {
-    const double number = std::strtod(value.c_str(), nullptr);
-    const auto natural = static_cast<std::uint32_t>(number);
-    TeleopSettings& s = c.settings;
-    if (key == "traditional") {
-        s.traditional = number != 0.0;
-    } else if (key == "robot") {
-        c.robot = s.robot = s.traditional = number != 0.0;
-    } else if (key == "passivity") {
-        return choose(value, {"none", "wave_variables", "time_domain", "two_layers"}, s.passivity);
-    } else if (key == "wave_impedance") {
-        s.passive.impedance = number;
-    } else if (key == "wave_cutoff") {
-        s.passive.wave_cutoff = number;
-    } else if (key == "drift_rate") {
-        s.passive.drift_rate = number;
-    } else if (key == "reserve") {
-        s.passive.reserve = number;
-    } else if (key == "lightest_hand") {
-        s.passive.lightest_hand = number;
-    } else if (key == "far_store") {
-        s.passive.far_store = number;
-    } else if (key == "tank") {
-        s.passive.tank = number;
-    } else if (key == "refill") {
-        s.passive.refill = number;
-    } else if (key == "tank_share") {
-        s.passive.shared = number;
-    } else if (key == "largest_damping") {
-        s.passive.largest_damping = number;
-    } else if (key == "largest_yield") {
-        s.passive.largest_yield = number;
-    } else if (key == "update_bring_in") {
-        s.update.bring_in = number;
-    } else if (key == "update_take_out") {
-        s.update.take_out = number;
-    } else if (key == "update_tank") {
-        s.update.tank = number;
-    } else if (key == "delay_ms") {  // there and back
-        c.forth.delay = c.back.delay = from_seconds(0.5e-3 * number);
-    } else if (key == "jitter_ms") {
-        c.forth.jitter = c.back.jitter = from_seconds(1e-3 * number);
-    } else if (key == "loss") {
-        c.forth.loss = c.back.loss = number;
-    } else if (key == "loss_forth") {
-        c.forth.loss = number;
-    } else if (key == "loss_back") {
-        c.back.loss = number;
-    } else if (key == "burst") {
-        c.forth.burst = c.back.burst = bursts(number, 5.0);
-    } else if (key == "seed") {
-        c.seed = natural;
-    } else if (key == "correction") {
-        return choose(value,
-                      {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
-                       "stealthy_translate", "stealthy_turn", "passive"},
-                      s.correction);
-    } else if (key == "derivation") {
-        return choose(value, {"none", "velocity", "acceleration", "averaged", "history", "resimulate"},
-                      s.derivation);
-    } else if (key == "control") {
-        return choose(value, {"spring", "position", "position_force", "position_force_relative"}, s.control);
-    } else if (key == "states_every") {
-        s.states_every = natural;
-    } else if (key == "refresh_every") {
-        s.refresh_every = natural;
-    } else if (key == "repeats") {
-        s.repeats = natural;
-    } else if (key == "buffer") {
-        s.buffer_depth = natural;
-    } else if (key == "replay_steps") {
-        s.replay_steps = natural;
-    } else if (key == "share") {
-        s.stealth.share = number;
-    } else if (key == "let_go") {
-        s.stealth.let_go_seconds = number;
-    } else if (key == "hidden_bound") {
-        s.stealth.bound = number;
-    } else if (key == "estimate") {
-        s.estimate.gain = number;
-    } else if (key == "fade_window") {
-        s.stealth.window = number;
-    } else if (key == "deadband") {
-        s.deadband.enabled = number != 0.0;
-    } else if (key == "deadband_position") {
-        s.deadband.position = number;
-    } else if (key == "deadband_silence_ms") {
-        s.deadband.longest_silence = from_seconds(1e-3 * number);
-    } else if (key == "deadband_speed") {
-        s.deadband.position_weber = number;
-    } else if (key == "deadband_force") {
-        s.deadband.force = number;
-    } else if (key == "deadband_weber") {
-        s.deadband.force_weber = number;
-    } else if (key == "seconds") {
-        c.seconds = number;
-    } else if (key == "phase_us") {
-        c.phase = from_seconds(1e-6 * number);
-    } else if (key == "late_ms") {
-        c.late = from_seconds(1e-3 * number);
-    } else if (key == "path_shift") {
-        return read_vector(value, c.path_shift);
-    } else if (key == "near") {
-        s.stand_in.near = number;
-    } else if (key == "leash") {
-        s.stand_in.leash = number;
-    } else if (key == "pose_noise") {
-        c.pose_noise = number;
-    } else if (key == "correct_from_touch") {
-        c.correct_from_touch = number != 0.0;
-    } else if (key == "discovers") {
-        c.discovers = number != 0.0;
-    } else if (key == "gravity_believed") {
-        return read_vector(value, c.gravity_believed);
-    } else if (key.rfind("event.", 0) == 0) {
-        return read_event(value, c.events.emplace_back());
-    } else if (key == "measured_from") {
-        c.measured_from = number;
-    } else if (key == "known_after_ms") {
-        c.known_after = 1e-3 * number;
-    } else if (key == "measured_to") {
-        c.measured_to = number;
-    } else if (key == "object") {
-        c.object = value;
-    } else if (key == "rows") {
-        c.rows = value;
-    } else if (key == "arm") {
-        c.uses_arm = number != 0.0;
-    } else if (key == "settled_from") {
-        c.settled_from = number;
-    } else if (key == "settled_to") {
-        c.settled_to = number;
-    } else if (key == "arm_mass") {
-        c.arm.mass = number;
-    } else if (key == "arm_damping") {
-        c.arm.damping = number;
-    } else if (key == "arm_stiffness") {
-        c.arm.stiffness = number;
-    } else {
-        return set_wrong(key, value, c);
+// A key that stands for a number, and where it belongs.
+struct NumberWord {
+    std::string_view key;
+    double least, most;
+    bool is_whole;
+    void (*set)(TeleopCase&, double);
+};
+
+constexpr double plenty = 1e9;
+constexpr double longest_ms = 20'000.0;  // of a delay there and back
+
+std::uint32_t natural(double number) {
+    return static_cast<std::uint32_t>(number);
+}
+
+constexpr NumberWord number_words[] = {
+    {"traditional", 0, 1, true, [](TeleopCase& c, double n) { c.settings.traditional = n != 0.0; }},
+    {"robot", 0, 1, true,
+     [](TeleopCase& c, double n) { c.robot = c.settings.robot = c.settings.traditional = n != 0.0; }},
+    {"wave_impedance", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.impedance = n; }},
+    {"wave_cutoff", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.wave_cutoff = n; }},
+    {"drift_rate", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.drift_rate = n; }},
+    {"reserve", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.reserve = n; }},
+    {"lightest_hand", 0, plenty, false,
+     [](TeleopCase& c, double n) { c.settings.passive.lightest_hand = n; }},
+    {"far_store", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.far_store = n; }},
+    {"tank", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.tank = n; }},
+    {"refill", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.passive.refill = n; }},
+    {"tank_share", 0, 1, false, [](TeleopCase& c, double n) { c.settings.passive.shared = n; }},
+    {"largest_damping", 0, plenty, false,
+     [](TeleopCase& c, double n) { c.settings.passive.largest_damping = n; }},
+    {"largest_yield", 0, plenty, false,
+     [](TeleopCase& c, double n) { c.settings.passive.largest_yield = n; }},
+    {"update_bring_in", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.update.bring_in = n; }},
+    {"update_take_out", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.update.take_out = n; }},
+    {"update_tank", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.update.tank = n; }},
+    // There and back.
+    {"delay_ms", 0, longest_ms, false,
+     [](TeleopCase& c, double n) { c.forth.delay = c.back.delay = from_seconds(0.5e-3 * n); }},
+    {"jitter_ms", 0, 10'000, false,
+     [](TeleopCase& c, double n) { c.forth.jitter = c.back.jitter = from_seconds(1e-3 * n); }},
+    {"loss", 0, 1, false, [](TeleopCase& c, double n) { c.forth.loss = c.back.loss = n; }},
+    {"loss_forth", 0, 1, false, [](TeleopCase& c, double n) { c.forth.loss = n; }},
+    {"loss_back", 0, 1, false, [](TeleopCase& c, double n) { c.back.loss = n; }},
+    {"burst", 0, 0.95, false, [](TeleopCase& c, double n) { c.forth.burst = c.back.burst = bursts(n, 5.0); }},
+    {"seed", 0, 0x1p53, true, [](TeleopCase& c, double n) { c.seed = static_cast<std::uint64_t>(n); }},
+    {"states_every", 1, 1e6, true, [](TeleopCase& c, double n) { c.settings.states_every = natural(n); }},
+    {"refresh_every", 0, 1e6, true, [](TeleopCase& c, double n) { c.settings.refresh_every = natural(n); }},
+    {"repeats", 0, 1e6, true, [](TeleopCase& c, double n) { c.settings.repeats = natural(n); }},
+    {"buffer", 0, 1e6, true, [](TeleopCase& c, double n) { c.settings.buffer_depth = natural(n); }},
+    {"replay_steps", 0, 1e6, true, [](TeleopCase& c, double n) { c.settings.replay_steps = natural(n); }},
+    {"share", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.stealth.share = n; }},
+    {"let_go", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.stealth.let_go_seconds = n; }},
+    {"hidden_bound", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.stealth.bound = n; }},
+    {"estimate", 0, 1, false, [](TeleopCase& c, double n) { c.settings.estimate.gain = n; }},
+    {"fade_window", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.stealth.window = n; }},
+    {"deadband", 0, 1, true, [](TeleopCase& c, double n) { c.settings.deadband.enabled = n != 0.0; }},
+    {"deadband_position", 0, 1, false, [](TeleopCase& c, double n) { c.settings.deadband.position = n; }},
+    {"deadband_silence_ms", 0, 1e6, false,
+     [](TeleopCase& c, double n) { c.settings.deadband.longest_silence = from_seconds(1e-3 * n); }},
+    {"deadband_speed", 0, 1e6, false,
+     [](TeleopCase& c, double n) { c.settings.deadband.position_weber = n; }},
+    {"deadband_force", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.deadband.force = n; }},
+    {"deadband_weber", 0, 1e6, false, [](TeleopCase& c, double n) { c.settings.deadband.force_weber = n; }},
+    {"seconds", 0.001, 1e5, false, [](TeleopCase& c, double n) { c.seconds = n; }},
+    {"phase_us", 0, 999, false, [](TeleopCase& c, double n) { c.phase = from_seconds(1e-6 * n); }},
+    {"late_ms", 0, 1e6, false, [](TeleopCase& c, double n) { c.late = from_seconds(1e-3 * n); }},
+    {"near", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.stand_in.near = n; }},
+    {"leash", 0, plenty, false, [](TeleopCase& c, double n) { c.settings.stand_in.leash = n; }},
+    {"pose_noise", 0, 1, false, [](TeleopCase& c, double n) { c.pose_noise = n; }},
+    {"correct_from_touch", 0, 1, true, [](TeleopCase& c, double n) { c.correct_from_touch = n != 0.0; }},
+    {"discovers", 0, 1, true, [](TeleopCase& c, double n) { c.discovers = n != 0.0; }},
+    {"measured_from", 0, plenty, false, [](TeleopCase& c, double n) { c.measured_from = n; }},
+    {"measured_to", 0, plenty, false, [](TeleopCase& c, double n) { c.measured_to = n; }},
+    {"known_after_ms", 0, 1e6, false, [](TeleopCase& c, double n) { c.known_after = 1e-3 * n; }},
+    {"arm", 0, 1, true, [](TeleopCase& c, double n) { c.uses_arm = n != 0.0; }},
+    {"settled_from", 0, 1e6, false, [](TeleopCase& c, double n) { c.settled_from = n; }},
+    {"settled_to", 0, 1e6, false, [](TeleopCase& c, double n) { c.settled_to = n; }},
+    {"arm_mass", 1e-3, 1e3, false, [](TeleopCase& c, double n) { c.arm.mass = n; }},
+    {"arm_damping", 0, 1e6, false, [](TeleopCase& c, double n) { c.arm.damping = n; }},
+    {"arm_stiffness", 0, 1e6, false, [](TeleopCase& c, double n) { c.arm.stiffness = n; }},
+};
+
+// Empty, or what is allowed.
+std::string set_number(const NumberWord& word, const std::string& value, TeleopCase& c) {
+    double number = 0.0;
+    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+    const bool is_number =
+        error == std::errc{} && end == value.data() + value.size() && std::isfinite(number);
+    if (!is_number || number < word.least || number > word.most ||
+        (word.is_whole && number != std::floor(number))) {
+        std::ostringstream allowed;
+        allowed.precision(16);
+        allowed << "it must be a " << (word.is_whole ? "whole number" : "number") << " from " << word.least
+                << " to " << word.most;
+        return allowed.str();
     }
-    return true;
+    word.set(c, number);
+    return {};
+}
+
+// Empty, or what is wrong with it.
+std::string chosen(bool found, const char* names) {
+    return found ? std::string() : std::string("it must be one of ") + names;
+}
+
+std::string set(const std::string& key, const std::string& value, TeleopCase& c) {
+    const auto* const word = std::ranges::find(number_words, key, &NumberWord::key);
+    if (word != std::end(number_words)) {
+        return set_number(*word, value, c);
+    }
+    TeleopSettings& s = c.settings;
+    if (key == "passivity") {
+        return chosen(choose(value, {"none", "wave_variables", "time_domain", "two_layers"}, s.passivity),
+                      "none, wave_variables, time_domain, two_layers");
+    }
+    if (key == "correction") {
+        return chosen(
+            choose(value,
+                   {"none", "pose", "pose_velocity", "stealthy_magnitude", "stealthy_direction",
+                    "stealthy_translate", "stealthy_turn", "passive"},
+                   s.correction),
+            "none, pose, pose_velocity, stealthy_magnitude, stealthy_direction, stealthy_translate, "
+            "stealthy_turn, passive");
+    }
+    if (key == "derivation") {
+        return chosen(choose(value, {"none", "velocity", "acceleration", "averaged", "history", "resimulate"},
+                             s.derivation),
+                      "none, velocity, acceleration, averaged, history, resimulate");
+    }
+    if (key == "control") {
+        return chosen(
+            choose(value, {"spring", "position", "position_force", "position_force_relative"}, s.control),
+            "spring, position, position_force, position_force_relative");
+    }
+    if (key == "path_shift" || key == "gravity_believed") {
+        return read_vector(value, key == "path_shift" ? c.path_shift : c.gravity_believed)
+                   ? ""
+                   : "it must be X,Y,Z";
+    }
+    if (key.rfind("event.", 0) == 0) {
+        return read_event(value, c.events.emplace_back()) ? "" : "it must be SECONDS,KIND[,BODY or AMOUNT]";
+    }
+    if (key == "object" || key == "rows") {
+        (key == "object" ? c.object : c.rows) = value;
+        return {};
+    }
+    return set_wrong(key, value, c) ? "" : "there is no such key, or its value is of another kind";
 }
 
 }  // namespace
@@ -343,8 +357,11 @@ bool read_case(std::istream& in, TeleopCase& c) {
     in >> c.name;
     for (std::string word; in >> word;) {
         const std::size_t equals = word.find('=');
-        if (equals == std::string::npos || !set(word.substr(0, equals), word.substr(equals + 1), c)) {
-            std::cerr << c.name << ": " << word << " is not understood\n";
+        const std::string problem = equals == std::string::npos
+                                        ? "it must be KEY=VALUE"
+                                        : set(word.substr(0, equals), word.substr(equals + 1), c);
+        if (!problem.empty()) {
+            std::cerr << c.name << ": " << word << " is refused: " << problem << "\n";
             return false;
         }
     }

@@ -34,9 +34,13 @@ def test_the_most_energy_of_what_is_called_passive_is_found():
         "static.traditional_two_layers_25ms.energy_created_J": 2e-7,
         "dynamic.passive_updates_right_50ms.energy_created_J": 3e-7,
         "dynamic.mmt_50ms.energy_created_J": 0.5,
+        "static.traditional_100ms.link_energy_created_J": 2.0,
+        "static.traditional_two_layers_25ms.link_energy_created_J": 4e-7,
+        "dynamic.passive_updates_right_50ms.link_energy_created_J": 1e-7,
     }
     assert closed_loop.passive(summary) == {
         "passive.energy_created_max_J": 3e-7, "passive.energy_created_max_case": "dynamic.passive_updates_right_50ms",
+        "passive.link_energy_created_max_J": 4e-7, "passive.link_energy_created_max_case": "static.traditional_two_layers_25ms",
     }  # fmt: skip
 
 

@@ -7,12 +7,14 @@ In the static scene the arm presses onto the ground and holds; in the dynamic on
 too heavy and 30 % too slippery, and holds. Cases are SCENE.local and SCENE.WAY_DELAYms, where WAY is mmt (the default),
 or one of measuring/rivals.py; with _right after it, where there is a model, the model is right.
 
-energy_created_J is the most that the hand has been given on balance at any moment of a contact, settled_force_share what
-is felt of the force that direct touch would give while the hand holds still (transparency; where direct touch gives less
+energy_created_J is the most that the hand has been given on balance at any moment of a contact, energy_at_hand_most_J the
+same since the start, link_energy_created_J that of hand and far side together. settled_contact_share is the share of the
+ticks while the hand holds, in which it would touch the environment where it is: a way that has lost the contact has neither
+of the next two figures. settled_force_share is what is felt of the force that direct touch would give while the hand holds still (transparency; where direct touch gives less
 than 0.05 N then there is no such share), settled_force_error_N how much of it is missing or too much, restless_mm_s how
 fast the hand moves then. The others: how deep the hand goes into the environment (penetration), how far beyond where it
 then settles (overshoot), by how much deeper than by local touch (over_penetration), and the energy that the device gives
-the hand. passive.energy_created_max_J is the most of all that is called passive.
+the hand. passive.energy_created_max_J and passive.link_energy_created_max_J are the most of all that is called passive.
 """
 
 import csv
@@ -23,7 +25,7 @@ from typing import Literal
 from measuring import options, rivals, teleop_runs
 
 FIGURES = ("penetration_max_mm", "settled_depth_mm", "overshoot_mm", "energy_J")
-LINKED = ("settled_force_share", "settled_force_error_N", "restless_mm_s", "hand_deviation_rms_mm", *teleop_runs.FIGURES)
+LINKED = ("settled_contact_share", "settled_force_share", "settled_force_error_N", "restless_mm_s", "hand_deviation_rms_mm", *teleop_runs.FIGURES)
 SCENES = ("static", "dynamic")
 # Direct touch that gives less says nothing about a share (newtons).
 LEAST_SHARED = 0.05
@@ -77,7 +79,7 @@ def run(given: dict[str, str], output: Path) -> dict[str, object]:
         summary |= {f"{scene}.local.{key}": local[f"local_{key}"] for key in (*FIGURES, "energy_created_J")}
         for name, figures in found.items():
             summary |= {f"{name}.{key}": value for key, value in of_case(figures).items()}
-        _write_table(output / f"{scene}.csv", found)
+        _write_table(output / f"{scene}.csv", {name: of_case(figures) for name, figures in found.items()})
     summary |= passive(summary)
     if settings.pictures:
         from plots import closed_loop
@@ -90,6 +92,8 @@ def of_case(figures: dict[str, float]) -> dict[str, float]:
     found = {key: figures[key] for key in (*FIGURES, *LINKED)}
     if figures["settled_direct_force_N"] < LEAST_SHARED:
         del found["settled_force_share"]
+    if figures["settled_contact_share"] == 0.0:
+        del found["settled_force_error_N"]
     found["over_penetration_mm"] = figures["penetration_max_mm"] - figures["local_penetration_max_mm"]
     found["largest_difference_from_local"] = difference(figures)
     return found
@@ -101,13 +105,16 @@ def difference(figures: dict[str, float]) -> float:
 
 
 def passive(summary: dict[str, object]) -> dict[str, object]:
-    created = {
-        key: float(value)
-        for key, value in summary.items()
-        if key.endswith(".energy_created_J") and any(f".{scheme}_" in key for scheme in rivals.PASSIVE)
-    }
-    worst = max(created, key=lambda key: created[key])
-    return {"passive.energy_created_max_J": created[worst], "passive.energy_created_max_case": worst.rsplit(".", 1)[0]}
+    found: dict[str, object] = {}
+    for figure in ("energy_created", "link_energy_created"):
+        created = {
+            key: float(value)
+            for key, value in summary.items()
+            if key.endswith(f".{figure}_J") and any(f".{scheme}_" in key for scheme in rivals.PASSIVE)
+        }
+        worst = max(created, key=lambda key: created[key])
+        found |= {f"passive.{figure}_max_J": created[worst], f"passive.{figure}_max_case": worst.rsplit(".", 1)[0]}
+    return found
 
 
 def _write_table(path: Path, found: dict[str, dict[str, float]]) -> None:
@@ -117,4 +124,4 @@ def _write_table(path: Path, found: dict[str, dict[str, float]]) -> None:
         writer.writerow(["way", "delay_ms", *keys])
         for name, figures in found.items():
             way, delay = name.split(".")[1].removesuffix("ms").rsplit("_", 1)
-            writer.writerow([way, delay, *(f"{figures[key]:.6g}" for key in keys)])
+            writer.writerow([way, delay, *(f"{figures[key]:.6g}" if key in figures else "" for key in keys)])

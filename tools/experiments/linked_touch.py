@@ -1,7 +1,7 @@
 """One touch over a network, in one way: what a sweep is made of (docs/experiments.md).
 
     ./run experiment linked_touch [--scene=static|dynamic] [--way=default] [--seconds=10] [--delay=100] [--loss=0]
-        [--seed=1] [--hand_shift=0.005] [--set=KEY=VALUE,KEY=VALUE]
+        [--seed=1] [--hand_shift=0.005] [--set=KEY=VALUE,KEY=VALUE] [--rows=0]
         [--mass=1.2 --friction=0.7 --tilt=1 --moved=0.01 --pose_noise=0.001 --phase=500 --late=50 --jitter=3]
 
 --scene       static: a ground and a sphere. dynamic: a box that is pushed
@@ -11,6 +11,7 @@
 --seed        which packets are lost or late, what noise there is, and where the hand goes
 --hand_shift  the hand's path is shifted by up to so much along x and z, another way with each seed (unit: meters)
 --set         keys of tests/shared/teleop_words.cpp
+--rows        1: every tick of it is left as linked_touch.csv
 --mass and the others: see Imperfections in measuring/teleop_runs.py
 
 The summary has every figure of the case (tests/shared/teleop_figures.cpp). In virtual time: the same options give the same bits.
@@ -37,12 +38,14 @@ class Settings(teleop_runs.Imperfections):
     seed: int = options.seed()
     hand_shift: float = options.option(0.0, "m", 0, 0.1)
     set: dict[str, str] = options.pairs()
+    rows: bool = options.switch(False)
 
 
 def run(given: dict[str, str], output: Path) -> dict[str, object]:
     settings = options.parse(Settings, given)
     description = teleop_runs.description(SCENES[settings.scene])
-    (figures,) = teleop_runs.run(description["scene"], [case(description, settings)], output).values()
+    keys = case(description, settings) | ({"rows": output / "linked_touch.csv"} if settings.rows else {})
+    (figures,) = teleop_runs.run(description["scene"], [keys], output).values()
     return figures
 
 

@@ -11,13 +11,14 @@ from functools import cache as once
 from pathlib import Path
 
 import build
-from measuring.options import option
+from measuring.options import Refused, option
 from measuring.teleop_scene import Scene
 from project import FOLDER
 from setup import cache
 
 Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "name"
 
+REFUSED = 2  # the exit code of the runner where it does not understand a case
 # What keeps traditional touch from making energy (core/teleop/passivity.hpp).
 PASSIVITY = ("wave_variables", "time_domain", "two_layers")
 
@@ -26,7 +27,8 @@ SPREAD = ("mean", "p95", "p99", "max")
 FIGURES = (
     *(f"force_error_{how}_N" for how in SPREAD),
     *(f"felt_excess_{window}_{unit}_{how}" for window in ("1ms", "100ms") for unit in ("N", "jnd") for how in SPREAD),
-    "energy_at_hand_J", "energy_at_far_side_J", "energy_created_J", "bits_per_s",
+    "energy_at_hand_J", "energy_at_far_side_J", "energy_at_hand_most_J", "energy_created_J", "link_energy_created_J",
+    "bits_per_s",
 )  # fmt: skip
 # And of a body that is followed.
 PLACES = (
@@ -102,6 +104,8 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
         cases_file.write_text("".join(_line(case) for case in share))
         command = [program, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
         done = subprocess.run(command, text=True, capture_output=True)
+        if done.returncode == REFUSED:
+            raise Refused(done.stderr.strip())
         if done.returncode != 0:
             raise RuntimeError(f"{cases_file} could not be run:\n{done.stderr[-2000:]}")
         return [json.loads(line) for line in done.stdout.splitlines()]

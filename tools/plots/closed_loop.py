@@ -27,7 +27,7 @@ def draw(folder: Path, scenes: tuple[str, ...], delays: list[str], summary: dict
             one = axes[row][column]
             for way in rivals.SCHEMES:
                 name = "mmt" if way == rivals.DEFAULT else way
-                values = [float(summary[f"{scene}.{name}_{delay}ms.{key}"]) for delay in delays]
+                values = [float(summary.get(f"{scene}.{name}_{delay}ms.{key}", "nan")) for delay in delays]
                 colour, dash = WAYS[way]
                 one.plot(along, values, dash, color=colour, marker="o", markersize=3.5, linewidth=1.3, label=rivals.LABELS[way])
             one.set(ylabel=label, xlabel="delay there and back (ms)")

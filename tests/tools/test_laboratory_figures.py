@@ -1,0 +1,44 @@
+"""Figures of experiments, recomputed from their rows by a second script (second_script.py)."""
+
+from pathlib import Path
+
+import pytest
+import second_script
+
+from experiments import linked_touch, scenario1, scenario4
+from measuring import teleop_processes
+
+
+def agree(found: dict, again: dict[str, float]) -> None:
+    """Rows have nine digits: of forces of some newtons, changes are known to a tenth of a millionth."""
+    assert again
+    for key, value in again.items():
+        assert found[key] == pytest.approx(value, rel=1e-5, abs=1e-7 if "jnd" not in key else 1e-5), key
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"way": "default", "mass": "1.2", "friction": "0.7"}, {"way": "pose_only", "mass": "1.2"}, {"way": "traditional", "jitter": "3", "loss": "0.1"},
+     {"way": "passive_updates", "scene": "static", "moved": "0.005"}],
+)  # fmt: skip
+def test_linked_touch(options, tmp_path):
+    found = linked_touch.run(options | {"seconds": "4", "rows": "1"}, tmp_path)
+    again = second_script.linked_touch(tmp_path / "linked_touch.csv")
+    if options.get("scene") == "static":
+        del again["box_position_error_max_mm"]
+    agree(found, again)
+
+
+def test_scenario1(tmp_path):
+    found = scenario1.run({"clock": "stepped", "seconds": "4", "pictures": "0"}, tmp_path)
+    for case in ("static", "dynamic"):
+        agree({key.removeprefix(f"{case}."): value for key, value in found.items()}, second_script.scenario1(tmp_path / f"{case}.csv", 4.0))
+
+
+def test_scenario4(tmp_path):
+    """Of rows as two processes leave them: what is written is what is counted."""
+    settings = scenario4.Settings(seconds=3.0)
+    case = scenario4.cases(settings)[3]  # the box, by a model
+    runs = teleop_processes.play_all([case], tmp_path)
+    found = teleop_processes.figures(runs[case.name])
+    agree(found, second_script.scenario4(Path(tmp_path / f"{case.name}.csv")))

@@ -1,0 +1,61 @@
+"""What the columns of an experiment's tables mean: columns.json beside them, a data dictionary."""
+
+import csv
+import json
+import re
+from pathlib import Path
+
+# A whole name, or its beginning and its end: with the unit.
+_MEANINGS = (
+    (r"time_us", "the tick's time as it was scheduled, microseconds"),
+    (r"force_[xyz]", "force that the proxy asks for, in the world's frame, newtons"),
+    (r"displayed_[xyz]", "force that the device was given, behind every limit, in the world's frame, newtons"),
+    (r"direct_[xyz]", "force of direct, undelayed touch by the same hand, newtons"),
+    (r"far_[xyz]", "force at the teleoperator, newtons"),
+    (r"local_force_[xyz]", "force of local touch, newtons"),
+    (r"hand_[xyz]", "position of the device in the world, meters"),
+    (r"proxy_[xyz]", "position of the proxy in the world, meters"),
+    (r"(object|model|truth)_[xyz]", "position of the followed body in the world (model: in the local model, truth: at the teleoperator), meters"),
+    (r"object_q[xyzw]", "rotation of the followed body, a unit quaternion"),
+    (r"(model|truth)_final_[xyz]", "position of the followed body at the end, meters"),
+    (r"proxy_status", "bits of ProxyPointer.get_status()"),
+    (r"contacts", "planes that constrain the proxy"),
+    (r"direct_contacts", "planes that constrain the proxy of direct touch"),
+    (r"box_error_m", "distance of the followed body in the model from where it is, meters"),
+    (r"offset_m", "distance by which a correction is masked, meters"),
+    (r"(local_)?depth_m", "depth of the device below the surface, meters"),
+    (r"let_go", "1: the pointer has released the body because the model was too far off"),
+    (r"(model|environment)_beyond", "1: the body is beyond the line at the end, on that side"),
+    (r"case|scheme|way|scenario|side|scene|hand|wrong|kind|correction|derivation|loop", "which one"),
+    (r"run|round", "its number"),
+    (r"worse|diverged", "1: it is"),
+    (r"settings", "keys of tests/shared/teleop_words.cpp"),
+    (r"score", "geometric mean of force errors over those of the reference"),
+)
+_UNITS = (
+    ("_jnd", "just-noticeable differences"), ("_per_s", "per second"), ("_ticks", "ticks"), ("_share", "share, 0 … 1"),
+    ("_mm_s", "millimeters per second"), ("_mm", "millimeters"), ("_deg", "degrees"), ("_us", "microseconds"), ("_ms", "milliseconds"),
+    ("_J", "joules"), ("_N", "newtons"), ("_n", "newtons"), ("_m", "meters"), ("_s", "seconds"), ("_pct", "percent"),
+)  # fmt: skip
+
+
+def meaning(column: str) -> str:
+    """Empty where it is not known."""
+    for pattern, words in _MEANINGS:
+        if re.fullmatch(pattern, column):
+            return words
+    bare = re.sub(r"_(mean|p50|p90|p95|p99|p999|max|min|most|median)$", "", column)
+    for ending, unit in _UNITS:
+        if bare.endswith(ending) or f"{ending}_" in bare:
+            return f"{bare.replace(ending, '', 1).replace('_', ' ').strip()}, {unit}"
+    return ""
+
+
+def write(folder: Path) -> None:
+    """Of every table in the folder; none: no file."""
+    found = {}
+    for path in sorted(folder.glob("*.csv")):
+        with path.open(newline="") as file:
+            found[path.name] = {column: meaning(column) for column in next(csv.reader(file), [])}
+    if found:
+        (folder / "columns.json").write_text(json.dumps(found, indent=2, ensure_ascii=False) + "\n")
