@@ -162,7 +162,7 @@ class ClassTable:
             class_name = kind
         if enum := element.get("enum"):
             hint = "ENUM"
-            text = ",".join(f"{c.get('label')}:{c.get('value')}" for c in self.enumerators(enum))
+            text = ",".join(f"{self.label(c)}:{c.get('value')}" for c in self.enumerators(enum))
             usage += " | PROPERTY_USAGE_CLASS_IS_" + ("BITFIELD" if element.get("is_bitfield") else "ENUM")
             class_name = enum
         if range_ := element.get("range"):
@@ -176,6 +176,13 @@ class ClassTable:
         usage = f"static_cast<uint32_t>({usage})" if "|" in usage else usage
         last = f", {quoted(text)}, {usage}, {quoted(class_name)}"
         return f"PropertyInfo(Variant::{variant}, {name}, PROPERTY_HINT_{hint}{last})"
+
+    def label(self, constant):
+        """What the inspector shows. Godot takes the list apart at its commas, and each entry at its colon."""
+        label = constant.get("label", constant.get("name"))
+        if set(label) & set(",:"):
+            raise ValueError(f"{self.path.name}: {constant.get('name')} needs a label without comma and colon, not '{label}'")
+        return label
 
     def signal(self, signal):
         params = sorted(signal.findall("param"), key=lambda param: int(param.get("index")))
