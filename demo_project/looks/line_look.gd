@@ -19,3 +19,9 @@ extends MeshInstance3D
 
 func _draw_line() -> void:
 	mesh = null if line == null else line.create_line_mesh(thickness)
+
+
+## What is made here is made again when the scene is opened: it is not stored.
+func _validate_property(property: Dictionary) -> void:
+	if property.name == "mesh":
+		property.usage &= ~PROPERTY_USAGE_STORAGE

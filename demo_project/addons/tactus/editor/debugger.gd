@@ -1,6 +1,8 @@
 @tool
 extends EditorDebuggerPlugin
 ## Brings to the dock what a scene that the editor has started says (overlay/probe.gd).
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 var _dock: Control
 

@@ -1,6 +1,8 @@
 @tool
 extends "grip_gizmos.gd"
 ## Of a HapticDevice: the box of its workspace, whose faces set how large it is in the scene, and its path.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const PATH_STEPS := 200
 

@@ -1,5 +1,7 @@
 extends RefCounted
 ## A handle of a gizmo: a point that is dragged to change one property of one object.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 var name := ""
 ## Where it is, in metres, in the node's frame.
@@ -31,9 +33,9 @@ static func of_point(
 	called: String, index: int, owner: Object, of: StringName, frame := Transform3D.IDENTITY
 ) -> RefCounted:
 	var becomes := func(at: Vector3) -> PackedVector3Array:
-		var points: PackedVector3Array = owner.get(of)
-		points[index] = frame.affine_inverse() * at
-		return points
+		var moved: PackedVector3Array = owner.get(of)
+		moved[index] = frame.affine_inverse() * at
+		return moved
 	var points: PackedVector3Array = owner.get(of)
 	return along("%s %d" % [called, index], frame * points[index], Vector3.ZERO, owner, of, becomes)
 
@@ -44,18 +46,16 @@ static func of_curve(curve: Curve3D, frame := Transform3D.IDENTITY) -> Array:
 	var into := frame.affine_inverse()
 	for i in curve.point_count:
 		var point := curve.get_point_position(i)
-		var at := func(place: Vector3) -> Vector3: return into * place
+		var at := func(to: Vector3) -> Vector3: return into * to
 		found.append(
 			along("point_%d/position" % i, frame * point, Vector3.ZERO, curve, "point_%d/position" % i, at)
 		)
 		for side: String in ["in", "out"]:
-			var property := "point_%d/%s" % [i, side]
-			var bend: Vector3 = curve.get(property)
+			var bent := "point_%d/%s" % [i, side]
+			var bend: Vector3 = curve.get(bent)
 			if bend != Vector3.ZERO:
-				var from_point := func(place: Vector3) -> Vector3: return into * place - point
-				found.append(
-					along(property, frame * (point + bend), Vector3.ZERO, curve, property, from_point)
-				)
+				var from_point := func(to: Vector3) -> Vector3: return into * to - point
+				found.append(along(bent, frame * (point + bend), Vector3.ZERO, curve, bent, from_point))
 	return found
 
 

@@ -2,6 +2,8 @@
 extends EditorNode3DGizmoPlugin
 ## Lines and handles of one class of nodes. What inherits says which lines, and which property each handle
 ## changes; dragging and undoing are the same for all.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const Grip := preload("grip.gd")
 const LINES := "lines"

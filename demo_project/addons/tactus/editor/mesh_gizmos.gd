@@ -1,6 +1,8 @@
 @tool
 extends "grip_gizmos.gd"
 ## Of a HapticMesh: the edges of what is touched; of many triangles the box about them.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const MOST_TRIANGLES := 20000
 

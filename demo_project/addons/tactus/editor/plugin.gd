@@ -1,6 +1,8 @@
 @tool
 extends EditorPlugin
 ## What the editor shows of the extension's nodes: gizmos with handles, and the Tactus dock.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const GIZMOS := [
 	preload("device_gizmos.gd"),

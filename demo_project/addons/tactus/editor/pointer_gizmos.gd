@@ -1,6 +1,8 @@
 @tool
 extends "grip_gizmos.gd"
 ## Of a ProxyPointer: its sphere, and the guide that leads it.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 
 func _class_name() -> String:

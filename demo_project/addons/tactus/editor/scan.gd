@@ -1,5 +1,7 @@
 extends RefCounted
 ## What could be a hand and is plugged in now.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const SPACE_MOUSE_SOCKET := "/var/run/spnav.sock"
 

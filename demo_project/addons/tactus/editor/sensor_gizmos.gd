@@ -1,6 +1,8 @@
 @tool
 extends "grip_gizmos.gd"
 ## Of a DepthSensor: what it sees, and how high the support is.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 ## As a Kinect's, and the synthetic camera's.
 const FIELD_OF_VIEW := 1.0  # horizontal, radians

@@ -1,6 +1,8 @@
 @tool
 extends "grip_gizmos.gd"
 ## Of a HapticSoftBody: the box about it, and the box of what is held, whose faces are dragged.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 
 func _class_name() -> String:

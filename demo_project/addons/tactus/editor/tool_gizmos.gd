@@ -1,6 +1,8 @@
 @tool
 extends "grip_gizmos.gd"
 ## Of a HapticTool: the box about it, and where the hand holds it.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const CROSS := 0.01  # metres
 

@@ -2,6 +2,8 @@
 extends "grip_gizmos.gd"
 ## Of a HapticWorld: the ghosts of its model. Where a link of it errs about a body on purpose
 ## (MMTLink.model_errors), the body is drawn where the operator's model has it.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 
 func _class_name() -> String:

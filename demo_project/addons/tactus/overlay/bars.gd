@@ -2,6 +2,8 @@
 extends Control
 ## The histogram of a loop's periods, from half of what is wanted to one and a half, logarithmic: single late
 ## ticks are seen beside a thousand punctual ones.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const Plot := preload("plot.gd")
 

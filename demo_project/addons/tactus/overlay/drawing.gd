@@ -2,6 +2,8 @@ extends Node
 ## Draws in the scene itself what the hands feel: forces, contacts and their planes, trails, on demand the
 ## boxes that triangles are looked for in; and where a link's far side is in this program, the true places of
 ## the bodies about those of the model.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const FORCE_SCALE := 0.02  # metres a newton
 const PLANE := 0.015  # half a side of what is drawn of a contact's plane, metres
@@ -121,8 +123,8 @@ class Lines:
 		var tip := from + along
 		add(from, tip, color)
 		for side: Vector3 in _across(along.normalized()):
-			for sign: float in [-1.0, 1.0]:
-				add(tip, tip - 0.2 * along + 0.08 * sign * along.length() * side, color)
+			for way: float in [-1.0, 1.0]:
+				add(tip, tip - 0.2 * along + 0.08 * way * along.length() * side, color)
 
 	func add_plane(at: Vector3, normal: Vector3, half: float, color: Color) -> void:
 		var sides := _across(normal)

@@ -1,6 +1,8 @@
 extends RefCounted
 ## Everything haptic in a scene tree in figures, plain enough to be sent to another process: the same are
 ## plotted by the overlay beside the scene and by the editor's dock.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const KINDS := ["HapticWorld", "MMTLink", "HapticDevice", "ProxyPointer", "DepthSensor"]
 ## Nodes are looked for this often, in milliseconds; looking through a large tree takes a while.

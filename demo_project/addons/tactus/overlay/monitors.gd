@@ -1,6 +1,8 @@
 extends RefCounted
 ## Godot's own performance monitors (Debugger, Monitors) of what is haptic. They are asked for only while
 ## somebody looks at them.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const PREFIX := "tactus/"
 

@@ -1,6 +1,8 @@
 extends CanvasLayer
 ## Shows beside any scene what its haptic loop does: plots over time, and in the scene itself forces, contacts
 ## and trails. Add this scene to yours. Hidden it costs nothing.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const Figures := preload("figures.gd")
 const Monitors := preload("monitors.gd")

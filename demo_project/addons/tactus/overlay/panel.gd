@@ -2,6 +2,8 @@
 extends VBoxContainer
 ## Plots of the figures that Figures gives, and what devices, links and cameras say. Whoever has the figures
 ## shows them: the overlay of a running scene, or the editor's dock.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 var _counted := {}  # by what is counted: [time, count] as of the last figures
 var _period_us := {}

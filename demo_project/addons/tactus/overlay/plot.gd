@@ -1,6 +1,8 @@
 @tool
 extends Control
 ## Curves over the last seconds, with a scale that fits them.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 const PAPER := Color(0.07, 0.08, 0.1, 0.85)
 const GRID := Color(1.0, 1.0, 1.0, 0.1)

@@ -1,5 +1,7 @@
 extends RefCounted
 ## A path of the command line as its writer means it.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 
 ## Where Godot is started with --path, it leaves the caller's folder for that of the project. The shell keeps

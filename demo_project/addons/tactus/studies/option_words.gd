@@ -1,6 +1,9 @@
 extends RefCounted
 ## Reads --key=value by type, unit and range. What does not fit is refused with the key, the value and what is
 ## allowed, and nothing is taken.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
+@warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
 ## A whole number has at most so many digits; one that an int does not hold is beyond every range.
 const MOST_DIGITS := 18

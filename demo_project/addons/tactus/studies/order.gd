@@ -1,5 +1,8 @@
 extends RefCounted
 ## Orders of trials that only a seed decides.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
+@warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
 
 ## Each condition equally often (as far as `count` allows), shuffled.

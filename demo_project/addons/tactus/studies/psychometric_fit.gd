@@ -7,6 +7,9 @@ extends RefCounted
 ## which 75 % are right where no answer is a lapse. The posterior over threshold, slope and lapse is computed
 ## on a grid (Kuss, Jäkel and Wichmann, "Bayesian inference for psychometric functions", 2005); lapses are
 ## fitted because a fixed rate biases the threshold (Wichmann and Hill, "The psychometric function", 2001).
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
+@warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
 const CONFIDENCE := 0.95
 ## The evidence for a psychometric function over guessing (natural logarithm of the Bayes factor) below which

@@ -4,6 +4,9 @@ extends RefCounted
 ## 0.5^(1/3) = 79.4 % are right, two where 70.7 % are. Steps are factors, so that no difference becomes zero.
 ##
 ## It only places the trials; psychometric_fit.gd estimates the threshold from all of them.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
+@warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
 ## The present difference, and the ends beyond which no step leads.
 var level := 1.0

@@ -7,6 +7,9 @@ extends Node3D
 ##
 ## Every exported property of the root node can be given so. A run that was not finished, with the same
 ## settings, goes on at its next trial.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
+@warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
 signal finished
 

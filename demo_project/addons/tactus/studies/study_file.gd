@@ -7,6 +7,9 @@ extends RefCounted
 ##
 ## A run that was not finished goes on where it stopped (`begin`). A row counts only when it has been read
 ## back from the file.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
+@warning_ignore_start("integer_division", "incompatible_ternary", "shadowed_variable_base_class")
 
 ## A participant's code: no name of a person, and nothing that a path could be confused by.
 const CODE := "^[A-Za-z0-9_-]{1,32}$"

@@ -1,0 +1,82 @@
+extends "nodes_case.gd"
+## What the inspector and the configuration warnings say of these nodes.
+
+
+func _extension_classes() -> Array[StringName]:
+	var classes: Array[StringName] = []
+	for name in ClassDB.get_class_list():
+		if ClassDB.class_get_api_type(name) == ClassDB.API_EXTENSION and not name.begins_with("Binding"):
+			classes.append(name)
+	return classes
+
+
+## As Godot takes such a hint apart: at the commas, and each entry at its colon.
+func test_every_enum_of_the_inspector_has_its_entries() -> void:
+	var seen := 0
+	for type in _extension_classes():
+		for property in ClassDB.class_get_property_list(type, true):
+			if property.hint != PROPERTY_HINT_ENUM or property.type != TYPE_INT:
+				continue
+			seen += 1
+			var enumeration: String = String(property.class_name).get_slice(".", 1)
+			var values: Array[int] = []
+			for constant in ClassDB.class_get_enum_constants(type, enumeration, true):
+				values.append(ClassDB.class_get_integer_constant(type, constant))
+			var entries: PackedStringArray = property.hint_string.split(",")
+			check_equal(entries.size(), values.size(), "entries of %s.%s" % [type, property.name])
+			for i in mini(entries.size(), values.size()):
+				var parts := entries[i].split(":")
+				check_equal(parts.size(), 2, "parts of '%s' in %s.%s" % [entries[i], type, property.name])
+				check(parts[0].strip_edges() != "", "no name in '%s' in %s" % [entries[i], type])
+				check(parts[1].is_valid_int() and int(parts[1]) == values[i], "value of '%s'" % entries[i])
+	check(seen >= 8, "only %d enums" % seen)
+
+
+func _scripts(folder: String) -> PackedStringArray:
+	var found := PackedStringArray()
+	for file in DirAccess.get_files_at(folder):
+		if file.ends_with(".gd"):
+			found.append(folder.path_join(file))
+	for below in DirAccess.get_directories_at(folder):
+		found.append_array(_scripts(folder.path_join(below)))
+	return found
+
+
+## A project may make every one of Godot's warnings an error, also for its addons.
+func test_the_addons_scripts_load_with_every_warning_as_an_error() -> void:
+	const PREFIX := "debug/gdscript/warnings/"
+	var before := {}
+	for property in ProjectSettings.get_property_list():
+		var name: String = property.name
+		if name.begins_with(PREFIX):
+			before[name] = ProjectSettings.get_setting(name)
+			if property.type == TYPE_INT:
+				ProjectSettings.set_setting(name, 2)
+	check(before.size() > 30, "only %d warnings" % before.size())
+	ProjectSettings.set_setting(PREFIX + "directory_rules", {})
+	await frames(2)
+	var scripts := _scripts("res://addons/tactus")
+	check(scripts.size() > 10, "only %d scripts" % scripts.size())
+	for file in scripts:
+		var script: GDScript = ResourceLoader.load(file, "", ResourceLoader.CACHE_MODE_IGNORE)
+		check(script != null and script.can_instantiate(), "%s does not load" % file)
+	for name: String in before:
+		ProjectSettings.set_setting(name, before[name])
+	await frames(2)
+
+
+## What a script draws of a scene is made again when the scene is opened: it is not stored with it.
+func test_what_looks_draw_is_not_stored() -> void:
+	var line := MeshInstance3D.new()
+	line.set_script(load("res://looks/line_look.gd"))
+	line.set("line", path(Vector3.ZERO, Vector3.ONE))
+	var library := MeshInstance3D.new()
+	library.set_script(load("res://looks/library_look.gd"))
+	library.set("library_mesh", HapticMesh.get_library_names()[0])
+	for look: MeshInstance3D in [line, library]:
+		check(look.mesh != null, "nothing is drawn")
+		var packed := PackedScene.new()
+		packed.pack(look)
+		check_equal(ResourceSaver.save(packed, "user://look.tscn"), OK, "saving")
+		check(not FileAccess.get_file_as_string("user://look.tscn").contains("ArrayMesh"), "it is stored")
+		look.free()
