@@ -1,6 +1,6 @@
 """./run bench [NAME] [--key=value …]: builds and runs tests/bench/NAME.cpp, which writes build/bench/NAME.json.
 
-NAME.gd is a bench inside Godot.
+NAME.gd is a bench inside Godot, NAME.py one of what is around it.
 """
 
 import math
@@ -24,8 +24,11 @@ _ASKED = re.compile(r'\boptions\.(has|text|number)\("([a-z][\w-]*)"')
 _COMPARED = re.compile(r'\bargument(?: == |\.starts_with\()"--([a-z][\w-]*)(=?)"')
 
 
+ONLY_WHEN_NAMED = ["build"]  # it takes an hour
+
+
 def names() -> list[str]:
-    return sorted(path.stem for path in (cache.clone() / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd"))
+    return sorted(path.stem for path in (cache.clone() / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd", ".py"))
 
 
 def options(name: str) -> list[Option]:
@@ -79,20 +82,24 @@ def draw(name: str, result: Path) -> None:
 def main(arguments: list[str]) -> int:
     chosen = [argument for argument in arguments if not argument.startswith("--")]
     passed_on = [argument for argument in arguments if argument.startswith("--")]
-    if "proxy" in (chosen or names()) and jolt.installed() is None and jolt.ready(fast=True) is None:
+    run = chosen or [name for name in names() if name not in ONLY_WHEN_NAMED]
+    if "proxy" in run and jolt.installed() is None and jolt.ready(fast=True) is None:
         print("Building Jolt without its deterministic mode, once, to hold beside it …", flush=True)
         jolt.fetch_and_build(fast=True)
-    build.build("template_release", "benches")
+    if any((cache.clone() / "tests/bench" / f"{name}.cpp").is_file() for name in run):
+        build.build("template_release", "benches")
     output = cache.clone() / "build/bench"
     output.mkdir(parents=True, exist_ok=True)
-    for name in chosen or names():
+    for name in run:
         program = cache.clone() / "build/template_release/bench" / name
         result = output / f"{name}.json"
         print(f"== {name}", flush=True)
         environment = os.environ | {"TACTUS_BENCH_JSON": str(result)}
-        script = cache.clone() / "tests/bench" / f"{name}.gd"
-        if script.is_file():
-            code = run_in_godot(script, result)
+        script = cache.clone() / "tests/bench" / name
+        if script.with_suffix(".gd").is_file():
+            code = run_in_godot(script.with_suffix(".gd"), result)
+        elif script.with_suffix(".py").is_file():
+            code = subprocess.run([sys.executable, script.with_suffix(".py"), *passed_on], env=environment).returncode
         else:
             code = subprocess.run([program, *passed_on], env=environment).returncode
         if code != 0:

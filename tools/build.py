@@ -10,10 +10,11 @@ from setup.progress import Pace, Progress, in_words
 from setup.steps import Step
 
 
-def step(target: str) -> Step:
-    # SCons itself knows what is up to date.
+def step(target: str, *more: str) -> Step:
+    """Builds the extension, and more of scons's targets; SCons itself knows what is up to date."""
+
     def do() -> None:
-        build(target, "libraries", "extension", "commands")
+        build(target, "extension", *more, "commands")
 
     return Step(f"Build {target}", lambda: False, do, place=cache.clone() / "build")
 
@@ -34,7 +35,8 @@ def build(target: str, *what: str) -> None:
         print(f"godot-cpp: {prefix} (GODOT_CPP)")
         options.append(f"godot_cpp={prefix}")
     progress, pace, printed = Progress(), Pace(), []
-    with processes.started(
+    # Two at once in one clone would write each other's records of what is built.
+    with cache.lock(cache.clone() / "build", "scons"), processes.started(
         [cache.venv_bin("scons"), *options, *what],
         cwd=cache.clone(),
         text=True,

@@ -228,9 +228,11 @@ TABLE = (
         [
             ("[FILTER]", "every test, or those whose name contains FILTER"),
             ("windows|arm64 [FILTER]", "the C++ tests and benches for Windows by Wine, for ARM Linux by QEMU"),
+            ("--changed [FILTER]", "those that a change since the last green run of all can reach"),
+            ("--times [FILTER]", "the same, and the slowest twenty with their share"),
             ("--sanitize=LIST [FILTER]", "the C++ tests watched by address,undefined or by thread"),
         ],
-        options=lambda _: [Option("--sanitize", "LIST", _sanitizers)],
+        options=lambda _: [Option("--sanitize", "LIST", _sanitizers), Option("--changed"), Option("--times")],
         words=_test_words,
         together=_watched_here,
     ),

@@ -59,7 +59,7 @@ def packages(name: str, given: Given) -> list[str]:
     elsewhere = platforms.tested_by(given.words[0]) if name == "test" and given.words else None
     if elsewhere:
         return ["build", elsewhere.name, "wine" if elsewhere.system == "windows" else "qemu"]
-    extra = {"proof": ["sensing", "proof"], "demo": ["sensing"], "test": ["sensing"]}.get(name, [])
+    extra = {"proof": ["sensing", "proof"], "test": ["sensing"]}.get(name, [])
     if name == "bench" and "sensing" in given.words:
         extra = ["sensing", "rival"]
     if name == "experiment" and given.words == ("scenario5",):
@@ -79,11 +79,14 @@ def needed(name: str, given: Given) -> list[Step]:
     plan = steps.dependencies()
     if given.has("--with-sensing") or (name == "bench" and "sensing" in given.words and pcl.can_fetch()):
         plan.append(Step("PCL's headers", pcl.is_ready, pcl.fetch_headers))
-    debug, release, imported = build.step("template_debug"), build.step("template_release"), project.import_step()
-    if name == "bench" or given.has("--sanitize") or given.has("--figures"):
-        return plan
+    if name in ("bench", "test") or given.has("--figures"):
+        return [*plan, steps.export_template()] if name == "test" and not given.has("--sanitize") else plan
+    # Eyes where a scene may ask for them; the demo's do not.
+    eyes = () if name == "demo" or (name == "experiment" and "scenario5" not in given.words) else ("sensing",)
+    debug, release = build.step("template_debug", *eyes), build.step("template_release", *eyes)
+    imported = project.import_step()
     plan += steps.of_platforms(_others(given))
-    if name in ("setup", "export", "addon", "test", "proof"):
+    if name in ("setup", "export", "addon", "proof"):
         return [*plan, steps.export_template(), debug, release, imported]
     return [*plan, debug, imported, *([project.help_step()] if name == "edit" else [])]
 

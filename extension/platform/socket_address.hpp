@@ -1,6 +1,13 @@
-// Addresses as the system's calls take them. Included after the system's own headers of sockets, whose names
-// are the same everywhere.
+// Addresses as the system's calls take them.
 #pragma once
+
+#if defined(_WIN32)
+#include <winsock2.h>
+#include <ws2tcpip.h>
+#else
+#include <netinet/in.h>
+#include <sys/socket.h>
+#endif
 
 #include <cstring>
 

@@ -56,8 +56,8 @@ func test_over_a_million_triangles_come_without_a_long_frame() -> void:
 		seen = true
 		longest = maxi(longest, Time.get_ticks_usec() - before)
 		before = Time.get_ticks_usec()
-		if before - begin > 60_000_000:
-			check(false, "it is not built after a minute")
+		if before - begin > 240_000_000:
+			check(false, "it is not built after four minutes")
 			return
 	var built := Time.get_ticks_usec() - begin
 	print("1.3 million triangles: built in %d ms, longest frame %d ms" % [built / 1000, longest / 1000])

@@ -3,7 +3,7 @@ extends Node
 ## Runs the test_* methods of the file that the first user argument names, or of those the methods that
 ## follow.
 ##
-## Each method runs on a fresh instance with a fresh branch of the tree; it may await. Prints RUN, PASS,
+## Each method runs on a fresh instance with a fresh branch of the tree; it may await. Prints RUN, TOOK, PASS,
 ## FAIL and, when everything has run, END: only then does tools/testing/godot_suite.py believe the rest.
 
 
@@ -27,6 +27,7 @@ func _run_all(arguments: PackedStringArray) -> void:
 
 func _run(script: GDScript, test: String) -> void:
 	print("RUN ", test)
+	var began := Time.get_ticks_msec()
 	var case: Node = script.new()
 	get_tree().root.add_child(case)
 	await get_tree().process_frame
@@ -35,6 +36,7 @@ func _run(script: GDScript, test: String) -> void:
 	case.queue_free()
 	await get_tree().process_frame
 	await get_tree().process_frame
+	print("TOOK %d ms" % (Time.get_ticks_msec() - began))
 	if why.is_empty():
 		print("PASS ", test)
 	else:

@@ -29,7 +29,7 @@ def _commands() -> list[tuple[str, str, list[str]]]:
 
 
 def _benches() -> set[str]:
-    return {path.stem for path in (FOLDER / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd")}
+    return {path.stem for path in (FOLDER / "tests/bench").iterdir() if path.suffix in (".cpp", ".gd", ".py")}
 
 
 @pytest.mark.parametrize(("document", "verb", "words"), _commands())

@@ -5,8 +5,10 @@ import re
 import shutil
 import subprocess
 
+import build
+import layers
 import pytest
-from setup import cache
+from setup import cache, platforms
 
 ALLOWED = [
     ("platform", '"core/thing.hpp"'),
@@ -46,6 +48,11 @@ FORBIDDEN = [
     ("sensing/image", '"session/thing.hpp"'),
     ("sensing/image", '"realtime/thing.hpp"'),
 ]
+# The compiler's own vectors are 70,000 lines of core/; Jolt and Godot come with 60,000 to 80,000.
+MOST_LINES = {
+    "binding": 75_000, "core": 175_000, "platform": 90_000, "realtime": 180_000, "physics": 215_000, "devices": 100_000,
+    "network": 120_000, "sensing": 120_000, "session": 190_000, "world": 200_000, "nodes": 215_000,
+}  # fmt: skip
 LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world", "sensing"]
 
 
@@ -85,6 +92,26 @@ def test_forbidden_include_does_not_compile(built, number):
     source = f"extension/{layer}/case_{len(ALLOWED) + number}.cpp"
     assert not (folder / _object(len(ALLOWED) + number, layer)).exists()
     assert f"{source}:1:10: fatal error: {include[1:-1]}: No such file" in output
+
+
+@pytest.fixture(scope="module")
+def lines_of():
+    """How many lines the compiler reads for each header, compiled by itself, with what its layer may include."""
+    build.build("template_debug", "alone")
+    top = cache.clone() / "build/template_debug/alone/extension"
+    found = {str(path.relative_to(top)).removesuffix(".lines"): int(path.read_text()) for path in top.rglob("*.lines")}
+    return {path: lines for path, lines in found.items() if (cache.clone() / "extension" / path).is_file()}
+
+
+def test_each_header_stands_alone(lines_of):
+    sources = {str(path.relative_to(cache.clone() / "extension")) for path in (cache.clone() / "extension").rglob("*.hpp")}
+    elsewhere = {path for path in sources if not layers.is_for(path, platforms.host().system, platforms.host().architecture)}
+    assert sources - elsewhere == set(lines_of)
+
+
+def test_no_header_pulls_in_more_than_its_layer_may(lines_of):
+    heavy = {path: lines for path, lines in lines_of.items() if lines > MOST_LINES[path.split("/")[0]]}
+    assert heavy == {}, "include less there, or declare what is only pointed to"
 
 
 def test_no_include_climbs_out_of_its_folder():

@@ -9,6 +9,7 @@ import re
 import subprocess
 import tempfile
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -21,6 +22,7 @@ TIME_LIMIT = 600  # (unit: seconds) a program
 SLOW_TIME_LIMIT = 3600  # what sanitizers watch, or an emulator runs, takes up to fifty times as long
 IN_VIRTUAL_TIME = {"core", "physics", "sensing", "session"}  # nothing there waits for a clock, a socket or a device
 LEFT_OUT_WITHOUT = {"sensing_openni": "it needs OpenNI2: ./run setup --with-sensing"}
+_TEST = re.compile(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", re.M)
 SANITIZER_OPTIONS = {
     "ASAN_OPTIONS": "detect_stack_use_after_return=1:strict_init_order=1",
     "UBSAN_OPTIONS": "print_stacktrace=1",
@@ -28,31 +30,47 @@ SANITIZER_OPTIONS = {
 }
 
 
-def run(wanted: str, sanitizers: str = "", platform: Platform | None = None) -> list[Result]:
+def programs_with(wanted: str) -> list[str]:
+    """What scons has to build for the tests whose name contains the words: the programs with such tests. A test with
+    parameters has words in its name that its source has not: where none is found, all."""
+    if not wanted:
+        return ["tests"]
+    named = [name for name in _named_in_sources() if wanted.lower() in name.lower()]
+    layers = sorted({name.split(".")[1] for name in named})
+    if not layers and (wanted.lower().startswith("cpp") or "/" in wanted):
+        return ["tests"]
+    return [f"build/template_debug/tests/test_{layer}" for layer in layers]
+
+
+def _named_in_sources() -> list[str]:
+    tests = cache.clone() / "tests"
+    found = []
+    for path in sorted(tests.rglob("*_test.cpp")):
+        layer = path.relative_to(tests).parts[0]
+        found += [f"cpp.{layer}.{suite}.{test}" for suite, test in _TEST.findall(path.read_text())]
+    return found
+
+
+def run(
+    wanted: str, sanitizers: str = "", platform: Platform | None = None, is_reached: Callable[[str], bool] = lambda _: True
+) -> list[Result]:
     platform = platform or platforms.host()
     variant = cache.variant("template_debug", sanitizers, platform.name if platform.is_foreign else "")
     folder = cache.clone() / "build" / variant / "tests"
     programs = [program for program in sorted(folder.glob("test_*")) if (cache.clone() / "tests" / _layer(program)).is_dir()]
-    is_slow = bool(sanitizers) or platform.is_foreign
-    time_limit = SLOW_TIME_LIMIT if is_slow else TIME_LIMIT
-    results = []
-    if is_slow:
-        results += _run_in_parts([one for one in programs if _layer(one) in IN_VIRTUAL_TIME], wanted, time_limit, platform)
-        programs = [one for one in programs if _layer(one) not in IN_VIRTUAL_TIME]
-    for program in programs:
-        results += _run_program(program, _chosen(program, wanted, platform), time_limit, platform)
-    return results + _left_out(folder, wanted)
-
-
-def _run_in_parts(programs: list[Path], wanted: str, time_limit: float, platform: Platform) -> list[Result]:
-    """On all processors: each program in as many parts."""
+    time_limit = SLOW_TIME_LIMIT if sanitizers or platform.is_foreign else TIME_LIMIT
     processors = len(os.sched_getaffinity(0))
-    parts = []
-    for program in programs:
-        chosen = _chosen(program, wanted, platform)
-        parts += [(program, chosen[i::processors]) for i in range(processors)]
     with ThreadPoolExecutor(processors) as pool:
-        return sum(pool.map(lambda part: _run_program(*part, time_limit, platform), parts), [])
+        chosen = {program: list(filter(is_reached, _chosen(program, wanted, platform))) for program in programs}
+        parts = [(program, part) for program in programs for part in _parts(program, chosen[program], processors)]
+        results = pool.map(lambda part: _run_program(*part, time_limit, platform), parts)
+    return sum(results, _left_out(folder, wanted))
+
+
+def _parts(program: Path, chosen: list[str], processors: int) -> list[list[str]]:
+    """The tests that are asked for: as many lists as there are processors where none waits for a clock."""
+    count = processors if _layer(program) in IN_VIRTUAL_TIME else 1
+    return [part for part in (chosen[start::count] for start in range(count)) if part]
 
 
 def _left_out(folder: Path, wanted: str) -> list[Result]:
@@ -60,8 +78,7 @@ def _left_out(folder: Path, wanted: str) -> list[Result]:
     results = []
     for name, why in LEFT_OUT_WITHOUT.items():
         if not (folder / f"test_{name}").is_file():
-            sources = "".join(path.read_text() for path in sorted((cache.clone() / "tests" / name).glob("*_test.cpp")))
-            tests = [f"cpp.{name}.{suite}.{test}" for suite, test in re.findall(r"^TEST(?:_F)?\((\w+), (\w+)\)", sources, re.M)]
+            tests = [test for test in _named_in_sources() if test.split(".")[1] == name]
             results += [Result(test, skipped=why) for test in matching(tests, wanted)]
     return results
 
@@ -142,4 +159,5 @@ def _result(prefix: str, case: ElementTree.Element) -> Result:
     # The reason comes after the place in the source and the word "Skipped".
     reason = "" if skipped is None else skipped.get("message", "").strip().split("\n")[-1] or "no reason given"
     bits = [found.get("value", "") for found in case.iter("property") if found.get("name") == "bits"]
-    return Result(f"{prefix}{case.get('classname')}.{case.get('name')}", why, reason, "".join(bits))
+    name, seconds = f"{prefix}{case.get('classname')}.{case.get('name')}", float(case.get("time", 0.0))
+    return Result(name, why, reason, seconds, "".join(bits))

@@ -1,22 +1,33 @@
 """The tests of what stands behind ./run: tools.FILE.TEST."""
 
+import re
 import subprocess
 import sys
 import tempfile
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
 from pathlib import Path
 
 from setup import cache
 from testing.results import Result, matching
 
 
-def run(wanted: str) -> list[Result]:
+def has(wanted: str) -> bool:
+    """Whether there is a test whose name contains the words, as far as its source tells."""
+    return any(matching(_named_in(path), wanted) for path in (cache.clone() / "tests/tools").glob("test_*.py"))
+
+
+def _named_in(path: Path) -> list[str]:
+    return [f"tools.{path.stem}.{name}" for name in re.findall(r"^def (test_\w+)", path.read_text(), re.M)]
+
+
+def run(wanted: str, is_reached: Callable[[str], bool] = lambda _: True) -> list[Result]:
     collected = _pytest("--collect-only", "-q").stdout.splitlines()
     identities = [line for line in collected if "::" in line]
     if not identities and collected and "no tests" not in collected[-1]:
         return [Result("tools.collection", "\n".join(collected[-20:]))]
     names = {_name(identity): identity for identity in identities}
-    chosen = matching(list(names), wanted)
+    chosen = list(filter(is_reached, matching(list(names), wanted)))
     if not chosen:
         return []
     with tempfile.TemporaryDirectory() as folder:
@@ -40,4 +51,5 @@ def _result(case: ElementTree.Element) -> Result:
     why = "\n".join((trouble.text or trouble.get("message", ""))[-3000:] for trouble in troubles)
     skipped = case.find("skipped")
     why_not = "" if skipped is None else skipped.get("message", "")
-    return Result(f"tools.{case.get('classname', '').rpartition('.')[2]}.{case.get('name')}", why, skipped=why_not)
+    name = f"tools.{case.get('classname', '').rpartition('.')[2]}.{case.get('name')}"
+    return Result(name, why, why_not, float(case.get("time", 0.0)))

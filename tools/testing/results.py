@@ -8,6 +8,7 @@ class Result:
     name: str
     why: str = ""  # empty: passed
     skipped: str = ""  # why it could not be run here; empty: it was
+    seconds: float = 0.0
     bits: str = ""  # of what it computed, where it says: tests/session/same_bits_test.cpp
 
     @property

@@ -1,44 +1,104 @@
-"""./run test [--sanitize=LIST] [windows|arm64] [FILTER]: builds and runs every test whose name contains FILTER, and ends
-with their count.
+"""./run test [--times] [--changed] [--sanitize=LIST] [windows|arm64] [FILTER]: builds what the tests whose name contains
+FILTER need, runs them and ends with their count.
 
-With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own. `windows` and
-`arm64`: the C++ tests and the benches compiled for Windows, run by Wine, and for Linux on ARM, run by QEMU.
+The suites run side by side: C++ on all processors, Godot and the tools beside them, which wait for clocks most of the
+time. --times lists the slowest twenty. --changed leaves out what no change since the last green run can reach
+(changed.py). With --sanitize=address,undefined or =thread only the C++ tests, watched by these, in a build of their own.
+`windows` and `arm64`: the C++ tests and the benches compiled for Windows, run by Wine, and for Linux on ARM, run by QEMU.
 """
 
-import sys
+import argparse
+import threading
 import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import build
-from setup import cache, platforms
-from testing import bench_suite, cpp_suite, format_suite, godot_suite, python_suite, same_bits
+import entry
+import project
+from setup import platforms, steps
+from setup.platforms import Platform
+from testing import bench_suite, changed, cpp_suite, format_suite, godot_suite, python_suite, same_bits
+from testing.results import Result
 
-SUITES = [format_suite, cpp_suite, godot_suite, python_suite]
-ELSEWHERE = [cpp_suite, bench_suite]
+SLOWEST = 20
 
 
 def main(arguments: list[str]) -> int:
-    options = [argument for argument in arguments if argument.startswith("--")]
-    filters = [argument for argument in arguments if argument not in options]
-    platform = platforms.tested_by(filters.pop(0)) if filters and platforms.tested_by(filters[0]) else platforms.host()
-    if len(filters) > 1 or len(options) > 1 or any(not option.startswith("--sanitize=") for option in options):
-        print("./run test [--sanitize=address,undefined|thread] [windows|arm64] [FILTER]", file=sys.stderr)
-        return 2
-    wanted = filters[0] if filters else ""
-    sanitizers = options[0].partition("=")[2] if options else ""
+    given = _given(arguments)
+    words = list(given.words)
+    platform = platforms.tested_by(words.pop(0)) if words and platforms.tested_by(words[0]) else platforms.host()
+    wanted = words[0] if words else ""
+    if platform.is_foreign or given.sanitize:
+        results = _elsewhere(platform, given.sanitize, wanted)
+    else:
+        results = _here(wanted, given.changed)
+    if given.times:
+        _print_slowest(results)
+    passed = sum(result.passed for result in results)
+    print(f"{passed} passed, {len(results) - passed} failed")
+    return 0 if results and passed == len(results) else 1
+
+
+def _given(arguments: list[str]) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="./run test", allow_abbrev=False)
+    parser.add_argument("--times", action="store_true")
+    parser.add_argument("--changed", action="store_true")
+    parser.add_argument("--sanitize", default="")
+    parser.add_argument("words", nargs="*")
+    return parser.parse_args(arguments)
+
+
+def _elsewhere(platform: Platform, sanitizers: str, wanted: str) -> list[Result]:
     what = ["tests", "benches"] if platform.is_foreign else ["tests"]
-    print(f"Building the C++ {' and '.join(what)} …", flush=True)
     watched = [f"sanitize={sanitizers}"] if sanitizers else []
-    build.build("template_debug", *what, f"platform={platform.name}", *watched)
-    only_cpp = bool(sanitizers) or platform.is_foreign
-    results = []
-    for suite in ELSEWHERE if platform.is_foreign else [cpp_suite] if only_cpp else SUITES:
-        started = time.monotonic()
-        found = suite.run(wanted, sanitizers, platform) if only_cpp else suite.run(wanted)
-        if platform.is_foreign and suite is cpp_suite:
-            found += same_bits.compare(found)
-        skipped = [result for result in found if result.skipped]
-        found = [result for result in found if not result.skipped]
-        results += found
+    _build(what, f"platform={platform.name}", *watched)
+    found = _shown("cpp", lambda: cpp_suite.run(wanted, sanitizers, platform))
+    if platform.is_foreign:
+        found += _shown("bits", lambda: same_bits.compare(found))
+        found += _shown("bench", lambda: bench_suite.run(wanted, sanitizers, platform))
+    return found
+
+
+def _here(wanted: str, only_changed: bool) -> list[Result]:
+    in_project = godot_suite.has(wanted) or python_suite.has(wanted)
+    programs = cpp_suite.programs_with(wanted)
+    targets = [*(["extension", "sensing"] if in_project else []), *programs]
+    if targets:
+        _build(targets)
+    if in_project:
+        build.build("template_release", "extension", "sensing")
+        steps.run([project.import_step()])
+    reached = changed.since_last_green() if only_changed else changed.everything()
+    suites: dict[str, Callable[[], list[Result]]] = {
+        "format": lambda: format_suite.run(wanted),
+        "cpp": lambda: cpp_suite.run(wanted, is_reached=reached.cpp),
+        "godot": lambda: godot_suite.run(wanted, reached.godot),
+        "python": lambda: python_suite.run(wanted, reached.tools),
+    }
+    with ThreadPoolExecutor(len(suites)) as pool:
+        running = [pool.submit(_shown, name, run) for name, run in suites.items()]
+        results = [result for one in running for result in one.result()]
+    if not wanted and results and all(result.passed for result in results):
+        changed.note_green()
+    return results
+
+
+def _build(targets: list[str], *options: str) -> None:
+    print("Building what the tests need …", flush=True)
+    build.build("template_debug", *targets, *options)
+
+
+_printing = threading.Lock()
+
+
+def _shown(name: str, run: Callable[[], list[Result]]) -> list[Result]:
+    """What the suite found, without what was skipped; prints both."""
+    started = time.monotonic()
+    all_found = run()
+    skipped = [result for result in all_found if result.skipped]
+    found = [result for result in all_found if not result.skipped]
+    with _printing:
         for result in found:
             if not result.passed:
                 print(f"FAIL {result.name}\n     " + result.why.strip().replace("\n", "\n     "))
@@ -46,17 +106,17 @@ def main(arguments: list[str]) -> int:
             print(f"SKIP {result.name}: {result.skipped}")
         if found:
             passed = sum(result.passed for result in found)
-            name = suite.__name__.rpartition(".")[2].removesuffix("_suite")
             not_run = f", {len(skipped)} skipped" if skipped else ""
             print(f"{name}: {passed} of {len(found)} passed{not_run}, {time.monotonic() - started:.1f} s", flush=True)
-    passed = sum(result.passed for result in results)
-    print(f"{passed} passed, {len(results) - passed} failed")
-    return 0 if results and passed == len(results) else 1
+    return found
+
+
+def _print_slowest(results: list[Result]) -> None:
+    total = sum(result.seconds for result in results) or 1.0
+    print(f"The slowest {SLOWEST} of {len(results)} tests, with their share of {total:.0f} s:")
+    for result in sorted(results, key=lambda one: -one.seconds)[:SLOWEST]:
+        print(f"{result.seconds:8.1f} s {100.0 * result.seconds / total:5.1f} %  {result.name}")
 
 
 if __name__ == "__main__":
-    try:
-        sys.exit(main(sys.argv[1:]))
-    except RuntimeError as error:
-        print(error, file=sys.stderr)
-        sys.exit(1)
+    entry.leave(main)

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/math/types.hpp"
+#include "core/math/pose.hpp"
 
 namespace tactus {
 
