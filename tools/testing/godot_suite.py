@@ -92,7 +92,7 @@ def _run_file(path: Path, chosen: list[str]) -> list[Result]:
 
 
 def _run_edited(path: Path, chosen: list[str]) -> list[Result]:
-    folder = _with_tests(cache.clone() / "build/edited_tests")
+    folder = _with_tests(cache.clone() / "build/edited_tests" / path.stem)
     (folder / "tests/plugin.cfg").write_text(EDITOR_PLUGIN)
     settings = folder / "project.godot"
     settings.write_text(settings.read_text().replace('enabled=PackedStringArray(', 'enabled=PackedStringArray("res://tests/plugin.cfg", '))
