@@ -18,10 +18,10 @@ class ObjectCache(SCons.CacheDir.CacheDir):
         self.path, self.config = path, {"prefix_len": 2}
 
     def retrieve(self, node):
-        kept = Path(self.cachepath(node)[1])
-        if kept.is_file() and not is_whole(kept):
+        kept = self.cachepath(node)[1]  # none with --cache-disable
+        if kept and Path(kept).is_file() and not is_whole(Path(kept)):
             try:
-                kept.unlink()
+                Path(kept).unlink()
             except OSError:
                 return False
         return super().retrieve(node)
