@@ -14,4 +14,8 @@ std::string file_of_library(const std::string& library);
 // The file of the library or program that `inside` is an address in; empty where the system cannot tell.
 std::string path_of_this_library(const void* inside);
 
+// The library that this code is in stays in the process until its end, even where it is unloaded before: for
+// threads that may be left behind in it.
+void keep_this_library();
+
 }  // namespace tactus

@@ -30,4 +30,12 @@ std::string path_of_this_library(const void* inside) {
     return dladdr(inside, &info) != 0 && info.dli_fname != nullptr ? info.dli_fname : "";
 }
 
+// Of the program itself dlopen() finds no library, and need not.
+void keep_this_library() {
+    const std::string own = path_of_this_library(reinterpret_cast<const void*>(&keep_this_library));
+    if (!own.empty()) {
+        dlopen(own.c_str(), RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
+    }
+}
+
 }  // namespace tactus

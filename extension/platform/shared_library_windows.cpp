@@ -43,4 +43,10 @@ std::string path_of_this_library(const void* inside) {
     return found ? file_of(module) : "";
 }
 
+void keep_this_library() {
+    HMODULE module = nullptr;
+    GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS | GET_MODULE_HANDLE_EX_FLAG_PIN,
+                       reinterpret_cast<const wchar_t*>(&keep_this_library), &module);
+}
+
 }  // namespace tactus

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/math/types.hpp"
+#include "platform/wake_signal.hpp"
 
 namespace tactus {
 
@@ -24,6 +25,8 @@ public:
     std::string connect_to(const std::string& path);
     void close();
     bool is_open() const { return handle_ != closed; }
+    // To wait for something that comes.
+    WaitFile file() const { return {handle_}; }
 
     enum class State : std::uint8_t { done, nothing, gone };
     struct Received {

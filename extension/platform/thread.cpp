@@ -11,6 +11,13 @@ std::string Thread::start(const char* name, void (*run)(void*), void* context) {
     return refused;
 }
 
+void Thread::leave() {
+    if (running_) {
+        let_run();
+        running_ = false;
+    }
+}
+
 void Thread::join() {
     if (running_) {
         wait_for_end();

@@ -23,6 +23,8 @@ public:
 
     // Waits for its end. Without effect where there is none.
     void join();
+    // It goes on by itself. This object has to live until it has begun to run.
+    void leave();
 
 private:
     struct Entry;  // by which the system calls begin()
@@ -30,6 +32,7 @@ private:
     // Empty text, or why there is no thread.
     std::string create();
     void wait_for_end();
+    void let_run();
     void begin() {
         name_this_thread(name_);
         run_(context_);

@@ -27,4 +27,8 @@ void Thread::wait_for_end() {
     pthread_join(std::bit_cast<pthread_t>(system_thread_), nullptr);
 }
 
+void Thread::let_run() {
+    pthread_detach(std::bit_cast<pthread_t>(system_thread_));
+}
+
 }  // namespace tactus

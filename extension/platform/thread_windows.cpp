@@ -29,4 +29,8 @@ void Thread::wait_for_end() {
     CloseHandle(handle);
 }
 
+void Thread::let_run() {
+    CloseHandle(reinterpret_cast<HANDLE>(system_thread_));
+}
+
 }  // namespace tactus

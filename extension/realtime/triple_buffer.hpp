@@ -35,6 +35,9 @@ public:
         publish();
     }
 
+    // Whether refresh() would take a value.
+    bool is_fresh() const { return (middle_.load(std::memory_order_acquire) & fresh) != 0; }
+
     // Takes the newest published value, if there is one that has not been taken. True: front() has changed.
     bool refresh() {
         if ((middle_.load(std::memory_order_relaxed) & fresh) == 0) {
