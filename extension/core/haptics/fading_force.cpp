@@ -31,7 +31,9 @@ Vec3 drawing_back(const Vec3& force, const Vec3& offset, const Vec3& felt_before
 }
 
 double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to) {
-    return std::max(from.stiffness, to.stiffness) * glm::distance(from.hand, to.hand) +
+    const Vec3 moved = to.hand - from.hand;
+    const Vec3 stretched = moved - (to.proxy - from.proxy);
+    return std::max(from.stiffness, to.stiffness) * std::min(glm::length(moved), glm::length(stretched)) +
            std::max(from.damping, to.damping) * glm::distance(from.velocity, to.velocity);
 }
 

@@ -17,14 +17,16 @@ public:
     // The most that a change of the scene changes what a hand feels by in a tick (unit: newtons).
     static constexpr double max_step = 0.25;
 
-    // What the hand's own motion changes the force by is never held back: its way times the stiffness of what
-    // it touches.
+    // What the hand's own motion changes the force by is never held back: the stiffness of what it touches,
+    // times how much longer or shorter that spring has become, which is no more than the hand has moved. A
+    // hand that is dragged along a surface takes its proxy along.
     struct Step {
         Vec3 hand{0.0};          // (unit: meters)
         Vec3 velocity{0.0};      // (unit: meters per second)
         double stiffness = 0.0;  // of the stiffest body that is touched (unit: newtons per meter)
         double damping = 0.0;    // likewise (unit: newton-seconds per meter)
         double fade = max_step;  // the same as max_step where a device scales forces (unit: newtons)
+        Vec3 proxy{0.0};         // the spring's other end (unit: meters)
     };
 
     // What is felt in this tick. `force`: of the scene as it is now (unit: newtons); `limit`: what the device

@@ -54,6 +54,48 @@ TEST(FadingForce, WhatTheHandItselfDoesIsNotHeldBack) {
     EXPECT_NEAR(fading.felt(9.0 * up, no_limit, true, step).y, 3.0, 1e-12);
 }
 
+// Dragged 11 mm deep from 500 to 5000 N/m, its proxy beside it: however fast, nothing of that is the hand's
+// own doing.
+TEST(FadingForce, AHandThatIsDraggedOntoAStifferPlaceFeelsItGrow) {
+    for (const double meters_a_tick : {1e-4, 5e-4, 1e-3}) {
+        FadingForce fading;
+        FadingForce::Step step{Vec3(0.0), Vec3(0.0), 500.0, 0.0};
+        step.proxy = 0.011 * up;
+        Vec3 felt = fading.felt(5.5 * up, no_limit, false, step);
+        for (int i = 0; i < 300; ++i) {
+            step.hand.x += meters_a_tick;
+            step.proxy.x += meters_a_tick;
+            step.stiffness = 5000.0;
+            const Vec3 before = felt;
+            felt = fading.felt(55.0 * up, no_limit, i == 0, step);
+            EXPECT_LE(glm::distance(before, felt), FadingForce::max_step + 1e-9)
+                << meters_a_tick << ", " << i;
+        }
+        EXPECT_NEAR(felt.y, 55.0, 1e-9);
+    }
+}
+
+// It goes deeper in the same tick: that is its own doing, and no more.
+TEST(FadingForce, AHandThatAlsoGoesDeeperFeelsThatAtOnce) {
+    FadingForce fading;
+    FadingForce::Step step{Vec3(0.0), Vec3(0.0), 500.0, 0.0};
+    step.proxy = 0.011 * up;
+    fading.felt(5.5 * up, no_limit, false, step);
+    step.hand = {1e-3, -2e-4, 0.0};
+    step.proxy.x += 1e-3;
+    step.stiffness = 5000.0;
+    EXPECT_NEAR(fading.felt(56.0 * up, no_limit, true, step).y, 5.5 + 5000.0 * 2e-4, 1e-9);
+}
+
+// The proxy is put elsewhere, and the hand is at rest.
+TEST(FadingForce, AProxyThatJumpsIsNotTheHandsDoing) {
+    FadingForce fading;
+    FadingForce::Step step{Vec3(0.0), Vec3(0.0), 500.0, 0.0};
+    fading.felt(Vec3(0.0), no_limit, false, step);
+    step.proxy.y += 0.01;
+    EXPECT_NEAR(fading.felt(5.0 * up, no_limit, true, step).y, FadingForce::max_step, 1e-12);
+}
+
 // A body has appeared over the hand, which leaves at once, at half a newton a tick.
 TEST(FadingForce, WhoLeavesWhileItFadesInIsNotDrawnBack) {
     FadingForce fading;
