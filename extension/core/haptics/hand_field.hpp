@@ -8,7 +8,14 @@
 // wherever it has gone to by now, and from one time to the next the one goes over into the other. So a spring
 // and a thick fluid answer within a tick, and not a frame late, which would let them swing. Of a computation
 // that has fallen silent nothing is felt soon.
+//
+// A force that leaps at some place would come a frame late on the way in and on the way out, and give back
+// more than it took. What two times tell of either side of such a border is therefore felt by place, and not
+// by time: between both places the force goes over from the one to the other, as steeply as is safe. Of a
+// spring that is steeper than is safe, the part that is left out stays left out.
 #pragma once
+
+#include <optional>
 
 #include "core/haptics/surface_effects.hpp"
 #include "core/math/types.hpp"
@@ -26,6 +33,10 @@ struct FieldMoment {
 
 class HandField {
 public:
+    // No field is felt steeper, whatever the device bears: a hand is held by little damping of its own (unit:
+    // newtons per meter).
+    static constexpr double stiffest = 2000.0;
+
     // No farther from its place and its velocity is it believed how the force changes (units: meters, meters
     // per second).
     static constexpr double reach = 0.02;
@@ -43,16 +54,37 @@ public:
     // On that hand in this tick (unit: newtons). It is made as weak as `safe`.
     Vec3 force(const HandMotion& hand, const Wall& safe);
 
+    // It is steeper, or damps more, than is safe, and was made weaker in this tick.
+    bool is_limited() const { return is_limited_; }
+
 private:
     // As fast as a screen can be, and as slow.
     static constexpr Nanoseconds shortest_over = 2'000'000;
     static constexpr Nanoseconds longest_over = 50'000'000;
 
+    // Forces at rest on both sides of a place where they leap (unit: newtons): from `below` to `above`, along
+    // the normal, between two places on it (unit: meters).
+    struct Border {
+        Vec3 normal{0.0}, below{0.0}, above{0.0};
+        double from = 0.0, to = 0.0;
+    };
+    struct Model {
+        FieldMoment moment;  // the newest; its force is what is felt there
+        std::optional<Border> border;
+    };
+
     void take(Nanoseconds now);
     void weigh(Nanoseconds now);
     Vec3 felt(const HandMotion& hand) const;
+    Vec3 felt(const Model& model, const HandMotion& hand) const;
+    Mat3 slope(const Model& model, const Vec3& place) const;
+    double width(const Border& border) const;
+    Model fitted(const FieldMoment& told) const;
+    static std::optional<Border> goes_on(Border border, const FieldMoment& told);
 
-    FieldMoment before_, last_, next_;
+    FieldMoment told_;  // last, as it came
+    Model before_, last_;
+    FieldMoment next_;
     bool is_new_ = false;    // next_
     Nanoseconds since_ = 0;  // last_ goes over from before_ since then,
     Nanoseconds over_ = 0;   // within this; 0: there has never been one
@@ -60,7 +92,9 @@ private:
     // In this tick: the weights of both, which add up to what is left of it,
     double of_before_ = 0.0, of_last_ = 0.0;
     Wall steepest_;
+    double safe_stiffness_ = stiffest;
     double stiff_share_ = 1.0, damped_share_ = 1.0;  // and what is safe of A and B
+    bool is_limited_ = false;
 };
 
 }  // namespace tactus

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
+
+#include "core/haptics/measured_field.hpp"
 
 namespace tactus::hand_field_test {
 namespace {
@@ -133,6 +137,94 @@ TEST(HandField, FarFromWhereItWasLookedAtItGrowsNoMore) {
     felt(field, {}, 0);
     EXPECT_NEAR(felt(field, {{5.0, 0.0, 0.0}, {}}, 60 * tick).x, -100.0 * HandField::reach, 1e-9);
     EXPECT_NEAR(felt(field, {{}, {9.0, 0.0, 0.0}}, 60 * tick).x, -2.0 * HandField::speed_reach, 1e-9);
+}
+
+// An arm that is led to a place along x, against a force that a script computes sixty times a second.
+struct LedArm {
+    double shake = 0.0;  // in its last two seconds (unit: meters)
+    double made = 0.0;   // energy beyond that of the force itself, at most (unit: joules)
+    double rests = 0.0;  // in the mean of these two seconds (unit: meters)
+    bool is_limited = false;
+};
+
+template <typename Force>
+LedArm lead_arm(const Force& force, double from, double to, double damping, const Wall& safe) {
+    constexpr double mass = 0.5, stiffness = 150.0, seconds = 1e-3, h = 0.5 * seconds;
+    LedArm led;
+    HandField field;
+    double x = from, v = 0.0, given = 0.0, work = 0.0, least = 1e9, most = -1e9;
+    double next_frame = 0.0;
+    for (int i = 0; i < 4000; ++i) {
+        const double gone = std::min(1.0, i * seconds);
+        const double meant = from + (to - from) * gone, pace = gone < 1.0 ? to - from : 0.0;
+        const double pull = stiffness * (meant - x - h * v) + damping * (pace - v) + given;
+        const double acceleration = pull / (mass + h * damping + h * h * stiffness);
+        const double way = seconds * (v + h * acceleration);
+        work += (given - force(x + 0.5 * way)) * way;
+        led.made = std::max(led.made, work);
+        x += way;
+        v += seconds * acceleration;
+        if (i >= next_frame) {
+            next_frame += 1000.0 / 60.0;
+            const auto answer = [&](const HandMotion& at) {
+                return std::optional(Vec3(force(at.position.x), 0.0, 0.0));
+            };
+            field.set(*measured_field({Vec3(x, 0.0, 0.0), Vec3(v, 0.0, 0.0)}, answer));
+        }
+        const Wall wanted = field.begin_tick(i * tick);
+        const Vec3 now =
+            field.force({Vec3(x, 0.0, 0.0), Vec3(v, 0.0, 0.0)},
+                        {std::min(wanted.stiffness, safe.stiffness), std::min(wanted.damping, safe.damping)});
+        given = std::clamp(now.x, -8.0, 8.0);
+        led.is_limited = led.is_limited || field.is_limited();
+        if (i >= 2000) {
+            least = std::min(least, x);
+            most = std::max(most, x);
+            led.rests += x / 2000.0;
+        }
+    }
+    led.shake = most - least;
+    return led;
+}
+
+// It made 0.6 J and shook by 12 mm.
+TEST(HandField, AForceThatLeapsOrIsTooSteepMakesNoEnergy) {
+    const auto leap = [](double x) { return x <= 0.0 ? 5.0 : 0.0; };
+    const auto ramp = [](double x) { return std::clamp(-5e3 * x, 0.0, 5.0); };
+    const auto cliff = [](double x) { return x <= 0.0 ? 5.0 - 100.0 * x : 0.0; };
+    for (const double safe : {1500.0, 1e9}) {
+        for (const double damping : {10.0, 5.0}) {
+            for (const LedArm& led : {lead_arm(leap, 0.03, -0.02, damping, {safe, 1e9}),
+                                      lead_arm(ramp, 0.03, -0.02, damping, {safe, 1e9}),
+                                      lead_arm(cliff, 0.03, -0.02, damping, {safe, 1e9})}) {
+                EXPECT_LE(led.shake, 3e-3) << safe << " N/m, " << damping;
+                EXPECT_LE(led.made, damping >= 10.0 ? 0.01 : 0.02) << safe << " N/m, " << damping;
+                EXPECT_NEAR(led.rests, 0.0, 3e-3) << safe << " N/m, " << damping;
+                EXPECT_TRUE(led.is_limited);
+            }
+        }
+    }
+}
+
+TEST(HandField, ASpringThatIsTooSteepIsFeltAsASofterOne) {
+    for (const double stiffness : {2000.0, 4000.0, 6000.0}) {
+        const auto spring = [&](double x) { return -stiffness * x; };
+        const LedArm led = lead_arm(spring, 0.0, -0.02, 10.0, {1500.0, 1e9});
+        EXPECT_LE(led.shake, 1e-3) << stiffness;
+        EXPECT_LE(led.made, 0.01) << stiffness;
+        EXPECT_TRUE(led.is_limited) << stiffness;
+        EXPECT_NEAR(led.rests, -0.02 * 150.0 / (150.0 + 1500.0), 2e-4) << stiffness;
+    }
+}
+
+// What does not depend on where the hand is, and what is no steeper than is safe, is felt as it is told.
+TEST(HandField, AWindAndASoftSpringAreFeltWhole) {
+    const LedArm wind = lead_arm([](double) { return 2.0; }, 0.03, -0.02, 10.0, {1500.0, 1e9});
+    EXPECT_NEAR(wind.rests, -0.02 + 2.0 / 150.0, 2e-4);
+    EXPECT_FALSE(wind.is_limited);
+    const LedArm spring = lead_arm([](double x) { return -500.0 * x; }, 0.0, -0.02, 10.0, {1500.0, 1e9});
+    EXPECT_NEAR(spring.rests, -0.02 * 150.0 / 650.0, 1e-4);
+    EXPECT_FALSE(spring.is_limited);
 }
 
 }  // namespace
