@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/math/types.hpp"
+#include "core/safety/force_watch.hpp"
 
 namespace tactus {
 
@@ -31,6 +32,7 @@ struct DeviceCapabilities {
     double coulomb = 0.0;            // friction (unit: newtons)
     double velocity_smoothed = 0.0;  // DeviceSample::velocity, to first order (unit: seconds), >= 0
     double ramp = 0.0;               // until a force that begins is there (unit: seconds)
+    double weight = 0.0;  // of its arm in the hand, which its motors are to carry (unit: newtons), >= 0
 
     bool operator==(const DeviceCapabilities&) const = default;
 };
@@ -58,6 +60,9 @@ public:
     // The torque on the handle that goes with the next force, in the same frame (unit: newton meters). For
     // devices whose capabilities have one.
     virtual void twist(const Vec3&) {}
+
+    // How the loop will tick. The owner's thread, before the first tick that reads this device.
+    virtual void set_pace(const LoopPace&) {}
 
     // Changes only within read().
     virtual DeviceCapabilities capabilities() const { return {}; }

@@ -21,6 +21,10 @@ bool is_number(const Vec3& v) {
 // second).
 constexpr double farthest = 1e6;
 
+// A position may stay while the velocity says that the hand has gone so far (unit: meters): far above what an
+// encoder resolves, and of a stiff wall a few newtons.
+constexpr double longest_stay = 1e-3;
+
 bool is_hands(const Vec3& v) {
     return glm::all(glm::lessThanEqual(glm::abs(v), Vec3(farthest)));
 }
@@ -31,13 +35,17 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
     if (!sample.connected) {
         return HandState::disconnected;
     }
-    if (!is_hands(sample.position) || !is_hands(sample.velocity)) {
+    if (!sample.sound || !is_hands(sample.position) || !is_hands(sample.velocity)) {
         return HandState::no_number;
     }
     const double speed = glm::length(sample.velocity);
     const double way = known_ ? glm::distance(sample.position, position_) : 0.0;
     if (speed > settings.max_speed || way > settings.max_speed * sample.seconds) {
         return HandState::jumped;
+    }
+    // A hand that stops dead has still the smoothed velocity of a moment ago.
+    if (settings.sees_frozen && stayed_ > longest_stay + 2.0 * settings.velocity_smoothed * speed) {
+        return HandState::frozen;
     }
     if (!sample.enabled) {
         return HandState::disabled;
@@ -48,6 +56,9 @@ HandState HandSafety::state_of(const SafetySettings& settings, const SafetySampl
 
 SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& sample) {
     SafeForce safe;
+    stayed_ = known_ && sample.position == position_ && is_hands(sample.velocity)
+                  ? stayed_ + glm::length(sample.velocity) * sample.seconds
+                  : 0.0;
     safe.state = state_of(settings, sample);
     const bool was_known = known_;
     known_ = safe.state != HandState::disconnected && safe.state != HandState::no_number;
@@ -55,7 +66,7 @@ SafeForce HandSafety::pass(const SafetySettings& settings, const SafetySample& s
         work_ += glm::dot(given_, sample.position - position_);
     }
     position_ = known_ ? sample.position : position_;
-    const Quat before = std::exchange(rotation_, sample.rotation);
+    const Quat before = std::exchange(rotation_, known_ ? sample.rotation : rotation_);
     if (safe.state != HandState::working) {
         const bool known = known_;
         rest();
@@ -130,6 +141,8 @@ const char* text_of(HandState state) {
             return "the device says what is no place: the force is off until it makes sense again";
         case HandState::jumped:
             return "the hand has jumped farther than a hand can: the force begins anew";
+        case HandState::frozen:
+            return "the device repeats its position though the hand moves: plug it in again if that lasts";
     }
     return "";
 }

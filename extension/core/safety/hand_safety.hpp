@@ -1,6 +1,6 @@
 // The last place before a device: whatever the loop asks for, what leaves here is safe for a hand.
 //
-//     reading is no number, hand has jumped, nobody holds the button     no force, at once
+//     reading is no number, jumps or is frozen, no button is held        no force, at once
 //     just begun, reconnected, let go of the clutch                      the force grows from nothing
 //     touch would make energy                                            HandPassivity damps it
 //     larger, faster or more powerful than the device allows             ForceExit cuts it
@@ -27,6 +27,7 @@ enum class HandState : std::uint8_t {
     disconnected,  // the device does not answer
     no_number,     // it has said what is no place
     jumped,        // it says that it is, or goes, where no hand can come to in a tick
+    frozen,        // it repeats its position, and says that it moves
 };
 
 // What was done to the force, as bits.
@@ -43,12 +44,14 @@ struct SafetySettings {
     double max_force = none;                      // (unit: newtons)
     ForceLimits torque_limits{none, none, none};  // the slew in newton meters per second
     double max_torque = 0.0;                      // (unit: newton meters); 0: there is none to give
-    double max_speed = none;     // of a hand; faster ones are no readings (unit: meters per second)
-    double ramp = 0.0;           // until the whole force is given (unit: seconds), >= 0
-    std::uint32_t dead_man = 0;  // buttons, any of which must be held; 0: none
-    bool passive = false;        // observe energy and keep it from being made
-    double damping = 0.0;        // of the device itself (unit: newton seconds per meter), >= 0
-    double max_damping = 0.0;    // that may be added (the same unit), >= 0
+    double max_speed = none;         // of a hand; faster ones are no readings (unit: meters per second)
+    double ramp = 0.0;               // until the whole force is given (unit: seconds), >= 0
+    std::uint32_t dead_man = 0;      // buttons, any of which must be held; 0: none
+    bool passive = false;            // observe energy and keep it from being made
+    double damping = 0.0;            // of the device itself (unit: newton seconds per meter), >= 0
+    double max_damping = 0.0;        // that may be added (the same unit), >= 0
+    double velocity_smoothed = 0.0;  // by the device, to first order (unit: seconds), >= 0
+    bool sees_frozen = false;        // a position that stays although the hand moves is no reading
 };
 
 struct SafetySample {
@@ -59,6 +62,7 @@ struct SafetySample {
     Quat rotation{1.0, 0.0, 0.0, 0.0};  // of the handle
     std::uint32_t buttons = 0;
     bool connected = true;
+    bool sound = true;  // false: some field of the reading is no place, velocity or rotation
     bool enabled = true;
     double source = 0.0;      // see PassivitySample
     double own_change = 0.0;  // see ForceExit::leave
@@ -94,7 +98,8 @@ private:
     double ramped_ = 0.0;  // since the hand was last given nothing (unit: seconds)
     bool known_ = false;   // position_ is where the hand was one tick ago
     Vec3 position_{0.0};
-    Vec3 given_{0.0};  // in the last tick
+    double stayed_ = 0.0;  // the path of the velocity since the position changed last (unit: meters)
+    Vec3 given_{0.0};      // in the last tick
     double work_ = 0.0;
     Quat rotation_{1.0, 0.0, 0.0, 0.0};
 };

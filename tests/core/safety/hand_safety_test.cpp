@@ -49,6 +49,53 @@ TEST(HandSafety, TheForceGrowsFromNothingAfterEveryPause) {
     grows();
 }
 
+TEST(HandSafety, AReadingWithoutSenseTakesTheForceAtOnceAndItGrowsAgain) {
+    HandSafety safety;
+    SafetySettings settings;
+    settings.ramp = 0.1;
+    const auto play = [&](const SafetySample& sample) { return safety.pass(settings, sample); };
+    for (int tick = 0; tick < 200; ++tick) {
+        play(pushed(2.0));
+    }
+    SafetySample nonsense = pushed(2.0);
+    nonsense.sound = false;
+    nonsense.rotation.w = std::nan("");
+    EXPECT_EQ(play(nonsense).force, Vec3(0.0));
+    EXPECT_EQ(play(nonsense).state, HandState::no_number);
+    EXPECT_NEAR(play(pushed(2.0)).force.y, 0.02, 1e-12);
+}
+
+// An encoder that is stuck, while the velocity says that the hand moves.
+TEST(HandSafety, APositionThatStaysWhileTheHandMovesIsNoReading) {
+    SafetySettings settings;
+    settings.sees_frozen = true;
+    SafetySample sample = pushed(2.0);
+    sample.velocity = {0.5, 0.0, 0.0};
+    for (const double smoothed : {0.0, 0.004}) {
+        HandSafety safety;
+        settings.velocity_smoothed = smoothed;
+        sample.position = Vec3(0.0);
+        for (int tick = 0; tick < 10; ++tick) {
+            sample.position.x += 5e-4;
+            ASSERT_EQ(safety.pass(settings, sample).state, HandState::working);
+        }
+        int ticks = 0;
+        while (safety.pass(settings, sample).state == HandState::working) {
+            ASSERT_LT(++ticks, 20);
+        }
+        EXPECT_NEAR(ticks, smoothed > 0.0 ? 10 : 2, 1);
+        EXPECT_EQ(safety.pass(settings, sample).state, HandState::frozen);
+        sample.position.x += 5e-4;
+        EXPECT_EQ(safety.pass(settings, sample).state, HandState::working);
+    }
+    // At rest nothing moves, and nothing is wrong.
+    HandSafety safety;
+    sample.velocity = Vec3(0.0);
+    for (int tick = 0; tick < 10'000; ++tick) {
+        ASSERT_EQ(safety.pass(settings, sample).state, HandState::working);
+    }
+}
+
 // A force acts from its tick on: the first has gone nowhere yet.
 TEST(HandSafety, ItsWorkIsThatOfTheForcesThatWereGiven) {
     HandSafety safety;
@@ -225,12 +272,29 @@ TEST(SafeWall, MakesNoEnergyAndComesToRestWhereAStifferOneDoesNot) {
     EXPECT_GT(figures.largest_created, 1e-3);
 }
 
-TEST(ForceWatch, AForceDiesWithItsLoop) {
-    const ForceCommand command{{1.0, 0.0, 0.0}, {}, 5'000'000};
-    EXPECT_TRUE(is_alive(command, 5'000'000));
-    EXPECT_TRUE(is_alive(command, 5'000'000 + force_lifetime));
-    EXPECT_FALSE(is_alive(command, 5'000'001 + force_lifetime));
-    EXPECT_FALSE(is_alive({}, 0));
+// Whatever the periods, the hand is free in time, and a tick that is late by a tenth of its period is no
+// reason to release it.
+TEST(ForceWatch, LivesFollowFromBothPeriods) {
+    for (const double rate : {4000.0, 2000.0, 1000.0, 640.0, 595.0}) {
+        const LoopPace pace{from_seconds(1.0 / rate), true};
+        ASSERT_EQ(why_no_force(pace), "") << rate;
+        for (const Nanoseconds exchange : {0, 250'000, 1'000'000}) {
+            const ForceLife life = force_life(pace.period, exchange);
+            EXPECT_GE(life.written, pace.period + pace.period / 10) << rate;
+            EXPECT_LT(life.written + life.grace, free_within) << rate;
+            EXPECT_GE(life.grace, 50'000) << rate;
+            EXPECT_GT(life.sent, std::max(pace.period, exchange)) << rate;
+            EXPECT_GT(life.heard, std::max(pace.period, exchange)) << rate;
+        }
+    }
+}
+
+TEST(ForceWatch, ALoopThatIsTooSlowOrSteppedIsRefusedWithAReason) {
+    for (const double rate : {100.0, 250.0, 500.0, 590.0}) {
+        EXPECT_NE(why_no_force({from_seconds(1.0 / rate), true}).find("595 or more"), std::string::npos)
+            << rate;
+    }
+    EXPECT_NE(why_no_force({1'000'000, false}).find("stepped"), std::string::npos);
 }
 
 }  // namespace
