@@ -10,7 +10,7 @@ namespace tactus {
 
 namespace {
 
-constexpr std::string_view magic = "tactus inputs 1\n";
+constexpr std::string_view magic = "tactus inputs 2\n";
 
 struct PieceHead {
     InputPiece kind;

@@ -280,7 +280,7 @@ inline constexpr int members<FormerBody> = 2;
 template <>
 inline constexpr int members<DeviceSample> = 5;
 template <>
-inline constexpr int members<DeviceCapabilities> = 19;
+inline constexpr int members<DeviceCapabilities> = 20;
 template <>
 inline constexpr int members<MotionThreshold> = 4;
 template <>

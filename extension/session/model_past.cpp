@@ -7,7 +7,7 @@ void ModelPast::note_hands(SessionLoop& loop, SampleSequence sample, Nanoseconds
     moment.time = now;
     for (std::size_t i = 0; i < max_proxies; ++i) {
         const SessionLoop::ProxySlot& slot = loop.proxy(i);
-        moment.hands[i] = {slot.hand, slot.hand_velocity, slot.idle};
+        moment.hands[i] = {slot.hand, slot.hand_velocity, !loop.is_held(slot)};
     }
     for (std::size_t i = 0; i < max_tools; ++i) {
         if (const ToolSlot* const slot = loop.tool(i)) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/math/body_motion.hpp"
+#include "core/math/shortened.hpp"
 #include "physics/limits.hpp"
 #include "realtime/thread_role.hpp"
 #include "session/input_recorder.hpp"
@@ -32,6 +33,8 @@ SafetySettings settings_of(const DeviceCapabilities& device, const Workspace& wo
     settings.passive = device.feels && !drives;
     settings.damping = device.damping;
     settings.max_damping = device.max_damping;
+    settings.velocity_smoothed = device.velocity_smoothed;
+    settings.sees_frozen = device.feels;
     return settings;
 }
 
@@ -44,18 +47,21 @@ void SessionLoop::read_devices(Nanoseconds now) {
         }
         const DeviceSample sample = slot.device->read(now);
         slot.heard = sample;
-        slot.capabilities = slot.device->capabilities();
+        const DeviceCapabilities before = std::exchange(slot.capabilities, slot.device->capabilities());
+        slot.jumped = slot.jumped || slot.capabilities != before;
         if (recorder_) {
             recorder_->note_reading(static_cast<SessionHandle>(&slot - devices_.data()), sample,
                                     slot.capabilities);
         }
-        if (limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
-            limits::is_rotation(sample.rotation)) {
+        slot.is_sound = limits::is_place(sample.position) && limits::is_place(sample.velocity) &&
+                        limits::is_rotation(sample.rotation);
+        if (slot.is_sound) {
             slot.sample = sample;
         } else {
             slot.sample.velocity = Vec3(0.0);  // nonsense: it stays where it was
             slot.sample.connected = false;
         }
+        slot.silent = slot.sample.connected ? 0.0 : slot.silent + seconds_;
         place_hand(slot);
         slot.force = Vec3(0.0);
         slot.torque = Vec3(0.0);
@@ -132,10 +138,10 @@ void SessionLoop::write_devices(Nanoseconds now) {
         const Vec3 asked = slot.force;
         const Vec3 asked_of_device = force_on_device(slot.workspace, asked);
         const SafetySample sample = safety_sample(slot, i);
-        slot.safe =
-            slot.safety.pass(settings_of(slot.capabilities, slot.workspace,
-                                         side_ ? side_->limits() : local_touch, side_ && side_->drives()),
-                             sample);
+        const SafetySettings settings =
+            settings_of(slot.capabilities, slot.workspace, side_ ? side_->limits() : local_touch,
+                        side_ && side_->drives());
+        slot.safe = slot.safety.pass(settings, sample);
         if (slot.safe.force != asked_of_device) {
             slot.force = force_in_scene(slot.workspace, slot.safe.force);
         }
@@ -148,8 +154,19 @@ void SessionLoop::write_devices(Nanoseconds now) {
             }
         }
         slot.device->twist(slot.safe.torque);
-        slot.device->write(now, slot.safe.force);
+        slot.device->write(now, with_arm_carried(slot, settings.max_force));
     }
+}
+
+// The motors carry the device's own arm where they may give a force at all, and within its limit. It weighs
+// the same wherever the hand is, so that carrying it makes no energy on any closed path.
+Vec3 SessionLoop::with_arm_carried(DeviceSlot& slot, double max_force) const {
+    constexpr double carrying_time = 0.5;  // until all of it is carried (unit: seconds)
+    const double weight = slot.capabilities.weight;
+    const bool is_on = slot.safe.state == HandState::working || slot.safe.state == HandState::ramping;
+    slot.carried = is_on ? std::min(slot.carried + weight * seconds_ / carrying_time, weight) : 0.0;
+    const Vec3 force = slot.safe.force;
+    return slot.carried > 0.0 ? shortened(force + Vec3(0.0, slot.carried, 0.0), max_force) : force;
 }
 
 // Of what is in that hand: one jump fades after the other.
@@ -183,6 +200,7 @@ SafetySample SessionLoop::safety_sample(DeviceSlot& slot, std::size_t index) con
     sample.velocity = slot.heard.velocity;
     sample.buttons = slot.heard.buttons;
     sample.connected = slot.heard.connected;
+    sample.sound = slot.is_sound;
     sample.enabled = !slot.workspace.clutch;
     sample.seconds = seconds_;
     sample.source = std::max(0.0, seconds_ * glm::dot(slot.fading.force_offset(), slot.heard.velocity));

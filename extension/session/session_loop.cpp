@@ -206,6 +206,7 @@ void SessionLoop::fade_jumps() {
 FadingForce::Step SessionLoop::step_of(const ProxySlot& slot) const {
     FadingForce::Step step{slot.hand, slot.hand_velocity, slot.walls.most};
     step.fade = fade_of(slot.description.device);
+    step.proxy = slot.proxy->position();
     for (const Touch& contact : slot.proxy->touching()) {
         step.damping = std::max(step.damping, feel_at(scene_, contact).material->damping);
     }
@@ -230,7 +231,9 @@ void SessionLoop::press_all() {
     for (ProxySlot& slot : proxies_) {
         if (slot.proxy) {
             press_bodies(slot);
-            attract(slot, true);
+            if (is_held(slot)) {
+                attract(slot, true);
+            }
         }
     }
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
@@ -242,13 +245,14 @@ void SessionLoop::press_all() {
 
 void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     slot.parts = {};
-    if (!slot.description.enabled || slot.idle || slot.description.device >= max_devices ||
-        !devices_[slot.description.device].device) {
+    if (!is_held(slot)) {
         slot.force = slot.effects.besides = Vec3(0.0);
         slot.torsion.count = 0;
         slot.proxy->restart();
         slot.walls = {};
         slot.state = {};
+        slot.state.position = slot.state.hand = slot.hand;
+        slot.state.status = touch_unheld;
         slot.step = step_of(slot);
         slot.jumped = true;
         return;
@@ -403,7 +407,7 @@ void SessionLoop::describe(ProxySlot& slot, const ProxyTick& tick) {
     state.hand_velocity = slot.hand_velocity;
     state.force = slot.force;
     state.residual = tick.residual;
-    state.status = tick.status;
+    state.status = tick.status | (slot.field.is_limited() ? touch_field_limited : 0u);
     state.contact_count = 0;
     for (const Touch& contact : slot.proxy->touching()) {
         if (state.contact_count == HandForce::max_contacts) {

@@ -161,6 +161,12 @@ public:
     // Whether any hand rests on it.
     bool is_touched(SessionHandle handle) const;
 
+    // Whether a hand is in the scene with that device, and holds this proxy.
+    bool is_there(SessionHandle device) const { return device < max_devices && devices_[device].is_there(); }
+    bool is_held(const ProxySlot& slot) const {
+        return slot.description.enabled && !slot.idle && is_there(slot.description.device);
+    }
+
     // Moves a proxy in the scene as it is; the force is in the slot then, and presses bodies later.
     void touch(ProxySlot& slot, Nanoseconds now);
     // The same for all tools; the wrenches are in their slots.
@@ -209,15 +215,24 @@ private:
         Vec3 force{0.0};                       // of all its proxies, in the world (unit: newtons)
         Vec3 refused{0.0};                     // of what they wanted, by its limits (unit: newtons)
         DeviceSample heard;                    // as it came, with whatever nonsense
+        bool is_sound = true;                  // `heard` has none
+        double silent = never_heard;           // since it was connected (unit: seconds)
         DeviceCapabilities capabilities;
         FadingWrench fading;       // from both to what its safety is asked for, as the device measures them
         bool jumped = false;       // its owner has changed what makes the force
         bool touch_faded = false;  // in the last tick, see touch_fades
         HandSafety safety;
         SafeForce safe;
+        double carried = 0.0;  // of the weight of its arm (unit: newtons)
         // Of what is touched, the last that was not safe (unit: newtons per meter).
         double wanted_stiffness = 0.0, used_stiffness = 0.0;
         bool was_held = false;
+
+        // A device is there from its first reading on, and a moment longer than its last: what it touches is
+        // not lost with a reading. One that stays away has no proxy in the scene.
+        static constexpr double never_heard = 1e9;
+        static constexpr double longest_silence = 0.25;  // (unit: seconds)
+        bool is_there() const { return device != nullptr && silent < longest_silence; }
     };
 
     void note_hand_change(SessionHandle device);
@@ -300,6 +315,7 @@ private:
     void press_bodies(const ProxySlot& slot);
     void write_devices(Nanoseconds now);
     SafetySample safety_sample(DeviceSlot& slot, std::size_t index) const;
+    Vec3 with_arm_carried(DeviceSlot& slot, double max_force) const;
     void step_physics();
     void take_soft_forms();
     void find_obstacles(const Body& giving);

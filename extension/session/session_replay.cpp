@@ -131,6 +131,10 @@ void SessionLoop::begin_replay_tick() {
     ++tick_;
     scene_.begin_tick();
     take_forms();
+    // No device is read here: a replay says itself which hands there are (ProxySlot::idle, ToolHand::holds).
+    for (DeviceSlot& slot : devices_) {
+        slot.silent = 0.0;
+    }
     if (std::exchange(follows_all_, false)) {
         for (const BodyState& state : states_) {
             place(state.handle, motion(state.handle), false);

@@ -84,7 +84,7 @@ void SessionLoop::hold_tools() {
     for (const std::unique_ptr<ToolSlot>& slot : tools_) {
         if (slot) {
             const SessionHandle device = slot->use.device;
-            slot->hand.holds = slot->use.enabled && device < max_devices && devices_[device].device;
+            slot->hand.holds = slot->use.enabled && is_there(device);
             if (slot->hand.holds) {
                 slot->hand = hand_at(devices_[device], slot->use);
             }

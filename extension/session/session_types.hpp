@@ -112,6 +112,12 @@ enum FeltStatus : std::uint32_t {
     felt_limited = 1u << 19,  // the force was to change or to give more than is allowed
 };
 
+// A bit of ProxyState::status and ToolState::status: its device is not there, or it is switched off.
+inline constexpr std::uint32_t touch_unheld = 1u << 22;
+
+// A bit of ProxyState::status: the field of its owner was made weaker, see HandField::is_limited.
+inline constexpr std::uint32_t touch_field_limited = 1u << 23;
+
 // Bits of ToolState::status besides ToolStatus, with a link to robots.
 enum FarTool : std::uint32_t {
     tool_turn_fixed = 1u << 20,   // the robot that carries it cannot turn it

@@ -68,11 +68,15 @@ struct ToolSlot {
         source = 0.0;
         jumped = true;
         state = {};
+        state.pose = hand.goal;
+        state.hand = hand.goal;
+        state.status = touch_unheld;
     }
 
     // What the hand's own way can have made of the force.
     FadingForce::Step step() const {
-        return {hand.goal.position, hand.velocity, use.settings.stiffness * hand.share, 0.0, hand.fade};
+        return {hand.goal.position, hand.velocity,      use.settings.stiffness * hand.share, 0.0,
+                hand.fade,          state.pose.position};
     }
     // The same of its turn and the torque.
     FadingForce::Step turn() const {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <limits>
 
 #include "session_rig.hpp"
 
@@ -101,6 +103,128 @@ TEST(Session, AHandThatHasJumpedIsNotPushed) {
     EXPECT_EQ(rig.device.force, Vec3(0.0));
     rig.tick();
     EXPECT_GT(rig.device.force.y, 1.0);
+}
+
+// Each field of a reading alone: no force at once, whatever the hand does meanwhile, and it grows again.
+TEST(Session, AReadingOfWhichOneFieldMakesNoSenseGivesNoForce) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    using Spoil = void (*)(HeldDevice&);
+    const Spoil spoils[] = {
+        [](HeldDevice& d) { d.position.x = nan; },
+        [](HeldDevice& d) { d.position.y = infinite; },
+        [](HeldDevice& d) { d.position.z = 1e30; },
+        [](HeldDevice& d) { d.velocity.x = nan; },
+        [](HeldDevice& d) { d.velocity.y = -infinite; },
+        [](HeldDevice& d) { d.velocity.z = 1e30; },
+        [](HeldDevice& d) { d.rotation.w = nan; },
+        [](HeldDevice& d) { d.rotation.x = infinite; },
+        [](HeldDevice& d) { d.rotation = Quat(0.0, 0.0, 0.0, 0.0); },
+        [](HeldDevice& d) { d.rotation.y = 3.0; },
+    };
+    for (std::size_t i = 0; i < std::size(spoils); ++i) {
+        SessionRig rig;
+        rig.add(ground());
+        rig.device.can.feels = true;
+        rig.device.can.ramp = 0.1;
+        rig.device.can.max_slew = 4000.0;
+        rig.device.can.max_speed = 5.0;
+        rig.device.position = {0.0, 0.1, 0.0};
+        rig.tick();
+        rig.draw({0.0, 0.002, 0.0}, 500);
+        ASSERT_NEAR(rig.device.force.y, 4.0, 1e-6) << i;
+        for (int tick = 1; tick <= 50; ++tick) {
+            rig.device.position = {0.0, 0.002 + 0.001 * tick, 0.0};
+            rig.device.velocity = Vec3(0.0);
+            spoils[i](rig.device);
+            rig.tick();
+            EXPECT_EQ(rig.device.force, Vec3(0.0)) << i << ", tick " << tick;
+        }
+        rig.session.refresh();
+        EXPECT_EQ(rig.session.snapshot().devices[0].safety, HandState::no_number) << i;
+        rig.device.rotation = Quat(1.0, 0.0, 0.0, 0.0);
+        rig.device.velocity = Vec3(0.0);
+        rig.device.position = {0.0, 0.002, 0.0};
+        double before = 0.0;
+        for (int tick = 0; tick < 200; ++tick) {
+            rig.tick();
+            EXPECT_LE(rig.device.force.y - before, 4.0) << i;
+            before = rig.device.force.y;
+        }
+        EXPECT_NEAR(before, 4.0, 1e-6) << i;
+    }
+}
+
+// A ball falls past where the hand would be, and bounces off one that is there.
+TEST(Session, AHandWhoseDeviceIsNotThereTouchesNothing) {
+    for (const bool is_there : {false, true}) {
+        SessionRig rig;
+        rig.device.connected = is_there;
+        BodyAddition ball = body(SphereShape{0.05}, {0.01, 0.2, 0.0}, Motion::Dynamic, 0.2);
+        const SessionHandle falling = rig.add(ball);
+        rig.ticks(1'000);
+        EXPECT_EQ(rig.proxy_state().status & touch_unheld, is_there ? 0u : touch_unheld);
+        const BodyState* state = rig.state_of(falling);
+        ASSERT_NE(state, nullptr);
+        EXPECT_EQ(std::abs(state->pose.position.x - 0.01) < 1e-9, !is_there);
+    }
+}
+
+// A reading that fails loses no contact; a device that stays away loses its hand, and finds it again.
+TEST(Session, AHandLeavesAQuarterOfASecondAfterItsDevice) {
+    SessionRig rig;
+    rig.add(ground());
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, 0.0, 0.0}, 50);
+    rig.device.connected = false;
+    rig.ticks(200);
+    EXPECT_TRUE(rig.proxy_state().status & proxy_touching);
+    EXPECT_EQ(rig.device.force, Vec3(0.0));
+    rig.ticks(100);
+    EXPECT_EQ(rig.proxy_state().status, touch_unheld);
+    rig.device.connected = true;
+    rig.device.position = {0.0, 0.1, 0.0};
+    rig.tick();
+    rig.draw({0.0, 0.0, 0.0}, 50);
+    EXPECT_TRUE(rig.proxy_state().status & proxy_touching);
+    EXPECT_NEAR(rig.device.force.y, 5.0, 1e-6);
+}
+
+// Within all that limits a force.
+TEST(Session, AnArmIsCarriedWhereAForceMayBeGiven) {
+    SessionRig rig;
+    rig.device.can.feels = true;
+    rig.device.can.weight = 3.0;
+    Workspace workspace;
+    workspace.force_limit = 8.0;
+    workspace.dead_man = 0b1;
+    rig.device.buttons = 0b1;
+    rig.session.set_workspace(rig.hand, workspace);
+    double before = 0.0;
+    for (int tick = 0; tick < 600; ++tick) {
+        rig.tick();
+        EXPECT_LE(rig.device.force.y - before, 0.01);
+        before = rig.device.force.y;
+    }
+    EXPECT_EQ(rig.device.force, Vec3(0.0, 3.0, 0.0));
+    rig.device.buttons = 0;
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0)) << "the button is up";
+    rig.device.buttons = 0b1;
+    workspace.force_limit = 1.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.ticks(600);
+    EXPECT_NEAR(rig.device.force.y, 1.0, 1e-12);
+    workspace.force_limit = 0.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0)) << "the limit is nothing";
+    workspace.force_limit = 8.0;
+    workspace.clutch = true;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.tick();
+    EXPECT_EQ(rig.device.force, Vec3(0.0)) << "the clutch is held";
 }
 
 TEST(Session, AWorkspaceTurnsPositionsInAndForcesBack) {

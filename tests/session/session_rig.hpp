@@ -15,7 +15,7 @@ constexpr Nanoseconds period = 1'000'000;
 // A device whose handle is where the test says, and which keeps the force it was given.
 class HeldDevice final : public Device {
 public:
-    DeviceSample read(Nanoseconds) override { return {position, rotation, velocity, buttons, true}; }
+    DeviceSample read(Nanoseconds) override { return {position, rotation, velocity, buttons, connected}; }
     void write(Nanoseconds, const Vec3& given) override { force = given; }
     void twist(const Vec3& given) override { torque = given; }
     DeviceCapabilities capabilities() const override { return can; }
@@ -27,6 +27,7 @@ public:
     Vec3 force{0.0};
     Vec3 torque{0.0};
     std::uint32_t buttons = 0;
+    bool connected = true;
 };
 
 // It turns, and gives torque.
