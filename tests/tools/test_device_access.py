@@ -5,6 +5,13 @@ import re
 from setup import device_access
 
 
+def test_every_device_that_is_opened_on_usb_has_a_rule():
+    """Those that the scan finds: extension/devices/scan.cpp."""
+    rules = device_access.rules()
+    for vendor, product in [("0403", "cb48"), ("1451", "*")]:
+        assert f'ATTR{{idVendor}}=="{vendor}", ATTR{{idProduct}}=="{product}", TAG+="uaccess"' in rules
+
+
 def test_the_rule_is_written_once(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(device_access, "RELOAD", [])
     file = tmp_path / "60-tactus-devices.rules"

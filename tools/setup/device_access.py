@@ -8,7 +8,8 @@ from pathlib import Path
 
 # Before 73-seat-late.rules, which looks at the tag.
 RULE_FILE = Path("/etc/udev/rules.d/60-tactus-devices.rules")
-DEVICES = {"Novint Falcon": ("0403", "cb48")}
+# Vendor and product; every product of Force Dimension. 3D Systems and Haply bring drivers and rules of their own.
+DEVICES = {"Novint Falcon": ("0403", "cb48"), "Force Dimension": ("1451", "*")}
 RELOAD = ["udevadm control --reload", "udevadm trigger --subsystem-match=usb"]
 
 
