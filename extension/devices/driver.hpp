@@ -12,10 +12,16 @@
 
 namespace tactus {
 
+// What a device has said, and when it was asked for that.
+struct DriverReading {
+    DeviceSample sample;
+    Nanoseconds at = 0;  // on the steady clock
+};
+
 class Driver {
 public:
     enum class Exchange {
-        reading,  // `sample` is new
+        reading,  // `reading` is new
         nothing,  // nothing has come in time; it may still
         lost,     // the device is gone, or talks nonsense: close and open it again
     };
@@ -27,14 +33,17 @@ public:
     virtual std::string open(const std::atomic<bool>& stop) = 0;
     virtual void close() = 0;
 
-    // Sends the force that is alive in `forces`, once a reading and when it dies, and waits for a reading
-    // until `until` at the latest (on the steady clock).
-    virtual Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) = 0;
+    // Sends the force that lives in `forces`, as soon as the loop has written it and when it ends, and waits
+    // for a reading until `until` at the latest (on the steady clock).
+    virtual Exchange exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) = 0;
 
     // From the watchdog's thread, between open() and close(), while exchange() is stuck: takes the device's
     // force away, again and again as long as it is. Nothing where the transport has no way past a call that
     // hangs.
     virtual void let_go() {}
+
+    // Whether the device is asked at a pace of its own (DeviceCapabilities::rate), not in step with the loop.
+    virtual bool is_paced() const { return false; }
 
     // Of the open device.
     virtual DeviceCapabilities capabilities() const = 0;

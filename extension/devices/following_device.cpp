@@ -31,7 +31,9 @@ Follower follow(const Follower& from, const Vec3& target, double rate, double se
 }
 
 FollowingDevice::FollowingDevice(const Settings& settings)
-    : rate_(settings.rate), targets_(HandTarget{settings.rest, 0}), hand_{settings.rest, Vec3(0.0)} {}
+    : rate_(settings.rate),
+      targets_(HandTarget{settings.rest, 0, settings.is_there}),
+      hand_{settings.rest, Vec3(0.0)} {}
 
 // The target of the time since the last tick is the one known then: what has just come in counts from now on.
 DeviceSample FollowingDevice::read(Nanoseconds now) {
@@ -46,7 +48,7 @@ DeviceSample FollowingDevice::read(Nanoseconds now) {
     sample.position = hand_.position;
     sample.velocity = hand_.velocity;
     sample.buttons = targets_.front().buttons;
-    sample.connected = true;
+    sample.connected = targets_.front().is_there;
     return sample;
 }
 

@@ -16,6 +16,7 @@ namespace tactus {
 struct HandTarget {
     Vec3 position{0.0};         // where the hand is wanted, in the device's own frame (unit: meters)
     std::uint32_t buttons = 0;  // bit i: button i is held
+    bool is_there = true;       // false: what leads the hand is missing, and the hand with it
 };
 
 // No hand goes farther from the origin (unit: meters).
@@ -45,8 +46,9 @@ Follower follow(const Follower& from, const Vec3& target, double rate, double se
 class FollowingDevice final : public Device {
 public:
     struct Settings {
-        Vec3 rest{0.0};      // where the hand waits for the first target (unit: meters)
-        double rate = 80.0;  // ω (unit: 1/s), > 0: nine tenths of a jump are made up in 3.9/ω, 49 ms
+        Vec3 rest{0.0};        // where the hand waits for the first target (unit: meters)
+        double rate = 80.0;    // ω (unit: 1/s), > 0: nine tenths of a jump are made up in 3.9/ω, 49 ms
+        bool is_there = true;  // before the first target
     };
 
     explicit FollowingDevice(const Settings& settings);

@@ -1,60 +1,143 @@
-// The way of forces from the loop to a driver: the newest counts, for as long as the loop that wrote it
-// lives, and a watchdog knows when somebody has to have looked again.
+// The way of forces from the loop to a driver, and the last stage before the device: it knows what is
+// displayed. The newest force counts, for as long as the loop, the driver and the device go on (ForceLife);
+// after any cut the force grows from nothing, as fast as the device's slew allows.
+//
+// The exchange runs in step with the loop: a reading is taken shortly before the loop looks for one, and the
+// loop's write wakes the driver, which sends the force at once.
+//
+// Threads: write() and set_pace() belong to the haptic thread and to the owner before the first tick;
+// due(), taken() and wait_for_force() to the watchdog; displayed(), cuts() and delays() to any one; the rest
+// to the thread of the driver that sends forces, but heard(), which belongs to the one that reads.
 #pragma once
 
+#include <array>
 #include <atomic>
 
+#include "core/math/wrench.hpp"
+#include "core/ports/device.hpp"
 #include "core/safety/force_watch.hpp"
 #include "platform/atomic_wait.hpp"
-#include "platform/clock.hpp"
+#include "platform/wake_signal.hpp"
+#include "realtime/tick_statistics.hpp"
 #include "realtime/triple_buffer.hpp"
 
 namespace tactus {
 
 class ForceSlot {
 public:
-    // Haptic thread.
-    void write(const Vec3& force, const Vec3& torque, Nanoseconds now) {
-        commands_.publish({force, torque, now});
+    struct Displayed {
+        Wrench wrench;
+        Nanoseconds at = 0;  // on the steady clock; 0: nothing yet
+    };
+    using Cuts = std::array<std::uint64_t, force_cut_count>;  // by ForceCut
+
+    // A pace that is not safe is given no force.
+    void set_pace(const LoopPace& pace) {
+        tick_.store(why_no_force(pace).empty() ? pace.period : 0, std::memory_order_release);
     }
 
-    // I/O thread: what the device is to be given from now until end() at the longest. `own`: of the device
-    // itself, such as what carries its arm, for as long as the loop lives.
-    Vec3 living(Nanoseconds now, const Vec3& own = Vec3(0.0)) {
-        commands_.refresh();
-        const ForceCommand& command = commands_.front();
-        const bool alive = is_alive(command, now);
-        const Vec3 force = alive ? command.force + own : Vec3(0.0);
-        torque_ = alive ? command.torque : Vec3(0.0);
-        end_ = alive ? command.written_at + force_lifetime : 0;
-        watch(force == Vec3(0.0) && torque_ == Vec3(0.0) ? 0 : end_);
-        return force;
+    // --- haptic thread
+
+    void write(const ForceCommand& command) {
+        commands_.publish(command);
+        written_.store(command.written_at, std::memory_order_release);
+        written_signal_.wake();
     }
-    // That goes with the force that living() has given.
-    const Vec3& torque() const { return torque_; }
-    // When what living() has given dies, if nothing comes; 0: the loop was silent.
+
+    // --- driver: see above
+
+    // The device is open, or open anew: its force begins at nothing. `is_paced`: it keeps a time of its own.
+    void begin(const DeviceCapabilities& device, bool is_paced);
+    // A reading that was asked for then has come.
+    void heard(Nanoseconds read_at, Nanoseconds now) {
+        read_.store(read_at, std::memory_order_release);
+        heard_.store(now, std::memory_order_release);
+    }
+
+    // Returns when the loop has written what living() has not yet seen, one of the files is ready, or it is
+    // `until`.
+    void wait_for_write(Nanoseconds until, std::span<const WaitFile> files = {}) {
+        written_signal_.wait_until(until, files, [this] { return is_written(); });
+    }
+    // The same, whatever the loop writes.
+    void wait_for_files(Nanoseconds until, std::span<const WaitFile> files) {
+        written_signal_.wait_until(until, files, [] { return false; });
+    }
+    bool is_written() const { return commands_.is_fresh(); }
+
+    // What the device is given from now until end() at the longest (unit: newtons).
+    Vec3 living(Nanoseconds now);
+    // The torque that goes with it (unit: newton meters).
+    const Vec3& torque() const { return displayed_.torque; }
+    // Whether the loop was alive then, and the device.
+    bool is_alive() const { return lives_; }
+    // When what living() has returned ends, if nothing comes; 0: it is nothing, or has ended.
     Nanoseconds end() const { return end_; }
+    // What living() has returned has been handed to the device.
+    void given(Nanoseconds now);
+    // From a reading until its force has been handed over: of a hundred, ninety-nine take no longer.
+    Nanoseconds lag() const { return lag_.load(std::memory_order_relaxed); }
+    // When to take the next reading, so that it is there when the loop looks for it; 0: at once.
+    Nanoseconds next_reading() const;
+    // The device gives no force any more.
+    void rest();
 
-    // I/O thread: the device gives no force any more.
-    void rest() { watch(0); }
+    // --- watchdog
 
-    // Watchdog: when the force that the device gives must have been renewed or taken away; 0: it gives none.
-    Nanoseconds due() const { return due_.load(std::memory_order_acquire); }
-    void wait_for_force() const { wait_while(due_, 0); }
-    // Wakes who waits for a force, since none will come.
-    void end_wait() { watch(-1); }
+    struct Due {
+        Nanoseconds looked_at = 0;  // by the driver, last; 0: the device gives no force
+        Nanoseconds at = 0;         // when the force must have been renewed or taken away
+    };
+    Due due() const;
+    void wait_for_force() const { wait_while(is_on_, 0); }
+    // The force was taken away past the driver.
+    void taken(Nanoseconds now);
+    // Wakes it, since no force will come.
+    void end_wait();
+
+    // --- owner
+
+    // Ends wait_for_write() once.
+    void wake_driver() { written_signal_.wake(); }
+
+    Displayed displayed() {
+        shown_.refresh();
+        const bool is_on = is_on_.load(std::memory_order_acquire) == 1;
+        return is_on ? shown_.front() : Displayed{Wrench{}, shown_.front().at};
+    }
+    Cuts cuts() const;
+    // From a reading until its force has been handed to the device.
+    const DurationHistogram& delays() const { return delays_; }
 
 private:
-    void watch(Nanoseconds due) {
-        if (due_.exchange(due, std::memory_order_acq_rel) == 0 && due != 0) {
-            wake_all(due_);
-        }
-    }
+    ForceLife life() const { return force_life(tick_.load(std::memory_order_acquire), exchange_); }
+    void watch(Nanoseconds now);
+    void switch_on(std::int64_t on);
+    void cut(ForceCut why);
+    void aim_reading(const ForceCommand& command);
 
     TripleBuffer<ForceCommand> commands_;
-    Vec3 torque_{0.0};  // I/O thread; likewise
+    TripleBuffer<Displayed> shown_;
+    WakeSignal written_signal_;
+    DurationHistogram delays_;
+    std::atomic<Nanoseconds> tick_{1'000'000};  // 0: no force
+    std::atomic<Nanoseconds> written_{0}, read_{0}, heard_{0}, looked_{0};
+    std::atomic<std::int64_t> is_on_{0};  // 1: the device gives a force; -1: none will come
+    std::atomic<bool> is_taken_{false};
+    std::array<std::atomic<std::uint64_t>, force_cut_count> cuts_{};
+
+    // Of the driver.
+    std::atomic<Nanoseconds> exchange_{0};
+    double slew_ = 0.0, torque_slew_ = 0.0;  // (units: newtons, newton meters per second)
+    Wrench displayed_;
+    bool lives_ = false;
+    bool returns_ = true;  // the force grows from nothing
     Nanoseconds end_ = 0;
-    std::atomic<Nanoseconds> due_{0};
+    Nanoseconds measured_ = 0;  // the reading whose delay was counted last
+    std::atomic<Nanoseconds> lag_{0};
+    Nanoseconds lead_ = first_lead;  // of a reading before the loop looks for it
+
+    static constexpr Nanoseconds first_lead = 200'000;
 };
 
 }  // namespace tactus

@@ -40,9 +40,11 @@ const Library* library(std::string& error) {
         {"libusb_submit_transfer", usb.submit_transfer},
         {"libusb_cancel_transfer", usb.cancel_transfer},
         {"libusb_handle_events_timeout_completed", usb.handle_events_timeout_completed},
+        {"libusb_get_pollfds", usb.get_pollfds},
+        {"libusb_free_pollfds", usb.free_pollfds},
         {"libusb_error_name", usb.error_name},
     });
-    error = ready ? "" : "the libusb on this system is too old: version 1.0.16 or later is needed";
+    error = ready ? "" : "the libusb on this system is too old: version 1.0.20 or later is needed";
     return ready ? &usb : nullptr;
 }
 

@@ -46,6 +46,11 @@ struct Transfer {  // libusb_transfer
 };
 inline constexpr unsigned char type_bulk = 2;
 
+struct PollFile {  // libusb_pollfd
+    int file;
+    short events;
+};
+
 struct Library {
     int (*init)(Context**) = nullptr;
     void (*exit)(Context*) = nullptr;
@@ -67,6 +72,8 @@ struct Library {
     int (*submit_transfer)(Transfer*) = nullptr;
     int (*cancel_transfer)(Transfer*) = nullptr;
     int (*handle_events_timeout_completed)(Context*, timeval*, int*) = nullptr;
+    const PollFile** (*get_pollfds)(Context*) = nullptr;  // null: this system has none
+    void (*free_pollfds)(const PollFile**) = nullptr;
     const char* (*error_name)(int) = nullptr;
 };
 

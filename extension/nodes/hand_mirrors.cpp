@@ -81,12 +81,13 @@ void HandMirrors::match(std::vector<Mirror>& mirrors, Session& session) {
     }
 }
 
-void HandMirrors::synchronise(HapticDevice& node, DeviceTwin& twin, Session& session,
-                              Complaints& complaints) {
+void HandMirrors::synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints,
+                              bool is_stepped) {
     const std::shared_ptr<Device> port = stand_in_ != nullptr ? stand_in_ : node.port();
     const SessionHandle before = twin.handle();
     const Workspace workspace = port != nullptr ? node.workspace() : Workspace{};
-    complaints.say(node, twin.synchronise(session, port, workspace, retired_));
+    const LoopPace pace{session.settings().period, !is_stepped};
+    complaints.say(node, twin.synchronise(session, pace, port, workspace, retired_));
     if (before != no_handle && twin.handle() != before) {
         node.clear_state();
     }
@@ -120,13 +121,18 @@ void HandMirrors::synchronise(HapticTool& node, ToolTwin& twin, Session& session
     }
     complaints.say(node, node.hindrance());
     const SessionHandle device = handle_in(devices_, node.device_node());
+    const SessionHandle before = twin.handle();
     complaints.say(node, twin.synchronise(session, node.shape(), node.use(device)));
+    if (before != no_handle && twin.handle() != before) {
+        node.clear_state();
+    }
 }
 
 void HandMirrors::synchronise(Session& session, Complaints& complaints, bool waits) {
     const auto each = [&](auto& node, auto& twin) { synchronise(node, twin, session, complaints); };
     match<HapticDevice>(devices_, session);
-    for_each_node<HapticDevice>(devices_, each);
+    for_each_node<HapticDevice>(
+        devices_, [&](auto& node, auto& twin) { synchronise(node, twin, session, complaints, waits); });
     match<ProxyPointer>(proxies_, session);
     for_each_node<ProxyPointer>(proxies_, each);
     match<HapticTool>(tools_, session);

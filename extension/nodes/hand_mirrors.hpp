@@ -63,7 +63,8 @@ private:
         ToolTwin twin;
     };
 
-    void synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints);
+    void synchronise(HapticDevice& node, DeviceTwin& twin, Session& session, Complaints& complaints,
+                     bool is_stepped);
     void synchronise(ProxyPointer& node, ProxyTwin& twin, Session& session, Complaints& complaints);
     void synchronise(HapticTool& node, ToolTwin& twin, Session& session, Complaints& complaints, bool waits);
     template <class NodeType, class State, class Mirror, std::size_t capacity>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <godot_cpp/classes/file_access.hpp>
 #include <godot_cpp/classes/input.hpp>
 #include <godot_cpp/classes/input_event_mouse_button.hpp>
@@ -19,6 +20,7 @@
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
 #include "nodes/tree_walk.hpp"
+#include "platform/clock.hpp"
 #include "world/hand_events.hpp"
 
 namespace tactus {
@@ -127,13 +129,22 @@ String HapticDevice::get_state_text() const {
     if (HapticWorld::of(this) == nullptr) {
         return "no HapticWorld is running: put one into the scene, best above this node";
     }
-    const std::string said = is_steered(kind()) ? from_godot(hindrance()) : hand_.health().text;
-    return to_godot(state_of_hand(state_, has_driver(kind()), said));
+    const bool is_led = is_steered(kind()) || kind() == HandKind::node;
+    const std::string said = is_led ? from_godot(hindrance()) : hand_.health().text;
+    const std::string text = state_of_hand(state_, has_driver(kind()), said);
+    return to_godot(said.empty() ? text + text_of_cuts(hand_.health().cuts) : text);
 }
 
 String HapticDevice::hindrance() const {
     if (!is_inside_tree()) {
         return String();
+    }
+    if (kind() == HandKind::node) {
+        const Node3D* led_by = target_node();
+        const bool is_near =
+            led_by == nullptr || glm::length(from_godot(led_by->get_global_position())) < farthest_hand;
+        return is_near ? String()
+                       : String("its target is farther than 1000 km from the origin: bring it nearer");
     }
     return kind() == HandKind::mouse     ? problem_of_mouse(*this)
            : kind() == HandKind::gamepad ? problem_of_gamepad(gamepad_)
@@ -186,6 +197,36 @@ HandPlan HapticDevice::plan() const {
 
 String HapticDevice::get_open_device_id() const {
     return to_godot(hand_.health().id);
+}
+
+Vector3 HapticDevice::get_displayed_force() const {
+    if (!has_driver(kind()) || !is_inside_tree()) {
+        return get_force();
+    }
+    return to_godot(direction_to_parent(workspace().pose, hand_.health().displayed.force));
+}
+
+Dictionary HapticDevice::get_force_cuts() const {
+    Dictionary cuts;
+    if (has_driver(kind())) {
+        const char* const names[force_cut_count] = {"loop_silent", "device_silent", "driver_stuck"};
+        const ForceSlot::Cuts counted = hand_.health().cuts;
+        for (std::size_t i = 0; i < force_cut_count; ++i) {
+            cuts[names[i]] = static_cast<int64_t>(counted[i]);
+        }
+    }
+    return cuts;
+}
+
+Dictionary HapticDevice::get_delay_distribution() const {
+    Dictionary delays;
+    if (const DurationHistogram* measured = hand_.delays()) {
+        delays["count"] = static_cast<int64_t>(measured->count());
+        delays["p50_us"] = 1e-3 * measured->quantile(0.5);
+        delays["p99_us"] = 1e-3 * measured->quantile(0.99);
+        delays["max_us"] = 1e-3 * static_cast<double>(measured->max());
+    }
+    return delays;
 }
 
 void HapticDevice::take_state(const DeviceState& state) {
@@ -251,8 +292,9 @@ SteeringInput HapticDevice::steering_input() {
 void HapticDevice::lead_hand() {
     if (is_steered(kind())) {
         const SteeringInput input = steering_input();
+        const bool is_there = !may_be_missing(kind()) || hindrance().is_empty();
         hand_.steer(from_view(*this, input.deflection), steering_, get_process_delta_time(), workspace(),
-                    input.buttons);
+                    input.buttons, is_there);
     } else if (const Node3D* led_by = target_node()) {
         hand_.lead(from_godot(led_by->get_global_position()), workspace(), buttons_of(*led_by));
     }

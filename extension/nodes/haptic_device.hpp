@@ -30,6 +30,9 @@ public:
     double get_energy() const { return state_.work; }
     godot::Quaternion get_hand_rotation() const { return to_godot(state_.rotation); }
     godot::Vector3 get_force() const { return to_godot(state_.force); }
+    godot::Vector3 get_displayed_force() const;
+    godot::Dictionary get_force_cuts() const;
+    godot::Dictionary get_delay_distribution() const;
     godot::Vector3 get_torque() const { return to_godot(state_.torque); }
     int64_t get_buttons() const { return state_.buttons; }
     godot::String get_open_device_id() const;

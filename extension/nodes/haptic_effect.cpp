@@ -6,6 +6,7 @@
 #include "nodes/conversions.hpp"
 #include "nodes/messages.hpp"
 #include "nodes/proxy_choice.hpp"
+#include "nodes/proxy_pointer.hpp"
 #include "nodes/roll.hpp"
 #include "nodes/scene_warnings.hpp"
 #include "nodes/signals.hpp"
@@ -45,7 +46,15 @@ String HapticEffect::get_state_text() const {
         return why_off_.is_empty() ? String("off") : why_off_;
     }
     const String wrong = problem();
-    return wrong.is_empty() ? String("working") : wrong;
+    if (!wrong.is_empty()) {
+        return wrong;
+    }
+    const ProxyPointer* const proxy = proxy_node();
+    return proxy != nullptr && proxy->is_field_limited()
+               ? String(
+                     "working, weaker than its script says: its force leaps, or changes within a short way, "
+                     "more steeply than is safe; let it rise over a longer way, or use a body")
+               : String("working");
 }
 
 void HapticEffect::enabled_changed() {

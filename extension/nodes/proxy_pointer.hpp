@@ -37,9 +37,10 @@ public:
     godot::Vector3 get_hand_position() const { return to_godot(state_.hand); }
     godot::Vector3 get_proxy_position() const { return to_godot(state_.position); }
     bool is_touching() const { return has(proxy_touching); }
-    bool is_present() const { return state_.handle != no_handle && !has(proxy_absent); }
+    bool is_present() const { return state_.handle != no_handle && !has(proxy_absent) && !has(touch_unheld); }
     bool is_being_let_out() const { return has(proxy_letting_out); }
     bool is_squeezed() const { return has(proxy_squeezed); }
+    bool is_field_limited() const { return has(touch_field_limited); }
     godot::BitField<Status> get_status() const { return static_cast<Status>(state_.status); }
     double get_residual() const { return state_.residual; }
     godot::TypedArray<godot::Dictionary> get_contacts() const { return touched_.contacts(state_); }
@@ -62,7 +63,7 @@ public:
     void take_state(const ProxyState& state, const Touched::Ids& bodies);
     void clear_state();
     // Its hand began inside a body.
-    bool is_kept_out() const { return state_.handle != no_handle && !is_present(); }
+    bool is_kept_out() const { return has(proxy_absent); }
     void clear_force() { state_.force = Vec3(0.0); }
 
 protected:
@@ -75,7 +76,7 @@ private:
     void make_pictures();
     void place_pictures();
 
-    bool has(ProxyStatus bit) const { return (state_.status & bit) != 0; }
+    bool has(std::uint32_t bit) const { return (state_.status & bit) != 0; }
 
     DeviceChoice device_;
     double radius_ = 0.01;

@@ -2,8 +2,11 @@
 
 #include <godot_cpp/core/class_db.hpp>
 #include <godot_cpp/godot.hpp>
+#include <godot_cpp/variant/utility_functions.hpp>
 
+#include "devices/driver_device.hpp"
 #include "nodes/body_watch.hpp"
+#include "nodes/conversions.hpp"
 #include "nodes/project_settings.hpp"
 #include "nodes/signals.hpp"
 #include "realtime/workers.hpp"
@@ -19,10 +22,13 @@ void register_classes(godot::ModuleInitializationLevel level) {
     declare_project_settings();
     GDREGISTER_INTERNAL_CLASS(BodyWatch);
     register_public_classes();
+    DriverDevice::when_left_behind(
+        [](const std::string& text) { godot::UtilityFunctions::push_error(to_godot(text)); });
 }
 
 void let_go(godot::ModuleInitializationLevel level) {
     if (level == godot::MODULE_INITIALIZATION_LEVEL_SCENE) {
+        DriverDevice::when_left_behind(nullptr);
         Workers::end_shared();
         forget_signals();
     }

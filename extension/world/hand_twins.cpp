@@ -30,8 +30,9 @@ bool same(const ToolUse& a, const ToolUse& b) {
 
 }  // namespace
 
-std::string DeviceTwin::synchronise(Session& session, const std::shared_ptr<Device>& port,
-                                    const Workspace& workspace, RetiredPorts& retired) {
+std::string DeviceTwin::synchronise(Session& session, const LoopPace& pace,
+                                    const std::shared_ptr<Device>& port, const Workspace& workspace,
+                                    RetiredPorts& retired) {
     if (port != port_) {
         remove(session, retired);
         port_ = port;
@@ -40,6 +41,7 @@ std::string DeviceTwin::synchronise(Session& session, const std::shared_ptr<Devi
         return {};
     }
     if (handle_ == no_handle) {
+        port_->set_pace(pace);
         AddResult added = session.add_device(*port_, workspace);
         handle_ = added.handle;
         sent_ = workspace;

@@ -17,8 +17,8 @@ public:
     SessionHandle handle() const { return handle_; }
 
     // No port: there is nothing to read and to push. Says why the session takes no more devices; else empty.
-    std::string synchronise(Session& session, const std::shared_ptr<Device>& port, const Workspace& workspace,
-                            RetiredPorts& retired);
+    std::string synchronise(Session& session, const LoopPace& pace, const std::shared_ptr<Device>& port,
+                            const Workspace& workspace, RetiredPorts& retired);
     void remove(Session& session, RetiredPorts& retired);
 
 private:

@@ -1,6 +1,8 @@
 #include "world/scene_hand.hpp"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "devices/falcon/falcon_arm.hpp"
@@ -9,6 +11,8 @@
 namespace tactus {
 
 namespace {
+
+constexpr const char* unheld = "its device is not there, or it is switched off";
 
 Vec3 in_device(const Workspace& mapping, const Vec3& place) {
     return to_local(mapping.pose, place) / mapping.scale;
@@ -37,8 +41,9 @@ SceneHand::SceneHand(HandPlan plan, const Workspace& mapping) : pointed_at_(plan
     } else if (plan.kind == HandKind::robot_tip) {
         port_ = std::make_shared<TipDevice>(std::move(plan.tip));
     } else {
+        aimed_at_ = in_device(mapping, plan.start);
         follower_ = std::make_shared<FollowingDevice>(
-            FollowingDevice::Settings{.rest = in_device(mapping, plan.start)});
+            FollowingDevice::Settings{.rest = aimed_at_, .is_there = !may_be_missing(plan.kind)});
         port_ = follower_;
     }
 }
@@ -50,23 +55,32 @@ void SceneHand::change(const ArmSettings& arm) {
 }
 
 void SceneHand::lead(const Vec3& place, const Workspace& mapping, std::uint32_t buttons) {
-    if (is_led() && glm::length(place) < farthest_hand) {
-        follower_->aim({in_device(mapping, place), buttons});
+    if (glm::length(place) < farthest_hand) {
+        aim(in_device(mapping, place), buttons);
+    } else {
+        aim(aimed_at_, 0, false);
+    }
+}
+
+void SceneHand::aim(const Vec3& place, std::uint32_t buttons, bool is_there) {
+    if (is_led()) {
+        aimed_at_ = place;
+        follower_->aim({place, buttons, is_there});
     }
 }
 
 void SceneHand::point(const ScreenRay& ray, double deeper, const Workspace& mapping, std::uint32_t buttons) {
     if (const auto place = is_led() ? under_pointer(ray, pointed_at_, deeper) : std::nullopt) {
         pointed_at_ = *place;
-        follower_->aim({in_device(mapping, pointed_at_), buttons});
+        aim(in_device(mapping, pointed_at_), buttons);
     }
 }
 
 void SceneHand::steer(const Vec3& deflection, const SteeringSettings& steering, double seconds,
-                      const Workspace& mapping, std::uint32_t buttons) {
+                      const Workspace& mapping, std::uint32_t buttons, bool is_there) {
     if (is_led()) {
         steered_to_ = steered(steered_to_, direction_to_local(mapping.pose, deflection), steering, seconds);
-        follower_->aim({steered_to_, buttons});
+        aim(steered_to_, buttons, is_there);
     }
 }
 
@@ -98,6 +112,9 @@ std::string state_of_hand(const DeviceState& state, bool has_driver, const std::
     if (!said.empty()) {
         return said;
     }
+    if (!state.connected && state.safety == HandState::no_number) {
+        return text_of(state.safety);
+    }
     if (!state.connected) {
         return has_driver ? "waiting for the device" : "waiting for the first tick";
     }
@@ -109,9 +126,22 @@ std::string state_of_hand(const DeviceState& state, bool has_driver, const std::
     return too_stiff.empty() ? text : text + "; " + too_stiff;
 }
 
+std::string text_of_cuts(const ForceSlot::Cuts& cuts) {
+    const std::uint64_t all = std::accumulate(cuts.begin(), cuts.end(), std::uint64_t{0});
+    if (all == 0) {
+        return {};
+    }
+    const auto most = std::ranges::max_element(cuts) - cuts.begin();
+    return "; its force was cut " + std::to_string(all) + (all == 1 ? " time: " : " times, mostly: ") +
+           text_of(static_cast<ForceCut>(most));
+}
+
 std::string state_of_fingertip(const ProxyState& state) {
     if (state.handle == no_handle) {
         return "waiting for the first tick";
+    }
+    if ((state.status & touch_unheld) != 0) {
+        return unheld;
     }
     if ((state.status & proxy_absent) != 0) {
         return "the hand began inside a body: move it out once";
@@ -125,6 +155,9 @@ std::string state_of_fingertip(const ProxyState& state) {
 std::string state_of_tool(const ToolState& state) {
     if (state.handle == no_handle) {
         return "waiting for the first tick";
+    }
+    if ((state.status & touch_unheld) != 0) {
+        return unheld;
     }
     if ((state.status & tool_absent) != 0) {
         return "the tool does not fit in where the hand holds it: move it to where it touches nothing";

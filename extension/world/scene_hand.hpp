@@ -39,6 +39,10 @@ constexpr bool follows_path(HandKind kind) {
 constexpr bool is_steered(HandKind kind) {
     return kind == HandKind::keyboard || kind == HandKind::gamepad || kind == HandKind::space_mouse;
 }
+// What leads it has to be plugged in.
+constexpr bool may_be_missing(HandKind kind) {
+    return kind == HandKind::gamepad || kind == HandKind::space_mouse;
+}
 constexpr bool has_driver(HandKind kind) {
     return kind >= HandKind::falcon && kind <= HandKind::inverse3;
 }
@@ -68,21 +72,27 @@ public:
     // Of its driver; of any other hand there is nothing to say.
     DriverHealth health() const { return driver_ != nullptr ? driver_->health() : DriverHealth{}; }
 
+    // From readings to forces, of a device of its own; null: it has none.
+    const DurationHistogram* delays() const { return driver_ != nullptr ? &driver_->delays() : nullptr; }
+
     // Where a hand goes that is led; any other hears none of it. `mapping` is that of now.
     bool is_led() const { return follower_ != nullptr; }
-    // To a place in the scene; far beyond it there is none.
+    // To a place in the scene; far beyond it there is none, and no hand.
     void lead(const Vec3& place, const Workspace& mapping, std::uint32_t buttons);
     // Under a pointer, deeper by this much than it was.
     void point(const ScreenRay& ray, double deeper, const Workspace& mapping, std::uint32_t buttons);
-    // Along a deflection in the scene's axes.
+    // Along a deflection in the scene's axes. `is_there`: what leads it is plugged in; else there is no hand.
     void steer(const Vec3& deflection, const SteeringSettings& steering, double seconds,
-               const Workspace& mapping, std::uint32_t buttons);
+               const Workspace& mapping, std::uint32_t buttons, bool is_there = true);
 
 private:
     std::shared_ptr<Device> port_;
     std::shared_ptr<FollowingDevice> follower_;  // the same as port_, or null; likewise these
     std::shared_ptr<SimulatedArm> arm_;
     std::shared_ptr<DriverDevice> driver_;
+    void aim(const Vec3& place, std::uint32_t buttons, bool is_there = true);
+
+    Vec3 aimed_at_{0.0};    // in the device's own frame (unit: meters)
     Vec3 pointed_at_{0.0};  // in the scene (unit: meters)
     Vec3 steered_to_{0.0};  // in the device's own frame (unit: meters)
 };
@@ -101,6 +111,9 @@ std::string problem_of_gamepad(int wanted, const std::vector<Gamepad>& there);
 // What a hand does, or why it gives no force, and what of the scene is too stiff for it. `said`: what its
 // driver has to say.
 std::string state_of_hand(const DeviceState& state, bool has_driver, const std::string& said);
+
+// Behind what a hand does: how often its force was cut, and why most often; empty where it never was.
+std::string text_of_cuts(const ForceSlot::Cuts& cuts);
 
 // What a fingertip or a tool does, or why it is not felt.
 std::string state_of_fingertip(const ProxyState& state);

@@ -4,6 +4,8 @@
 //   --places=N   of the workspace, for each geometry (1000000)
 //   --inputs=N   at random to the safety layer (10000000)
 //   --rounds=N   start-ups and replugs of the played Falcon, a tenth of its stalls (100); 0: none
+//   --seconds=S  in contact, behind each of --phases=N phases between the loop and a device (10, 32); 0: none
+//   --displayed  nothing but that
 //   --plugged=falcon|force_dimension|openhaptics|inverse3 [--firmware=FILE] [--id=NAME]
 //                the device of that kind that is plugged in, and nothing else
 #include <algorithm>
@@ -24,16 +26,20 @@
 #include "devices/simulated_arm.hpp"
 #ifdef __linux__
 #include "devices/haply/inverse3_driver.hpp"
+#include "devices/runtime_library.hpp"
 #include "devices/vendors/force_dimension_driver.hpp"
 #include "devices/vendors/openhaptics_driver.hpp"
 #include "shared/haply_service.hpp"
+#include "stand_ins/stand_ins.hpp"
 #endif
 #ifdef TACTUS_PLAYED_USB
+#include "devices/falcon/falcon_driver.hpp"
 #include "played/falcon_figures.hpp"
 #include "played/played_usb.hpp"
 #endif
 #include "shared/bench_kit.hpp"
 #include "shared/delta_figures.hpp"
+#include "shared/displayed_figures.hpp"
 #include "shared/driver_figures.hpp"
 #include "shared/safety_figures.hpp"
 
@@ -208,7 +214,79 @@ void report_ticks_of_hands(Report& report) {
     report_ticks(report, "emulated_robot", tick_over_path(robot, seconds_of_ticks, [](double) {}));
 }
 
+// Keys of one device: quiet, beside busy processors, and at every rate that the world offers.
+void report_displayed(Report& report, const std::string& name, const WatchedDevice& watched, int phases,
+                      double seconds) {
+    const auto play = [&](const std::string& manner, DisplayedCase c) {
+        const DisplayedFigures figures = play_displayed(watched, c);
+        const std::string key = name + "." + manner;
+        report.set(key + "let_go_while_even", static_cast<double>(figures.let_go_while_even));
+        report.set(key + "cuts", static_cast<double>(figures.cuts));
+        report.set(key + "displayed_over_asked_min", figures.over_asked_min);
+        report.set(key + "reading_to_force_p50_us", figures.delay_p50_us);
+        report.set(key + "reading_to_force_p99_us", figures.delay_p99_us);
+        report.set(key + "write_p50_us", figures.write_p50_us);
+        report.set(key + "write_p99_us", figures.write_p99_us);
+        if (c.is_cut) {
+            report.set(key + "return_step_max_N", figures.return_step_max);
+        }
+        std::printf(
+            "%-15s %-10s %d of %d phases: displayed %.4f of asked, %llu cuts while even (%llu with late "
+            "ticks), reading to force %.0f us (p99 %.0f), write %.1f us (p99 %.1f), back in steps of %.2f "
+            "N\n",
+            name.c_str(), manner.c_str(), figures.opened, c.phases, figures.over_asked_min,
+            static_cast<unsigned long long>(figures.let_go_while_even),
+            static_cast<unsigned long long>(figures.cuts), figures.delay_p50_us, figures.delay_p99_us,
+            figures.write_p50_us, figures.write_p99_us, figures.return_step_max);
+        std::fflush(stdout);
+    };
+    DisplayedCase c;
+    c.phases = phases;
+    c.seconds = seconds;
+    c.is_cut = true;
+    play("", c);
+    c.is_cut = false;
+    c.is_loaded = true;
+    play("loaded.", c);
+    c.is_loaded = false;
+    c.phases = std::min(phases, 4);
+    for (const int rate : {640, 2000, 4000}) {
+        c.rate = rate;
+        play("rate_" + std::to_string(rate) + ".", c);
+    }
+}
+
 #ifdef __linux__
+template <typename StandIn>
+StandIn& stand_in(std::initializer_list<const char*> names, const char* function) {
+    static RuntimeLibrary library;
+    StandIn* (*get)() = nullptr;
+    library.load(names, function);
+    library.find({{function, get}});
+    return *get();
+}
+
+void report_displayed_of_drivers(Report& report, int phases, double seconds) {
+    auto& dhd = stand_in<stand_ins::ForceDimension>({"libdhd.so"}, "stand_in_force_dimension");
+    report_displayed(report, "force_dimension",
+                     {[] { return std::make_unique<ForceDimensionDriver>(""); },
+                      [&dhd] { return Vec3(dhd.force[1].load(), dhd.force[2].load(), dhd.force[0].load()); },
+                      [&dhd] { return dhd.most_step.exchange(0.0); }},
+                     phases, seconds);
+    auto& hd = stand_in<stand_ins::OpenHaptics>({"libHD.so"}, "stand_in_openhaptics");
+    report_displayed(report, "openhaptics",
+                     {[] { return std::make_unique<OpenHapticsDriver>(""); },
+                      [&hd] { return Vec3(hd.force[0].load(), hd.force[1].load(), hd.force[2].load()); },
+                      [&hd] { return hd.most_step.exchange(0.0); }},
+                     phases, seconds);
+    HaplyService service;
+    report_displayed(
+        report, "inverse3",
+        {[&service] { return std::make_unique<Inverse3Driver>("", service.port()); },
+         [&service] { return service.newest_force(); }, [&service] { return service.take_most_step(); }},
+        phases, seconds);
+}
+
 void report_ticks(Report& report, const char* name, std::unique_ptr<Driver> driver) {
     DriverDevice device(std::move(driver));
     if (Loop(device).wait_for_hand()) {
@@ -255,6 +333,17 @@ int report_plugged(Report& report, const std::string& name, const std::string& f
 }
 
 #ifdef TACTUS_PLAYED_USB
+void report_displayed_of_falcon(Report& report, int phases, double seconds) {
+    PlayedUsb usb({});
+    usb.plug();
+    FalconSettings settings;
+    settings.firmware = PlayedFalcon::firmware();
+    report_displayed(report, "falcon",
+                     {[&settings] { return std::make_unique<FalconDriver>(settings); },
+                      [&usb] { return usb.force(); }, [&usb] { return usb.take_most_step(); }},
+                     phases, seconds);
+}
+
 void report_stalls(Report& report, const char* what, const StallFigures& figures) {
     const std::string name = std::string("safety.") + what;
     report.set(name + "_to_zero_max_ms", figures.max_ms);
@@ -306,6 +395,9 @@ int main(int count, char** arguments) {
     const int places = static_cast<int>(options.number("places", 1'000'000));
     const int rounds = static_cast<int>(options.number("rounds", 100));
     const auto inputs = static_cast<std::int64_t>(options.number("inputs", 10'000'000));
+    const int phases = static_cast<int>(options.number("phases", 32));
+    const double seconds = options.number("seconds", 10.0);
+    const bool only_displayed = options.has("displayed");
     const std::string plugged = options.text("plugged");
     const std::string firmware = options.text("firmware");
     const std::string id = options.text("id");
@@ -315,6 +407,17 @@ int main(int count, char** arguments) {
     Report report;
     if (!plugged.empty()) {
         return report_plugged(report, plugged, firmware, id);
+    }
+    if (seconds > 0.0) {
+#ifdef __linux__
+        report_displayed_of_drivers(report, phases, seconds);
+#endif
+#ifdef TACTUS_PLAYED_USB
+        report_displayed_of_falcon(report, phases, seconds);
+#endif
+    }
+    if (only_displayed) {
+        return report.write_json(result_path("device")) ? 0 : 1;
     }
     report_kinematics(report, places);
     write_conditioning();

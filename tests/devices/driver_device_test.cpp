@@ -22,9 +22,10 @@ public:
         SleepTimer().sleep_until(monotonic_now() + closing);
         used_ = testing::process_time() - before;
     }
-    Exchange exchange(ForceSlot& forces, Nanoseconds, DeviceSample& sample) override {
+    Exchange exchange(ForceSlot& forces, Nanoseconds, DriverReading& reading) override {
         SleepTimer().sleep_until(monotonic_now() + one_tick);
-        sample.connected = true;
+        reading.sample.connected = true;
+        reading.at = monotonic_now();
         return forces.living(monotonic_now()) == Vec3(0.0) ? Exchange::reading : Exchange::lost;
     }
     DeviceCapabilities capabilities() const override { return {}; }
@@ -59,8 +60,9 @@ public:
         force_.is_given = false;
         ++force_.taken_away;
     }
-    Exchange exchange(ForceSlot& forces, Nanoseconds, DeviceSample& sample) override {
-        sample.connected = true;
+    Exchange exchange(ForceSlot& forces, Nanoseconds, DriverReading& reading) override {
+        reading.sample.connected = true;
+        reading.at = monotonic_now();
         if (force_.has_hung && !force_.may_go_on) {
             wait_until([this] { return force_.may_go_on.load(); });
         } else if (forces.living(monotonic_now()) != Vec3(0.0) && !force_.has_hung) {

@@ -39,6 +39,13 @@ bool is_played(const std::string& path) {
     return !path.starts_with("/dev/") && path.find("/dev/bus/usb/") != std::string::npos;
 }
 
+// ppoll() itself is played below.
+int kernel_poll(std::span<pollfd> files, nfds_t count, const timespec* span, const sigset_t* mask) {
+    timespec left = span != nullptr ? *span : timespec{};
+    return static_cast<int>(syscall(SYS_ppoll, files.data(), count, span != nullptr ? &left : nullptr, mask,
+                                    mask != nullptr ? _NSIG / 8 : 0));
+}
+
 timespec span_until(Nanoseconds time) {
     const Nanoseconds left = std::max<Nanoseconds>(0, time - monotonic_now());
     return {static_cast<time_t>(left / 1'000'000'000), static_cast<long>(left % 1'000'000'000)};
@@ -113,8 +120,8 @@ struct PlayedNodes {
             const bool is_ready = ready != never && ready <= monotonic_now();
             const Nanoseconds until = is_ready ? 0 : std::min(ready, end);
             const timespec span = span_until(until == never ? 0 : until);
-            const int found = ppoll(slept_on.data(), given.size(), until == never ? nullptr : &span,
-                                    &outside_of_sleep.before());
+            const int found = kernel_poll(slept_on, given.size(), until == never ? nullptr : &span,
+                                          &outside_of_sleep.before());
             if (found < 0) {
                 return found;
             }
@@ -162,9 +169,12 @@ void PlayedNode::changed() {
 // comes past a lock.
 #define IN_FRONT extern "C" __attribute__((visibility("default")))
 
-IN_FRONT int poll(pollfd* descriptors, nfds_t count, int timeout) {
+IN_FRONT int ppoll(pollfd* descriptors, nfds_t count, const timespec* timeout, const sigset_t* mask) {
     using namespace tactus;
-    const Nanoseconds end = timeout < 0 ? shared::never : monotonic_now() + Nanoseconds{timeout} * 1'000'000;
+    const Nanoseconds end =
+        timeout == nullptr
+            ? shared::never
+            : monotonic_now() + Nanoseconds{timeout->tv_sec} * 1'000'000'000 + timeout->tv_nsec;
     const std::span<pollfd> given(descriptors, count);
     std::array<std::string, shared::max_descriptors> paths;
     bool is_node = false;
@@ -173,10 +183,14 @@ IN_FRONT int poll(pollfd* descriptors, nfds_t count, int timeout) {
         is_node = is_node || shared::is_played(paths[i]);
     }
     if (!is_node) {
-        const timespec span = shared::span_until(timeout < 0 ? 0 : end);
-        return ppoll(descriptors, count, timeout < 0 ? nullptr : &span, nullptr);
+        return shared::kernel_poll(given, count, timeout, mask);
     }
     return shared::PlayedNodes::wait(given, paths, end);
+}
+
+IN_FRONT int poll(pollfd* descriptors, nfds_t count, int timeout) {
+    const timespec span{timeout / 1'000, timeout % 1'000 * 1'000'000L};
+    return ppoll(descriptors, count, timeout < 0 ? nullptr : &span, nullptr);
 }
 
 IN_FRONT int ioctl(int descriptor, unsigned long request, ...) {

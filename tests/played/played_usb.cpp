@@ -426,6 +426,11 @@ Vec3 PlayedUsb::force() {
     return impl_->falcon.force();
 }
 
+double PlayedUsb::take_most_step() {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->falcon.take_most_step();
+}
+
 std::uint8_t PlayedUsb::leds() {
     const std::lock_guard lock(impl_->mutex);
     return impl_->falcon.leds();

@@ -40,6 +40,7 @@ public:
     void press(unsigned buttons);
     Vec3 hand();
     Vec3 force();
+    double take_most_step();  // see PlayedFalcon
     std::uint8_t leds();
     bool running();
     // When the motors were last told to give no force after some (on the steady clock); 0: never.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devices/path_device.hpp"
+#include "platform/clock.hpp"
 #include "platform/sleep.hpp"
 #include "session/session.hpp"
 #include "shared/bench_kit.hpp"

@@ -2,14 +2,21 @@
 #pragma once
 
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <string>
+#include <utility>
+
+#include "core/math/types.hpp"
 
 namespace tactus::shared {
 
@@ -23,6 +30,9 @@ public:
         process_ = fork();
         if (process_ == 0) {
             prctl(PR_SET_PDEATHSIG, SIGKILL);
+            // As a service does that serves a thousand times a second, where the system grants it.
+            const sched_param priority{60};
+            sched_setscheduler(0, SCHED_FIFO, &priority);
             dup2(in[0], 0);
             dup2(out[1], 1);
             close(in[1]);
@@ -56,6 +66,22 @@ public:
         return force_;
     }
 
+    // The same, and the longest step between two that came since the last call (unit: newtons), in our axes.
+    Vec3 newest_force() {
+        for (pollfd file{from_, POLLIN, 0}; poll(&file, 1, 0) > 0 && (file.revents & POLLIN) != 0;) {
+            force_ = line();
+            Vec3 theirs;
+            std::sscanf(force_.c_str(), "%lf %lf %lf", &theirs.x, &theirs.y, &theirs.z);
+            const Vec3 ours(theirs.x, theirs.z, -theirs.y);
+            most_step_ = std::max(most_step_, glm::distance(ours, std::exchange(newest_, ours)));
+        }
+        return newest_;
+    }
+    double take_most_step() {
+        newest_force();
+        return std::exchange(most_step_, 0.0);
+    }
+
 private:
     void tell(const std::string& line) {
         static_cast<void>(write(to_, line.data(), line.size()) == static_cast<ssize_t>(line.size()));
@@ -72,6 +98,8 @@ private:
     int to_ = -1, from_ = -1;
     std::uint16_t port_ = 0;
     std::string force_;
+    Vec3 newest_{0.0};
+    double most_step_ = 0.0;
 };
 
 }  // namespace tactus::shared

@@ -131,6 +131,8 @@ void PlayedFalcon::write(std::span<const std::uint8_t> bytes, Nanoseconds now) {
             let_go_at_ = now;
         }
         commanded_ = now;
+        const Vec3 asked = motor_force(delta_pose(settings_.data.geometry, place_));
+        most_step_ = std::max(most_step_, glm::distance(asked, std::exchange(asked_, asked)));
         next_report_ = std::max(next_report_ + packet_time, now);
         ++exchanges_;
         const FalconPacket packet = falcon_encode(report());
@@ -184,14 +186,19 @@ void PlayedFalcon::advance(Nanoseconds now) {
     }
 }
 
+Vec3 PlayedFalcon::motor_force(const DeltaPose& pose) const {
+    const FalconData& data = settings_.data;
+    const Vec3 counts(command_.torques[0], command_.torques[1], command_.torques[2]);
+    return pose.state == DeltaState::out_of_reach
+               ? Vec3(0.0)
+               : delta_force(pose, counts * data.torque_a_count * data.geometry.gear);
+}
+
 // m p'' = F - b p' + k (meant - p) - c p', where F is what the torques do through the arm.
 void PlayedFalcon::step(double seconds) {
     const FalconData& data = settings_.data;
     const DeltaPose pose = delta_pose(data.geometry, place_);
-    const Vec3 counts(command_.torques[0], command_.torques[1], command_.torques[2]);
-    force_ = pose.state == DeltaState::out_of_reach
-                 ? Vec3(0.0)
-                 : delta_force(pose, counts * data.torque_a_count * data.geometry.gear);
+    force_ = motor_force(pose);
     const bool homed = homed_ == 7;
     if (command_.homing && !homed) {
         for (unsigned leg = 0; leg < 3; ++leg) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "devices/falcon/falcon_arm.hpp"
@@ -54,6 +55,8 @@ public:
     Nanoseconds let_go_at() const { return let_go_at_; }
     bool is_let_go() const { return command_.torques == std::array<std::int16_t, 3>{}; }
     std::uint64_t exchanges() const { return exchanges_; }
+    // Of the force, from one packet to the next, since the last call (unit: newtons).
+    double take_most_step() { return std::exchange(most_step_, 0.0); }
     void power_cycle();
 
 private:
@@ -63,6 +66,7 @@ private:
     void load(std::uint8_t byte);
     void answer(std::span<const std::uint8_t> bytes, Nanoseconds at = 0);
     void step(double seconds);
+    Vec3 motor_force(const DeltaPose& pose) const;
     FalconReport report();
 
     struct Waiting {
@@ -85,6 +89,8 @@ private:
     Nanoseconds next_report_ = 0;
     Nanoseconds time_ = 0;
     std::uint64_t exchanges_ = 0;
+    Vec3 asked_{0.0};  // by the last packet (unit: newtons)
+    double most_step_ = 0.0;
     unsigned buttons_ = 0;
     unsigned homed_ = 0;
     unsigned pulled_out_ = 0;

@@ -9,12 +9,20 @@
 namespace {
 
 tactus::stand_ins::OpenHaptics device;
-constexpr unsigned the_one = 7;
+constexpr unsigned the_one = 7, the_second = 8;  // that one by its name alone
 
 pthread_t ticking;
-unsigned (*task)(void*) = nullptr;
-void* task_data = nullptr;
+struct Task {
+    unsigned (*callback)(void*) = nullptr;
+    void* data = nullptr;
+};
+Task tasks[2];
 bool in_frame = false;
+unsigned current = 0;
+
+bool is_known(unsigned id) {
+    return id == the_one || id == the_second;
+}
 
 void check(bool right) {
     device.wrong_calls += right ? 0 : 1;
@@ -24,8 +32,10 @@ void* tick(void*) {
     while (device.ticks) {
         const timespec span{0, 1'000'000};
         nanosleep(&span, nullptr);
-        if (task != nullptr && !device.hangs) {
-            task(task_data);
+        for (const Task& task : tasks) {
+            if (task.callback != nullptr && !device.hangs) {
+                task.callback(task.data);
+            }
         }
     }
     return nullptr;
@@ -44,28 +54,33 @@ struct HDErrorInfo {
 STAND_IN tactus::stand_ins::OpenHaptics* stand_in_openhaptics() {
     return &device;
 }
-STAND_IN unsigned hdInitDevice(const char*) {
+STAND_IN unsigned hdInitDevice(const char* name) {
     if (device.unplugged) {
         return ~0u;
+    }
+    check(!device.ticks);
+    if (name != nullptr && std::strcmp(name, "Second") == 0) {
+        return the_second;
     }
     check(!device.is_open);
     device.is_open = true;
     return the_one;
 }
 STAND_IN void hdDisableDevice(unsigned id) {
-    check(id == the_one && device.is_open && !device.ticks);
-    device.is_open = false;
+    check(is_known(id) && !device.ticks && (id == the_second || device.is_open));
+    device.is_open = device.is_open && id == the_second;
 }
 STAND_IN void hdMakeCurrentDevice(unsigned id) {
-    check(id == the_one);
+    check(is_known(id));
 }
 STAND_IN void hdBeginFrame(unsigned id) {
-    check(id == the_one && !in_frame);
+    check(is_known(id) && !in_frame);
     in_frame = true;
+    current = id;
     ++device.frames;
 }
 STAND_IN void hdEndFrame(unsigned id) {
-    check(id == the_one && in_frame);
+    check(id == current && in_frame);
     in_frame = false;
 }
 STAND_IN void hdEnable(unsigned what) {
@@ -124,18 +139,27 @@ STAND_IN const char* hdGetString(unsigned what) {
 }
 STAND_IN void hdSetDoublev(unsigned what, const double* values) {
     check((what == 0x2700 || (what == 0x2703 && device.has_six_motors)) && in_frame);
+    if (what == 0x2700 && current == the_second) {
+        tactus::stand_ins::set_force(device.second_force, device.most_step, values[0], values[1], values[2]);
+        return;
+    }
+    if (what == 0x2700) {
+        tactus::stand_ins::set_force(device.force, device.most_step, values[0], values[1], values[2]);
+        return;
+    }
     for (int i = 0; i < 3; ++i) {
-        (what == 0x2700 ? device.force : device.torque)[i] = values[i];
+        device.torque[i] = values[i];
     }
 }
 STAND_IN unsigned long hdScheduleAsynchronous(unsigned (*callback)(void*), void* data, unsigned short) {
-    task = callback;
-    task_data = data;
-    return 1;
+    Task& free = tasks[0].callback == nullptr ? tasks[0] : tasks[1];
+    check(free.callback == nullptr);
+    free = {callback, data};
+    return &free == &tasks[0] ? 1 : 2;
 }
 STAND_IN void hdUnschedule(unsigned long id) {
-    check(id == 1);
-    task = nullptr;
+    check(id == 1 || id == 2);
+    tasks[id - 1] = {};
 }
 STAND_IN void hdStartScheduler() {
     check(!device.ticks);
@@ -145,8 +169,8 @@ STAND_IN void hdStartScheduler() {
 STAND_IN void hdStopScheduler() {
     if (device.ticks.exchange(false)) {
         pthread_join(ticking, nullptr);
-        for (auto& one : device.force) {
-            one = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            device.force[i] = device.second_force[i] = 0.0;
         }
     }
 }

@@ -70,9 +70,7 @@ STAND_IN int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
 STAND_IN int dhdSetForce(double x, double y, double z, char id) {
     const int result = checked(id, device.forces_on);
     if (result == 0) {
-        device.force[0] = x;
-        device.force[1] = y;
-        device.force[2] = z;
+        tactus::stand_ins::set_force(device.force, device.most_step, x, y, z);
         device.braked = false;
         ++device.set_forces;
     }
@@ -118,6 +116,7 @@ STAND_IN int dhdStop(char id) {
         one = 0.0;
     }
     device.braked = true;
+    device.forces_on = false;
     return result;
 }
 STAND_IN const char* dhdErrorGetLastStr() {

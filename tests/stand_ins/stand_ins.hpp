@@ -2,9 +2,21 @@
 // what the device says comes from the test. Shared by the stand-in and its test through one function.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace tactus::stand_ins {
+
+// The force of `force` becomes that: `most_step` notes how far it jumps.
+inline void set_force(std::atomic<double> (&force)[3], std::atomic<double>& most_step, double x, double y,
+                      double z) {
+    const double step = std::hypot(x - force[0], y - force[1], z - force[2]);
+    most_step = std::max(most_step.load(), step);
+    force[0] = x;
+    force[1] = y;
+    force[2] = z;
+}
 
 // Of libdhd. One device, "omega.3".
 struct ForceDimension {
@@ -18,21 +30,24 @@ struct ForceDimension {
     std::atomic<unsigned> buttons{0};
     std::atomic<bool> is_open{false}, forces_on{false}, braked{false};
     std::atomic<int> set_forces{0};
-    std::atomic<int> wrong_calls{0};  // with another device, before it is open, without forces enabled
+    std::atomic<double> most_step{0.0};  // of the force from one call to the next (unit: newtons)
+    std::atomic<int> wrong_calls{0};     // with another device, before it is open, without forces enabled
 };
 
-// Of libHD. One device.
+// Of libHD. One device, and a second one named "Second", of which only the force is told apart.
 struct OpenHaptics {
     std::atomic<bool> unplugged{false}, hangs{false};
     std::atomic<unsigned> calibration{0x5000};
     std::atomic<double> position[3]{};  // (unit: millimeters)
     std::atomic<double> force[3]{};     // (unit: newtons)
     std::atomic<double> torque[3]{};    // (unit: newton millimeters)
+    std::atomic<double> second_force[3]{};
     std::atomic<bool> has_six_motors{false};
     std::atomic<int> buttons{0};
     std::atomic<bool> is_open{false}, ticks{false};
     std::atomic<int> frames{0};
-    std::atomic<int> wrong_calls{0};  // outside of a frame, of another device, unknown names
+    std::atomic<double> most_step{0.0};  // of the force from one frame to the next (unit: newtons)
+    std::atomic<int> wrong_calls{0};     // outside of a frame, of another device, unknown names
 };
 
 }  // namespace tactus::stand_ins

@@ -16,7 +16,7 @@ TEST(DeviceTwin, HasNoneWithoutAPort) {
     Session session(settings());
     RetiredPorts retired;
     DeviceTwin twin;
-    EXPECT_EQ(twin.synchronise(session, nullptr, {}, retired), "");
+    EXPECT_EQ(twin.synchronise(session, {}, nullptr, {}, retired), "");
     EXPECT_EQ(twin.handle(), no_handle);
     EXPECT_TRUE(retired.empty());
 }
@@ -26,14 +26,14 @@ TEST(DeviceTwin, StaysWithItsPortAndIsAnotherOneWithAnother) {
     RetiredPorts retired;
     DeviceTwin twin;
     const auto port = std::make_shared<StandInDevice>();
-    EXPECT_EQ(twin.synchronise(session, port, {}, retired), "");
+    EXPECT_EQ(twin.synchronise(session, {}, port, {}, retired), "");
     const SessionHandle first = twin.handle();
     EXPECT_NE(first, no_handle);
     Workspace larger;
     larger.scale = 2.0;
-    twin.synchronise(session, port, larger, retired);
+    twin.synchronise(session, {}, port, larger, retired);
     EXPECT_EQ(twin.handle(), first);
-    twin.synchronise(session, std::make_shared<StandInDevice>(), {}, retired);
+    twin.synchronise(session, {}, std::make_shared<StandInDevice>(), {}, retired);
     EXPECT_NE(twin.handle(), first);
     ASSERT_EQ(retired.size(), 1u) << "the loop may still read it";
     EXPECT_EQ(retired.front(), port);
@@ -43,7 +43,7 @@ TEST(DeviceTwin, RemovesItsDeviceAndKeepsThePort) {
     Session session(settings());
     RetiredPorts retired;
     DeviceTwin twin;
-    twin.synchronise(session, std::make_shared<StandInDevice>(), {}, retired);
+    twin.synchronise(session, {}, std::make_shared<StandInDevice>(), {}, retired);
     twin.remove(session, retired);
     twin.remove(session, retired);
     EXPECT_EQ(twin.handle(), no_handle);
@@ -56,7 +56,7 @@ TEST(DeviceTwin, SaysWhyThereIsNoPlaceForAnother) {
     std::vector<DeviceTwin> twins(1000);
     std::string problem;
     for (DeviceTwin& twin : twins) {
-        problem = twin.synchronise(session, std::make_shared<StandInDevice>(), {}, retired);
+        problem = twin.synchronise(session, {}, std::make_shared<StandInDevice>(), {}, retired);
         EXPECT_EQ(problem.empty(), twin.handle() != no_handle);
     }
     EXPECT_NE(problem, "");
@@ -66,7 +66,7 @@ TEST(ProxyTwin, ComesChangesAndGoes) {
     Session session(settings());
     RetiredPorts retired;
     DeviceTwin device;
-    device.synchronise(session, std::make_shared<StandInDevice>(), {}, retired);
+    device.synchronise(session, {}, std::make_shared<StandInDevice>(), {}, retired);
     ProxyTwin twin;
     ProxyDescription description;
     description.device = device.handle();

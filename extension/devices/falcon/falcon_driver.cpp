@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "platform/clock.hpp"
 #include "platform/time_value.hpp"
 
 namespace tactus {
@@ -39,11 +40,11 @@ constexpr unsigned transfer_time = 50;   // (unit: milliseconds)
 constexpr int reads_for_an_answer = 60;  // each waits for the chip's latency timer, 16 ms
 constexpr std::size_t piece = 62;        // of firmware, with the modem status a packet of USB
 
-// After this long without a packet the exchange begins anew (unit: nanoseconds).
-constexpr Nanoseconds silence = 20'000'000;
+// A packet or its answer was lost that has not come after this time (unit: nanoseconds).
+constexpr Nanoseconds answer_time = 4'000'000;
 
-// The arm is carried within half a second of a loop that lives (share of its weight a packet).
-constexpr double carried_a_packet = 1.0 / 500.0;
+// Between two packets while no loop writes (unit: nanoseconds).
+constexpr Nanoseconds idle_period = 2'000'000;
 
 }  // namespace
 
@@ -304,9 +305,10 @@ bool FalconDriver::make_queue() {
     arm_.reset();
     report_ = {};
     sent_ = Vec3(0.0);
-    carried_ = 0.0;
-    owed_ = static_cast<int>(transfers_each_way);
+    unanswered_ = 0;
+    sent_at_ = 0;
     heard_ = monotonic_now();
+    watch_files();
     bool ready = true;
     const FalconPacket letting_go = falcon_encode(FalconCommand{});
     for (Spare& spare : spares_) {
@@ -321,7 +323,6 @@ bool FalconDriver::make_queue() {
 
 void FalconDriver::note(usb::TransferStatus status) {
     gone_ = gone_ || status == usb::TransferStatus::no_device;
-    heard_in_wait_ = 1;
 }
 
 void FalconDriver::submit_in(Queued& in) {
@@ -347,7 +348,7 @@ void FalconDriver::out_done(usb::Transfer* transfer) {
     out.driver->note(transfer->status);
     // Nothing has arrived, so nothing will come back for it.
     if (transfer->status != usb::TransferStatus::completed) {
-        ++out.driver->owed_;
+        out.driver->forget_answer();
     }
 }
 
@@ -393,24 +394,80 @@ bool FalconDriver::submit_out(const Vec3& force) {
         gone_ = gone_ || done == usb::error_no_device;
         out.in_flight = done == 0;
         sent_ = report_.homed == 7 ? force : Vec3(0.0);
+        sent_at_ = monotonic_now();
+        if (out.in_flight && unanswered_ < asked_.size()) {
+            asked_[unanswered_++] = sent_at_;
+        }
         return out.in_flight;
     }
     return false;
 }
 
-// With what carries the arm, which is let go of with the loop.
-Vec3 FalconDriver::living(ForceSlot& forces, Nanoseconds now) {
-    const Vec3 force = forces.living(now, Vec3(0.0, carried_, 0.0));
-    is_loop_alive_ = forces.end() != 0;
-    return force;
+void FalconDriver::forget_answer() {
+    if (unanswered_ > 0) {
+        std::shift_left(asked_.begin(), asked_.begin() + static_cast<std::ptrdiff_t>(unanswered_), 1);
+        --unanswered_;
+    }
 }
 
-void FalconDriver::wait(Nanoseconds until, int* until_done) {
+void FalconDriver::watch_files() {
+    files_.clear();
+    const usb::PollFile** const files = usb_->get_pollfds(context_);
+    constexpr short reads = 1, writes = 4;  // POLLIN, POLLOUT wherever libusb has files
+    for (std::size_t i = 0; files != nullptr && files[i] != nullptr; ++i) {
+        files_.push_back({files[i]->file, (files[i]->events & reads) != 0, (files[i]->events & writes) != 0});
+    }
+    if (files != nullptr) {
+        usb_->free_pollfds(files);
+    }
+}
+
+// libusb's own wait, which is rounded up to whole milliseconds.
+void FalconDriver::wait(Nanoseconds until) {
     timeval time = time_value(until - monotonic_now());
-    usb_->handle_events_timeout_completed(context_, &time, until_done);
+    usb_->handle_events_timeout_completed(context_, &time, nullptr);
 }
 
-Driver::Exchange FalconDriver::exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) {
+// Until the loop has written, a transfer is done, or it is `until`.
+void FalconDriver::wait(ForceSlot& forces, Nanoseconds until) {
+    if (files_.empty() && unanswered_ > 0) {
+        wait(until);
+        return;
+    }
+    if (may_send()) {
+        forces.wait_for_write(until, files_);
+    } else {
+        forces.wait_for_files(until, files_);
+    }
+    wait(0);
+}
+
+bool FalconDriver::has_free_out() const {
+    return std::ranges::any_of(out_, [](const Queued& out) { return !out.in_flight; });
+}
+
+bool FalconDriver::may_send() const {
+    return has_free_out() && unanswered_ < transfers_each_way;
+}
+
+// A packet is due as soon as the loop has written, when its last force ends, and now and then while there is
+// no loop.
+bool FalconDriver::is_due(const ForceSlot& forces, Nanoseconds now) const {
+    if (sent_ != Vec3(0.0) && now > forces.end()) {
+        return has_free_out();
+    }
+    return may_send() && (forces.is_written() || (unanswered_ == 0 && now >= sent_at_ + idle_period));
+}
+
+// Until then nothing is due that the loop or the device does not announce.
+Nanoseconds FalconDriver::quiet_until(const ForceSlot& forces) const {
+    const Nanoseconds lost = unanswered_ > 0 ? asked_[0] + answer_time : sent_at_ + idle_period;
+    return sent_ != Vec3(0.0) && has_free_out() ? std::min(lost, forces.end() + 1) : lost;
+}
+
+// A packet goes out when the loop has written its force; its answer is the reading for the next tick. Two may
+// be on their way: the wire is slower than some loops.
+Driver::Exchange FalconDriver::exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) {
     for (;;) {
         for (Queued& in : in_) {
             if (!in.in_flight) {
@@ -420,40 +477,36 @@ Driver::Exchange FalconDriver::exchange(ForceSlot& forces, Nanoseconds until, De
         if (gone_) {
             return Exchange::lost;
         }
-        Nanoseconds now = monotonic_now();
+        const Nanoseconds now = monotonic_now();
+        if (unanswered_ > 0 && now - asked_[0] > answer_time) {
+            forget_answer();
+        }
+        if (is_due(forces, now)) {
+            const Vec3 force = forces.living(now);
+            is_loop_alive_ = forces.is_alive();
+            if (submit_out(force)) {
+                forces.given(monotonic_now());
+            }
+        }
         if (stream_.next(report_)) {
             const double seconds = std::clamp(to_seconds(now - heard_), 2e-4, 0.02);
             heard_ = now;
-            owed_ = std::min(owed_ + 1, static_cast<int>(transfers_each_way));
-            sample.connected = report_.homed == 7 && arm_.read(report_, seconds, sample);
-            const double carried_more = settings_.weight * carried_a_packet;
-            carried_ =
-                std::clamp(carried_ + (sample.connected && is_loop_alive_ ? carried_more : -carried_more),
-                           0.0, settings_.weight);
-            if (submit_out(living(forces, now))) {
-                --owed_;
-            }
+            reading.at = unanswered_ > 0 ? asked_[0] : now;
+            forget_answer();
+            reading.sample.connected = report_.homed == 7 && arm_.read(report_, seconds, reading.sample);
             return Exchange::reading;
-        }
-        if (now - heard_ > silence && owed_ == 0) {
-            owed_ = 1;  // a packet or its answer was lost
-            heard_ = now;
-        }
-        const Vec3 force = living(forces, now);
-        const bool dies = sent_ != Vec3(0.0) && force == Vec3(0.0);
-        if (owed_ > 0 || dies) {
-            if (submit_out(force)) {
-                owed_ = std::max(0, owed_ - 1);
-            }
         }
         if (now >= until) {
             return Exchange::nothing;
         }
-        // Whoever waits lets a force live no longer than its loop does.
-        const Nanoseconds wake = force == Vec3(0.0) ? until : std::min(until, forces.end() + 1);
-        heard_in_wait_ = 0;
-        wait(wake, &heard_in_wait_);
+        wait(forces, std::min(until, quiet_until(forces)));
     }
+}
+
+DeviceCapabilities FalconDriver::capabilities() const {
+    DeviceCapabilities falcon = falcon_capabilities();
+    falcon.weight = settings_.weight;
+    return falcon;
 }
 
 std::string FalconDriver::advice() const {

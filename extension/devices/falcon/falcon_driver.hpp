@@ -32,9 +32,10 @@ public:
 
     std::string open(const std::atomic<bool>& stop) override;
     void close() override;
-    Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) override;
+    Exchange exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) override;
     void let_go() override;
-    DeviceCapabilities capabilities() const override { return falcon_capabilities(); }
+    bool is_paced() const override { return true; }
+    DeviceCapabilities capabilities() const override;
     std::string id() const override { return id_; }
     std::string advice() const override;
 
@@ -73,14 +74,20 @@ private:
     void submit_in(Queued& in);
     bool submit_out(const Vec3& force);
     FalconCommand command(const Vec3& force);
-    Vec3 living(ForceSlot& forces, Nanoseconds now);
     static void in_done(usb::Transfer* transfer);
     static void out_done(usb::Transfer* transfer);
     static void spare_done(usb::Transfer* transfer);
     static void give_back(Queued& queued);
     bool is_any_in_flight() const;
     void note(usb::TransferStatus status);
-    void wait(Nanoseconds until, int* until_done = nullptr);
+    void watch_files();
+    void wait(Nanoseconds until);
+    void wait(ForceSlot& forces, Nanoseconds until);
+    bool has_free_out() const;
+    bool may_send() const;
+    bool is_due(const ForceSlot& forces, Nanoseconds now) const;
+    Nanoseconds quiet_until(const ForceSlot& forces) const;
+    void forget_answer();
 
     FalconSettings settings_;
     const usb::Library* usb_ = nullptr;
@@ -93,12 +100,14 @@ private:
     FalconStream<FalconReport> stream_;
     FalconArm arm_;
     FalconReport report_;
-    Vec3 sent_{0.0};        // force of the last packet (unit: newtons)
-    double carried_ = 0.0;  // of the weight (unit: newtons)
+    Vec3 sent_{0.0};  // force of the last packet (unit: newtons)
     bool is_loop_alive_ = false;
-    int owed_ = 0;           // packets that may be sent: one for each that has come
-    Nanoseconds heard_ = 0;  // the last whole packet
-    int heard_in_wait_ = 0;  // set from within the callbacks: there is something to look at
+    // When the packets were sent whose answers have not come, the oldest first.
+    std::array<Nanoseconds, transfers_each_way> asked_{};
+    std::size_t unanswered_ = 0;
+    Nanoseconds sent_at_ = 0;      // the last packet
+    Nanoseconds heard_ = 0;        // the last whole packet
+    std::vector<WaitFile> files_;  // of libusb; empty: it has none here
     bool gone_ = false;
     const std::atomic<bool>* stop_ = nullptr;  // while it starts
 };

@@ -1,10 +1,11 @@
 #include "devices/haply/inverse3_driver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "platform/sleep.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -22,7 +23,7 @@ Vec3 to_device(const Vec3& v) {
 constexpr Vec3 middle{0.04, -0.17, 0.16};
 
 constexpr Nanoseconds first_state = 2'000'000'000;
-constexpr Nanoseconds look_again = 200'000;
+constexpr Nanoseconds look_again = 2'000'000;
 
 }  // namespace
 
@@ -35,7 +36,7 @@ std::string Inverse3Driver::open(const std::atomic<bool>& stop) {
     }
     std::string problem = "Haply's service says nothing: start Haply Hub anew";
     for (const Nanoseconds end = monotonic_now() + first_state; monotonic_now() < end && !stop.load();) {
-        if (!socket_.receive(text_, look_again * 10)) {
+        if (!socket_.receive(text_, look_again)) {
             continue;
         }
         const JsonValue device = device_in(json_.read(text_));
@@ -95,10 +96,16 @@ bool Inverse3Driver::take(const JsonValue& state, DeviceSample& sample) {
             sample.rotation = glm::dot(rotation, rotation) > 0.0 ? glm::normalize(rotation) : sample.rotation;
         }
     }
+    // One that sleeps repeats what it said before.
+    const JsonValue status = state["wireless_verse_grip"][std::size_t{0}]["status"];
+    const auto is_not = [&status](const char* name) {
+        return status[name].exists() && !status[name].is_true();
+    };
+    const bool is_awake = !is_not("connected") && !is_not("awake");
     sample.buttons = 0;
     const char* const names[] = {"a", "b", "c"};
     for (unsigned i = 0; i < 3; ++i) {
-        sample.buttons |= grip["buttons"][names[i]].is_true() ? 1u << i : 0u;
+        sample.buttons |= is_awake && grip["buttons"][names[i]].is_true() ? 1u << i : 0u;
     }
     return true;
 }
@@ -115,30 +122,30 @@ void Inverse3Driver::send(const Vec3& force) {
     sent_ = force;
 }
 
-Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) {
-    SleepTimer timer;
+// A state is answered at once: the service sends the next one when it has an answer.
+Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) {
     for (;;) {
-        const Nanoseconds before = monotonic_now();
-        const Nanoseconds wake =
-            sent_ == Vec3(0.0) || forces.end() == 0 ? until : std::min(until, forces.end() + 1);
-        const bool came = socket_.receive(text_, std::max<Nanoseconds>(0, wake - before));
+        const std::array files{socket_.file()};
+        forces.wait_for_files(sent_ != Vec3(0.0) ? std::min(until, forces.end() + 1) : until, files);
+        const bool came = socket_.receive(text_, 0);
         if (socket_.is_gone()) {
             return Exchange::lost;
         }
         const Nanoseconds now = monotonic_now();
-        const Vec3 force = forces.living(now);
-        if (came && take(json_.read(text_), sample)) {
-            send(sample.connected ? force : Vec3(0.0));
+        if (came && take(json_.read(text_), reading.sample)) {
+            reading.at = now;
+            forces.heard(now, now);
+            const Vec3 force = forces.living(now);
+            send(reading.sample.connected ? force : Vec3(0.0));
+            forces.given(monotonic_now());
             return Exchange::reading;
         }
-        if (sent_ != Vec3(0.0) && force == Vec3(0.0)) {
-            send(force);
+        // A newer force of the loop waits for the next state.
+        if (sent_ != Vec3(0.0) && now > forces.end() && forces.living(now) == Vec3(0.0)) {
+            send(Vec3(0.0));
         }
         if (now >= until) {
             return Exchange::nothing;
-        }
-        if (now - before < look_again) {
-            timer.sleep_until(now + look_again);
         }
     }
 }

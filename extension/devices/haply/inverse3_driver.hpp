@@ -21,7 +21,8 @@ public:
 
     std::string open(const std::atomic<bool>& stop) override;
     void close() override;
-    Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) override;
+    Exchange exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) override;
+    bool is_paced() const override { return true; }
     DeviceCapabilities capabilities() const override;
     std::string id() const override { return id_; }
     std::string advice() const override;

@@ -26,6 +26,7 @@ public:
     bool receive(std::string& text, Nanoseconds at_most);
     void send(const std::string& text);
     bool is_gone() const { return is_gone_; }
+    WaitFile file() const { return socket_.file(); }
 
 private:
     struct Context;

@@ -5,13 +5,15 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "devices/falcon/falcon_arm.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
 namespace {
 
 constexpr int type_falcon = 60;
-constexpr Nanoseconds period = 1'000'000;
+// Between two readings while no loop writes (unit: nanoseconds).
+constexpr Nanoseconds idle_period = 1'000'000;
 
 // Their x points to the user, y to the right, z up; ours x to the right, y up, z to the user.
 Vec3 from_device(double x, double y, double z) {
@@ -122,14 +124,17 @@ std::string ForceDimensionDriver::open_one(int index) {
     is_watched_ = set_watchdog_ != nullptr && !failed(set_watchdog_(watchdog_time, device_));
     turns_ = wrist_.has_wrist != nullptr && wrist_.has_wrist(device_) > 0;
     twists_ = turns_ && wrist_.has_active_wrist(device_) > 0;
-    next_ = set_at_ = monotonic_now();
+    read_at_ = set_at_ = monotonic_now();
+    is_stopped_ = false;
     return {};
 }
 
 bool ForceDimensionDriver::set(const Vec3& force, const Vec3& torque) {
     const Nanoseconds now = monotonic_now();
-    if (is_watched_ && now - set_at_ >= let_go_after) {
-        dhd_.enable_force(1, device_);  // its firmware may have let go meanwhile
+    // dhdStop() has switched the forces off, or its firmware may have, meanwhile.
+    if (is_stopped_.exchange(false, std::memory_order_acq_rel) ||
+        (is_watched_ && now - set_at_ >= let_go_after)) {
+        dhd_.enable_force(1, device_);
     }
     set_at_ = now;
     return !failed(twists_
@@ -145,12 +150,24 @@ void ForceDimensionDriver::close() {
     }
 }
 
-Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) {
-    next_ = std::max(next_ + period, monotonic_now() - period);
-    timer_.sleep_until(std::min(next_, until));
+// The force goes out when the loop has written it, the reading is taken before the loop looks for the next.
+Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds until,
+                                                DriverReading& reading) {
+    forces.wait_for_write(std::min(until, forces.end() != 0 ? forces.end() + 1 : read_at_ + idle_period));
+    const Vec3 force = forces.living(monotonic_now());
+    if (!set(force, forces.torque())) {
+        return Exchange::lost;
+    }
+    forces.given(monotonic_now());
+    timer_.sleep_until(std::min(until, forces.next_reading()));
+    reading.at = read_at_ = monotonic_now();
+    return read(reading.sample) ? Exchange::reading : Exchange::lost;
+}
+
+bool ForceDimensionDriver::read(DeviceSample& sample) {
     double x = 0.0, y = 0.0, z = 0.0, vx = 0.0, vy = 0.0, vz = 0.0;
     if (failed(dhd_.get_position(&x, &y, &z, device_)) || failed(dhd_.get_velocity(&vx, &vy, &vz, device_))) {
-        return Exchange::lost;
+        return false;
     }
     sample.position = from_device(x, y, z);
     sample.velocity = from_device(vx, vy, vz);
@@ -158,17 +175,17 @@ Driver::Exchange ForceDimensionDriver::exchange(ForceSlot& forces, Nanoseconds u
     sample.connected = true;
     if (double rows[3][3]{}; turns_) {
         if (failed(wrist_.get_frame(rows, device_))) {
-            return Exchange::lost;
+            return false;
         }
         sample.rotation = from_device(rows);
     }
-    const Vec3 force = forces.living(monotonic_now());
-    return set(force, forces.torque()) ? Exchange::reading : Exchange::lost;
+    return true;
 }
 
 // Brakes, and no force.
 void ForceDimensionDriver::let_go() {
     dhd_.stop(device_);
+    is_stopped_.store(true, std::memory_order_release);
 }
 
 // What the library does not tell is held to what the smallest of its devices can do.

@@ -17,7 +17,7 @@ public:
 
     std::string open(const std::atomic<bool>& stop) override;
     void close() override;
-    Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) override;
+    Exchange exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) override;
     void let_go() override;
     DeviceCapabilities capabilities() const override;
     std::string id() const override { return id_; }
@@ -49,6 +49,7 @@ private:
     std::string load();
     std::string open_one(int index);
     bool set(const Vec3& force, const Vec3& torque);
+    bool read(DeviceSample& sample);
 
     std::string wanted_, id_;
     RuntimeLibrary library_;
@@ -62,7 +63,8 @@ private:
     bool turns_ = false, twists_ = false;  // it has a wrist; with motors
     bool is_watched_ = false;              // by its own firmware
     Nanoseconds set_at_ = 0;               // the last force
-    Nanoseconds next_ = 0;                 // exchange
+    Nanoseconds read_at_ = 0;              // the last reading
+    std::atomic<bool> is_stopped_{false};  // by let_go(), since the last force
 };
 
 }  // namespace tactus

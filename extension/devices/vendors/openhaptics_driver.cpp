@@ -4,8 +4,9 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <mutex>
 
-#include "platform/sleep.hpp"
+#include "platform/clock.hpp"
 
 namespace tactus {
 
@@ -38,7 +39,14 @@ constexpr unsigned no_device = ~0u;
 constexpr unsigned goes_on = 1;
 constexpr unsigned short default_priority = 0x7fff;
 constexpr double millimeters = 1e-3;
-constexpr Nanoseconds look_again = 300'000;
+
+// The library has one for all its devices.
+struct Scheduler {
+    std::mutex mutex;
+    int devices = 0;
+    bool runs = false;
+};
+Scheduler scheduler;
 
 bool is_fault(unsigned code) {
     return code >= hd_device_fault && code <= hd_timer;
@@ -85,6 +93,20 @@ std::string OpenHapticsDriver::open(const std::atomic<bool>&) {
     if (std::string problem = load(); !problem.empty()) {
         return problem;
     }
+    const std::lock_guard lock(scheduler.mutex);
+    stop_scheduler();
+    std::string problem = add_to_scheduler();
+    if (scheduler.devices > 0) {
+        start_scheduler();
+    }
+    if (const Error error = hd_.get_error(); problem.empty() && error.code != 0) {
+        problem = problem_of(error);
+    }
+    return problem;
+}
+
+// A device comes, and goes, while it does not run.
+std::string OpenHapticsDriver::add_to_scheduler() {
     device_ = hd_.init_device(wanted_.empty() ? nullptr : wanted_.c_str());
     if (const Error error = hd_.get_error(); device_ == no_device || is_fault(error.code)) {
         return problem_of(error);
@@ -94,12 +116,24 @@ std::string OpenHapticsDriver::open(const std::atomic<bool>&) {
     read_capabilities();
     hd_.enable(hd_force_output);
     fault_ = 0;
+    is_stopped_ = false;
     task_ = hd_.schedule(serve, this, default_priority);
-    hd_.start_scheduler();
-    if (const Error error = hd_.get_error(); error.code != 0) {
-        return problem_of(error);
-    }
+    ++scheduler.devices;
     return {};
+}
+
+void OpenHapticsDriver::start_scheduler() {
+    if (!scheduler.runs) {
+        hd_.start_scheduler();
+        scheduler.runs = true;
+    }
+}
+
+void OpenHapticsDriver::stop_scheduler() {
+    if (scheduler.runs) {
+        hd_.stop_scheduler();
+        scheduler.runs = false;
+    }
 }
 
 void OpenHapticsDriver::read_capabilities() {
@@ -137,14 +171,19 @@ void OpenHapticsDriver::close() {
     if (device_ == no_device || hd_.get_error == nullptr) {
         return;
     }
-    hd_.stop_scheduler();
+    const std::lock_guard lock(scheduler.mutex);
+    stop_scheduler();
     if (task_ != 0) {
         hd_.unschedule(task_);
+        --scheduler.devices;
     }
     hd_.disable_device(device_);
     device_ = no_device;
     task_ = 0;
     forces_.store(nullptr);
+    if (scheduler.devices > 0) {
+        start_scheduler();
+    }
 }
 
 unsigned OpenHapticsDriver::serve(void* driver) {
@@ -156,6 +195,7 @@ void OpenHapticsDriver::serve_frame() {
     Vec3 position, velocity;
     std::array<double, 16> transform{};
     int buttons = 0;
+    served_.at = monotonic_now();
     hd_.begin_frame(device_);
     hd_.get_doubles(hd_position, &position.x);
     hd_.get_doubles(hd_velocity, &velocity.x);
@@ -169,6 +209,9 @@ void OpenHapticsDriver::serve_frame() {
         hd_.set_doubles(hd_torque, &torque.x);
     }
     hd_.end_frame(device_);
+    if (forces != nullptr) {
+        forces->given(monotonic_now());
+    }
     if (const Error error = hd_.get_error(); is_fault(error.code)) {
         fault_.store(error.code, std::memory_order_release);
     }
@@ -181,36 +224,44 @@ void OpenHapticsDriver::serve_frame() {
     served_.sample.buttons = static_cast<std::uint32_t>(buttons);
     served_.calibration = hd_.check_calibration();
     served_.sample.connected = served_.calibration < hd_calibration_update;
-    ++served_.number;
     frames_.publish(served_);
+    served_signal_.wake();
 }
 
-Driver::Exchange OpenHapticsDriver::exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) {
+Driver::Exchange OpenHapticsDriver::exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) {
     forces_.store(&forces, std::memory_order_release);
-    SleepTimer timer;
-    while (!frames_.refresh()) {
-        if (fault_.load(std::memory_order_acquire) != 0) {
-            return Exchange::lost;
-        }
-        const Nanoseconds now = monotonic_now();
-        if (now >= until) {
-            return Exchange::nothing;
-        }
-        timer.sleep_until(std::min(until, now + look_again));
+    if (is_stopped_.exchange(false, std::memory_order_acq_rel)) {
+        const std::lock_guard lock(scheduler.mutex);
+        start_scheduler();
     }
-    sample = frames_.front().sample;
+    const auto has_news = [this] {
+        return frames_.is_fresh() || fault_.load(std::memory_order_acquire) != 0;
+    };
+    served_signal_.wait_until(until, {}, has_news);
+    if (fault_.load(std::memory_order_acquire) != 0) {
+        return Exchange::lost;
+    }
+    if (!frames_.refresh()) {
+        return Exchange::nothing;
+    }
+    reading.sample = frames_.front().sample;
+    reading.at = frames_.front().at;
     calibration_ = frames_.front().calibration;
     if (calibration_ == hd_calibration_update) {
         int style = 0;
+        hd_.make_current(device_);
         hd_.get_integers(hd_calibration_style, &style);
         hd_.update_calibration(static_cast<unsigned>(style));
     }
-    return fault_.load(std::memory_order_acquire) != 0 ? Exchange::lost : Exchange::reading;
+    return Exchange::reading;
 }
 
-// Its servo thread is what is stuck; stopped, the device gives no force.
+// Its servo thread is what is stuck; stopped, the device gives no force. exchange() starts it again.
 void OpenHapticsDriver::let_go() {
-    hd_.stop_scheduler();
+    const std::lock_guard lock(scheduler.mutex);
+    stop_scheduler();
+    is_stopped_.store(true, std::memory_order_release);
+    served_signal_.wake();
 }
 
 std::string OpenHapticsDriver::advice() const {

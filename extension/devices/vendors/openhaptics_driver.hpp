@@ -18,8 +18,9 @@ public:
 
     std::string open(const std::atomic<bool>& stop) override;
     void close() override;
-    Exchange exchange(ForceSlot& forces, Nanoseconds until, DeviceSample& sample) override;
+    Exchange exchange(ForceSlot& forces, Nanoseconds until, DriverReading& reading) override;
     void let_go() override;
+    bool is_paced() const override { return true; }
     DeviceCapabilities capabilities() const override { return capabilities_; }
     std::string id() const override { return id_; }
     std::string advice() const override;
@@ -52,12 +53,15 @@ private:
     struct Frame {
         DeviceSample sample;
         unsigned calibration = 0;
-        std::uint64_t number = 0;
+        Nanoseconds at = 0;  // the beginning of the frame
     };
 
     std::string load();
     std::string problem_of(const Error& error) const;
     void read_capabilities();
+    std::string add_to_scheduler();
+    void start_scheduler();
+    void stop_scheduler();
     static unsigned serve(void* driver);
     void serve_frame();
 
@@ -69,9 +73,11 @@ private:
     DeviceCapabilities capabilities_;
     TripleBuffer<Frame> frames_;
     Frame served_;  // the scheduler's thread
+    WakeSignal served_signal_;
     std::atomic<ForceSlot*> forces_{nullptr};
-    std::atomic<unsigned> fault_{0};  // that a frame has met
-    unsigned calibration_ = 0;        // I/O thread
+    std::atomic<bool> is_stopped_{false};  // by let_go()
+    std::atomic<unsigned> fault_{0};       // that a frame has met
+    unsigned calibration_ = 0;             // I/O thread
 };
 
 }  // namespace tactus

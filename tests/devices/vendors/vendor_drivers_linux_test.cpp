@@ -89,11 +89,65 @@ TEST(ForceDimension, ALibraryThatHangsIsStoppedByTheWatchdog) {
     ASSERT_TRUE(
         tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
     dhd().hangs = true;
-    EXPECT_TRUE(wait_until([] { return dhd().braked && values_of(dhd().force) == Vec3(0.0); }));
+    EXPECT_TRUE(tick_until(device, {1.0, 0.0, 0.0},
+                           [](const auto&) { return dhd().braked && values_of(dhd().force) == Vec3(0.0); }));
     dhd().hangs = false;
     EXPECT_TRUE(
         tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
     EXPECT_GE(device.health().let_go, 1u);
+}
+
+// dhdStop() switches the forces off, so that they have to be switched on again, and the force grows from
+// nothing.
+TEST(ForceDimension, AfterTheWatchdogItsForceIsSwitchedOnAndGrows) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    const Vec3 asked(0.0, 0.0, 8.0);
+    const auto is_given = [](const auto&) { return values_of(dhd().force).x == 8.0; };
+    ASSERT_TRUE(tick_until(device, asked, is_given));
+    dhd().wrong_calls = 0;
+    dhd().hangs = true;
+    ASSERT_TRUE(tick_until(device, asked, [](const auto&) { return dhd().braked && !dhd().forces_on; }));
+    dhd().most_step = 0.0;
+    dhd().hangs = false;
+    ASSERT_TRUE(tick_until(device, asked, is_given));
+    EXPECT_LE(dhd().most_step, 4.0 + 1e-9) << "4 N/ms";
+    EXPECT_EQ(dhd().wrong_calls, 0);
+    EXPECT_TRUE(wait_until([&] { return device.health().displayed.force == Vec3(0.0); }));
+}
+
+TEST(ForceDimension, ALoopThatIsTooSlowIsGivenNoForceAndAReason) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    device.set_pace({10 * one_tick, true});
+    dhd().most_step = 0.0;
+    ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0}, is_connected));
+    ASSERT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [&](const auto&) { return device.health().readings > 20; }));
+    EXPECT_EQ(dhd().most_step, 0.0);
+    EXPECT_NE(device.health().text.find("'tick_rate'"), std::string::npos) << device.health().text;
+    device.set_pace({one_tick, true});
+    EXPECT_TRUE(
+        tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+    EXPECT_EQ(device.health().text, "");
+}
+
+// The owner waits no longer than for a tenth of a second; what the thread uses lives on.
+TEST(ForceDimension, ALibraryThatHangsIsLeftBehindAndThatIsSaid) {
+    static std::string told;
+    DriverDevice::when_left_behind([](const std::string& text) { told = text; });
+    {
+        DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+        ASSERT_TRUE(
+            tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(dhd().force).y == 1.0; }));
+        dhd().hangs = true;
+        ASSERT_TRUE(tick_until(device, {1.0, 0.0, 0.0},
+                               [](const auto&) { return values_of(dhd().force) == Vec3(0.0); }));
+        // Only a destructor that returns lets the library go on.
+    }
+    EXPECT_NE(told.find("omega.3-0"), std::string::npos) << told;
+    DriverDevice::when_left_behind(nullptr);
+    dhd().hangs = false;
+    EXPECT_TRUE(wait_until([] { return !dhd().is_open; })) << "then it closes";
+    EXPECT_EQ(values_of(dhd().force), Vec3(0.0));
 }
 
 TEST(ForceDimension, ComesBackAfterItWasUnplugged) {
@@ -161,6 +215,29 @@ TEST(OpenHaptics, AServoThreadThatHangsIsStoppedByTheWatchdog) {
     hd().hangs = false;
     EXPECT_TRUE(
         tick_until(device, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    EXPECT_EQ(device.health().times_lost, 0u) << "its scheduler was started again, and not the device";
+}
+
+// The library has one scheduler, which is stopped where a device comes or goes.
+TEST(OpenHaptics, TwoDevicesShareTheScheduler) {
+    hd().wrong_calls = 0;
+    DriverDevice one(std::make_unique<OpenHapticsDriver>(""));
+    ASSERT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    {
+        DriverDevice two(std::make_unique<OpenHapticsDriver>("Second"));
+        const auto both = [](const auto&) {
+            return values_of(hd().force).x == 1.0 && values_of(hd().second_force).x == 1.0;
+        };
+        EXPECT_TRUE(tick_until(two, {1.0, 0.0, 0.0}, [&](const DeviceSample& sample) {
+            one.read(0);
+            one.write(0, {1.0, 0.0, 0.0});
+            return both(sample);
+        }));
+    }
+    EXPECT_EQ(values_of(hd().second_force), Vec3(0.0));
+    EXPECT_TRUE(tick_until(one, {1.0, 0.0, 0.0}, [](const auto&) { return values_of(hd().force).x == 1.0; }));
+    EXPECT_EQ(one.health().times_lost, 0u);
+    EXPECT_EQ(hd().wrong_calls, 0);
 }
 
 TEST(OpenHaptics, SaysThatItsStylusBelongsIntoTheInkwell) {

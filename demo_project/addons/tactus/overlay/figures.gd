@@ -79,8 +79,17 @@ func _of_device(device: HapticDevice) -> Dictionary:
 	return {
 		"text": device.get_state_text(),
 		"force_n": device.get_force().length(),
+		"displayed_n": device.get_displayed_force().length(),
+		"cuts": _sum(device.get_force_cuts()),
 		"energy_mj": 1e3 * device.get_energy(),
 	}
+
+
+func _sum(counts: Dictionary) -> int:
+	var sum := 0
+	for count: int in counts.values():
+		sum += count
+	return sum
 
 
 func _of_pointer(pointer: ProxyPointer) -> Dictionary:

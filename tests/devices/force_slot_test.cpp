@@ -1,0 +1,199 @@
+#include "devices/force_slot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <glm/geometric.hpp>
+
+namespace tactus {
+namespace {
+
+constexpr Nanoseconds ms = 1'000'000;
+constexpr Nanoseconds begin = 1'000 * ms;
+const Vec3 asked(0.0, 4.0, 0.0);
+
+DeviceCapabilities device() {
+    DeviceCapabilities device;
+    device.rate = 1000.0;
+    device.max_slew = 4000.0;
+    device.max_torque_slew = 50.0;
+    return device;
+}
+
+ForceCommand command(const Vec3& force, Nanoseconds now) {
+    return {force, Vec3(0.0), now, now - ms / 10, now};
+}
+
+// A loop, a driver at a pace of its own and a watchdog, in virtual time.
+struct Line {
+    ForceSlot slot;
+    Nanoseconds tick = ms, look = ms;
+    Nanoseconds next_write = begin, next_look = begin;
+    Nanoseconds now = begin;
+    bool loop_goes = true, device_goes = true, driver_goes = true;
+    double least = 1e9;          // of what is displayed
+    double most_step = 0.0;      // from one look to the next
+    int taken = 0;               // by the watchdog,
+    Nanoseconds taken_look = 0;  // last after this look of the driver
+    Vec3 displayed{0.0};
+
+    Line() { slot.begin(device(), true); }
+
+    void run_until(Nanoseconds end) {
+        while (now < end) {
+            now = std::min({end, next_write, next_look});
+            const ForceSlot::Due due = slot.due();
+            if (due.looked_at != 0 && due.at < now && due.looked_at != taken_look) {
+                taken_look = due.looked_at;
+                slot.taken(due.at);
+                displayed = Vec3(0.0);
+                ++taken;
+            }
+            if (now == next_write) {
+                if (loop_goes) {
+                    slot.write(command(asked, now));
+                }
+                next_write += tick;
+            }
+            if (now == next_look) {
+                look_once();
+                next_look += look;
+            }
+        }
+    }
+    void look_once() {
+        if (device_goes && driver_goes) {
+            slot.heard(now, now);
+        }
+        if (driver_goes) {
+            const Vec3 force = slot.living(now);
+            most_step = std::max(most_step, glm::distance(force, displayed));
+            displayed = force;
+            least = std::min(least, displayed.y);
+        }
+    }
+};
+
+// A force that lived 1.5 ms was cut behind nearly half of all phases.
+TEST(ForceSlot, AnEvenLoopIsNotCutAtAnyPhaseOrRate) {
+    for (const double rate : {4000.0, 2000.0, 1000.0, 640.0}) {
+        for (int phase = 0; phase < 32; ++phase) {
+            Line line;
+            line.tick = from_seconds(1.0 / rate);
+            line.slot.set_pace({line.tick, true});
+            line.next_look = begin + phase * ms / 32;
+            line.run_until(begin + 20 * ms);
+            line.least = 1e9;
+            line.run_until(begin + 2'000 * ms);
+            EXPECT_EQ(line.least, 4.0) << rate << " Hz, phase " << phase;
+            EXPECT_EQ(line.taken, 0) << rate << " Hz, phase " << phase;
+            EXPECT_EQ(line.slot.cuts(), ForceSlot::Cuts{}) << rate << " Hz, phase " << phase;
+        }
+    }
+}
+
+TEST(ForceSlot, ALoopThatIsRefusedGetsNothing) {
+    for (const LoopPace pace :
+         {LoopPace{10 * ms, true}, LoopPace{4 * ms, true}, LoopPace{2 * ms, true}, LoopPace{ms, false}}) {
+        Line line;
+        line.tick = pace.period;
+        line.slot.set_pace(pace);
+        line.run_until(begin + 100 * ms);
+        EXPECT_EQ(line.displayed, Vec3(0.0));
+        EXPECT_EQ(line.most_step, 0.0);
+    }
+}
+
+TEST(ForceSlot, TheHandIsFreeTwoMillisecondsAfterTheLoop) {
+    for (int phase = 0; phase < 32; ++phase) {
+        Line line;
+        line.next_look = begin + phase * ms / 32;
+        line.run_until(begin + 50 * ms);
+        line.loop_goes = false;
+        const Nanoseconds last = line.next_write - ms;
+        EXPECT_LE(line.slot.due().at, last + free_within) << phase;
+        line.run_until(last + free_within + 1);
+        EXPECT_EQ(line.displayed, Vec3(0.0)) << phase;
+        EXPECT_EQ(line.slot.cuts()[static_cast<std::size_t>(ForceCut::loop_silent)], 1u) << phase;
+    }
+}
+
+TEST(ForceSlot, TheHandIsFreeTwoMillisecondsAfterTheDevice) {
+    Line line;
+    line.run_until(begin + 50 * ms);
+    line.device_goes = false;
+    line.look = ms / 4;
+    line.run_until(begin + 50 * ms + free_within + line.look);
+    EXPECT_EQ(line.displayed, Vec3(0.0));
+    EXPECT_EQ(line.slot.cuts()[static_cast<std::size_t>(ForceCut::device_silent)], 1u);
+}
+
+TEST(ForceSlot, TheHandIsFreeTwoMillisecondsAfterTheDriver) {
+    Line line;
+    line.run_until(begin + 50 * ms);
+    line.driver_goes = false;
+    line.run_until(begin + 50 * ms + free_within);
+    EXPECT_EQ(line.displayed, Vec3(0.0));
+    EXPECT_EQ(line.taken, 1);
+    EXPECT_EQ(line.slot.cuts()[static_cast<std::size_t>(ForceCut::driver_stuck)], 1u);
+}
+
+// Whatever has stopped, and however long.
+TEST(ForceSlot, AfterACutTheForceGrowsFromNothing) {
+    for (bool Line::* what : {&Line::loop_goes, &Line::device_goes, &Line::driver_goes}) {
+        for (const Nanoseconds span : {3 * ms, 30 * ms, 5'000 * ms}) {
+            Line line;
+            line.run_until(begin + 50 * ms);
+            line.*what = false;
+            line.run_until(begin + 50 * ms + span);
+            ASSERT_EQ(line.displayed, Vec3(0.0));
+            line.*what = true;
+            line.most_step = 0.0;
+            line.look = ms / 4;
+            line.run_until(line.now + 20 * ms);
+            EXPECT_EQ(line.displayed, asked);
+            EXPECT_LE(line.most_step, 4.0);
+            EXPECT_GT(line.most_step, 0.0);
+        }
+    }
+}
+
+TEST(ForceSlot, AForceThatReturnsIsAsSlowAsTheDevice) {
+    Line line;
+    line.run_until(begin + 50 * ms);
+    line.loop_goes = false;
+    line.run_until(begin + 55 * ms);
+    line.loop_goes = true;
+    line.look = ms / 8;
+    line.next_look = line.now;
+    line.run_until(line.now + 10 * ms);
+    line.most_step = 0.0;
+    line.slot.rest();
+    line.displayed = Vec3(0.0);
+    line.run_until(line.now + 10 * ms);
+    EXPECT_LE(line.most_step, 0.5 + 1e-9) << "4 N/ms in an eighth of a millisecond";
+    EXPECT_EQ(line.displayed, asked);
+}
+
+TEST(ForceSlot, AReadingIsTakenBeforeTheLoopLooks) {
+    ForceSlot slot;
+    slot.begin(device(), false);
+    Nanoseconds look = begin, read = begin;
+    Nanoseconds needed = 120'000;  // from a reading until the loop has it
+    int late = 0;
+    for (int i = 0; i < 5'000; ++i) {
+        slot.heard(read, read + needed);
+        const bool is_there = read + needed <= look;
+        late += is_there || i < 500 ? 0 : 1;
+        slot.write({asked, Vec3(0.0), look + 50'000, is_there ? read : read - ms, look});
+        slot.living(look + 60'000);
+        read = slot.next_reading();
+        look += ms;
+    }
+    EXPECT_LT(late, 100);
+    EXPECT_LT(look - read, ms / 4) << "and no sooner than it needs";
+}
+
+}  // namespace
+}  // namespace tactus
