@@ -1,9 +1,11 @@
 #include "core/haptics/fading_force.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/math/shortened.hpp"
 #include "core/safety/limited_force.hpp"
 
 namespace tactus {
@@ -30,6 +32,11 @@ Vec3 drawing_back(const Vec3& force, const Vec3& offset, const Vec3& felt_before
     return along * std::max(0.0, least - glm::dot(force + offset, along));
 }
 
+// Of a spring that is pressed by the force: F^2 / 2 k; 0 where there is none (unit: joules).
+double spring_energy(const Vec3& force, double stiffness) {
+    return stiffness > 0.0 ? 0.5 * glm::dot(force, force) / stiffness : 0.0;
+}
+
 double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to) {
     return std::max(from.stiffness, to.stiffness) * glm::distance(from.hand, to.hand) +
            std::max(from.damping, to.damping) * glm::distance(from.velocity, to.velocity);
@@ -40,13 +47,26 @@ double change_by_hand(const FadingForce::Step& from, const FadingForce::Step& to
 Vec3 FadingForce::felt(const Vec3& force, double limit, bool jumped, const Step& step) {
     const Vec3 given = limited_force(force, limit);
     const double allowed = std::max(step.fade, change_by_hand(step_, step));
+    const double stiffness = std::max(step_.stiffness, step.stiffness);
+    // The offset was displayed while the hand went here.
+    store_ -= std::max(0.0, glm::dot(offset_, step.hand - step_.hand));
     step_ = step;
-    offset_ = shortened_by(offset_, step.fade);
+    offset_ = shortened_by(offset_, step.fade > 0.0 ? std::max(step.fade, pace_) : 0.0);
     if (jumped) {
         // What it jumps by beyond that joins what is still fading.
-        offset_ -= shortened_by(given + offset_ - felt_, allowed);
+        const Vec3 jump = shortened_by(given + offset_ - felt_, allowed);
+        offset_ -= jump;
+        if (jump != Vec3(0.0)) {
+            pace_ = glm::length(offset_) / longest_fade;
+            store_ = spring_energy(felt_, stiffness) - spring_energy(given, stiffness);
+            spring_ = stiffness;
+        }
     }
     offset_ += drawing_back(given, offset_, felt_);
+    if (given == Vec3(0.0) && spring_ > 0.0) {
+        // As the spring it came from, discharged so far: F = sqrt(2 k E).
+        offset_ = shortened(offset_, std::sqrt(2.0 * spring_ * std::max(0.0, store_)));
+    }
     return goes_on_with(force, limit);
 }
 

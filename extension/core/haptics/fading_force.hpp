@@ -4,7 +4,11 @@
 // put elsewhere, a stiffness that is set, the border of a stiffer surface, a radius that grows, a surface
 // that lets go change it at once. Then
 //     felt force = force of the scene + offset,
-// where the offset is what the felt force would jump by otherwise, and fades by a fixed step a tick.
+// where the offset is what the felt force would jump by otherwise, and fades by a fixed step a tick, or by
+// the larger one that ends it in time.
+//
+// In free air the offset gives the hand no more energy than the spring had that it came from, F^2 / 2 k,
+// which the hand has put into it: no path round a passive body gives work.
 #pragma once
 
 #include "core/math/types.hpp"
@@ -16,6 +20,9 @@ class FadingForce {
 public:
     // The most that a change of the scene changes what a hand feels by in a tick (unit: newtons).
     static constexpr double max_step = 0.25;
+
+    // In which a change has faded, however large it was (unit: ticks).
+    static constexpr double longest_fade = 50.0;
 
     // What the hand's own motion changes the force by is never held back: its way times the stiffness of what
     // it touches.
@@ -43,8 +50,11 @@ public:
 
 private:
     Vec3 offset_{0.0};
-    Vec3 felt_{0.0};  // in the last tick, within the limit
-    Step step_;       // of the last tick
+    Vec3 felt_{0.0};       // in the last tick, within the limit
+    Step step_;            // of the last tick
+    double pace_ = 0.0;    // by which the offset fades at least (unit: newtons a tick)
+    double store_ = 0.0;   // what the offset may still give in free air (unit: joules)
+    double spring_ = 0.0;  // that it came from (unit: newtons per meter); 0: none, and it may give anything
 };
 
 // The same of a force and the torque that goes with it, each by itself: of the second, all is in newton

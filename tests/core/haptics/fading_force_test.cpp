@@ -104,7 +104,38 @@ TEST(FadingWrench, ForceAndTorqueFadeEachByItsOwnStep) {
     EXPECT_FALSE(fading.fades());
 }
 
-// Whatever jumps how often: no step is larger than the motion's own and the fading's.
+// 40 N that vanish are gone in 50 ticks, not in 160.
+TEST(FadingForce, HoweverLargeItEndsInTime) {
+    FadingForce fading;
+    fading.felt(40.0 * up, no_limit, false, still);
+    for (int i = 0; i < 51; ++i) {
+        fading.felt(Vec3(0.0), no_limit, i == 0, still);
+    }
+    EXPECT_FALSE(fading.fades());
+}
+
+// A spring of 3000 N/m lets go at 15 mm. The hand is drawn away at 1 m/s by what fades, and gets no more than
+// the spring had; one that stays gets nothing, and the force fades all the same.
+TEST(FadingForce, InFreeAirItGivesNoMoreThanTheSpringHad) {
+    for (const double speed : {0.0, 0.1, 1.0, 10.0}) {
+        FadingForce fading;
+        FadingForce::Step step{Vec3(0.0), Vec3(0.0), 3000.0, 0.0};
+        Vec3 felt = fading.felt(45.0 * up, no_limit, false, step);
+        step.stiffness = 0.0;
+        double given = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 way = speed * 1e-3 * up;
+            given += i == 0 ? 0.0 : glm::dot(felt, way);
+            step.hand += way;
+            felt = fading.felt(Vec3(0.0), no_limit, i == 0, step);
+        }
+        EXPECT_LE(given, 0.5 * 45.0 * 45.0 / 3000.0 + felt.y * speed * 1e-3 + 45.0 * speed * 1e-3) << speed;
+        EXPECT_EQ(felt, Vec3(0.0)) << speed;
+    }
+}
+
+// Whatever jumps how often: no step is larger than the motion's own and the fading's, which ends in 50 ticks
+// what has come together.
 TEST(FadingForce, RandomChangesOneUponAnother) {
     RandomValues random(17);
     FadingForce fading;
@@ -113,7 +144,9 @@ TEST(FadingForce, RandomChangesOneUponAnother) {
         const bool jumped = random.below(20) == 0;
         force = jumped ? random.in_ball(40.0) : force + random.in_ball(0.1);
         const Vec3 now = fading.felt(force, no_limit, jumped, still);
-        ASSERT_LE(glm::length(now - felt), FadingForce::max_step + 0.1 + 1e-9) << i;
+        ASSERT_LE(glm::length(now - felt),
+                  std::max(FadingForce::max_step, 80.0 / FadingForce::longest_fade) + 0.1 + 1e-9)
+            << i;
         felt = now;
     }
     for (int i = 0; i < 1'000; ++i) {
