@@ -291,12 +291,37 @@ void WorldRun::ask_effects() {
     }
 }
 
+namespace {
+
+// An error of a body that the far side has not described changes nothing.
+std::vector<std::string> problems_of_errors(const MMTLink& link, const std::vector<ModelObject>& objects) {
+    std::vector<std::string> problems;
+    std::string known;
+    for (const ModelObject& object : objects) {
+        known += (known.empty() ? "" : ", ") + object.name;
+    }
+    for (const auto& [name, error] : link.model_errors()) {
+        if (!objects.empty() && std::ranges::find(objects, name, &ModelObject::name) == objects.end()) {
+            problems.push_back(from_godot(name_of(link)) + ": model_errors names '" + name +
+                               "', which the far side does not have: it has " + known);
+        }
+    }
+    return problems;
+}
+
+}  // namespace
+
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
     for (const auto& link : running_.links()) {
         std::ranges::move(link->problems(), std::back_inserter(all));
     }
     std::ranges::move(bodies_.mirrors().problems(), std::back_inserter(all));
+    const auto* const link = model_ != nullptr ? node_of_id<MMTLink>(link_nodes_.front()) : nullptr;
+    if (link != nullptr) {
+        std::ranges::move(problems_of_errors(*link, running_.links().front()->objects()),
+                          std::back_inserter(all));
+    }
     return all;
 }
 
