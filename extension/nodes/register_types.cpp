@@ -4,6 +4,7 @@
 #include <godot_cpp/godot.hpp>
 
 #include "nodes/body_watch.hpp"
+#include "nodes/input_watch.hpp"
 #include "nodes/project_settings.hpp"
 #include "nodes/signals.hpp"
 #include "realtime/workers.hpp"
@@ -18,6 +19,7 @@ void register_classes(godot::ModuleInitializationLevel level) {
     }
     declare_project_settings();
     GDREGISTER_INTERNAL_CLASS(BodyWatch);
+    GDREGISTER_INTERNAL_CLASS(InputWatch);
     register_public_classes();
 }
 
