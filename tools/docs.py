@@ -20,7 +20,7 @@ CONTENTS = {
     "Begin": ["addon", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera", "troubleshooting"],
     "Research": ["tutorials/own_experiment", "experiments", "studies", "bundles", "teleoperation"],
     "Extend": ["tutorials/own_force_effect", "tutorials/own_driver", "wire_format"],
-    "Reference": ["classes/index"],
+    "Reference": ["classes/index", "godot_physics"],
     "How it works": ["architecture", "proxy", "proxy_steps", "tool", "soft", "physics", "devices", "sensing", "discovery", "tolerances", "stress", "proof"],
     "Changes": ["changes"],
 }
