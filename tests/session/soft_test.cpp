@@ -97,6 +97,27 @@ TEST(Soft, HeldInItPressesSteadily) {
     EXPECT_NEAR(rig.device.force.y, held.force.y, 1e-4);
 }
 
+// Made stiffer while a finger presses, it stays in its form: the finger stays in it and is pressed harder.
+TEST(Soft, AnotherOfTheSameNodesTakesOverTheFormOfTheOneWhosePlaceItTakes) {
+    SoftRig rig({.stiffness = 1e4, .damping = 0.01}, foot);
+    rig.draw(Vec3(0.0, 0.07, 0.0), 200);
+    rig.ticks(2000);
+    const ProxyState before = rig.proxy_state();
+    const SoftModelResult made =
+        make_soft_volume(shared::grid_box(Vec3(0.04), 6), 6, {.stiffness = 2e4, .damping = 0.01}, foot, 1e-3);
+    BodyAddition addition;
+    addition.description.pose.position = Vec3(0.0, 0.04, 0.0);
+    addition.touch_material = {500.0, 0.0, 0.0, 0.0};
+    addition.soft = made.model;
+    const AddResult added = rig.session.add_body(Session::prepare_body(addition), {rig.handle});
+    ASSERT_EQ(added.error, "");
+    rig.session.remove_body(rig.handle);
+    rig.ticks(1);
+    EXPECT_LT(glm::distance(rig.proxy_state().position, before.position), 1e-3);
+    rig.ticks(2000);
+    EXPECT_GT(rig.proxy_state().force.y, before.force.y);
+}
+
 Vec3 mean_place(const TriangleMesh& mesh) {
     Vec3 sum(0.0);
     for (const Vec3& vertex : mesh.vertices) {
@@ -420,7 +441,7 @@ TEST(SoftTool, TheSamePressesGiveTheSameBits) {
     EXPECT_EQ(hashes[0], hashes[1]);
 }
 
-// Twelve blocks of 3,072 tetrahedra, which fall onto themselves, want more than a tick has for them.
+// Twelve blocks of 512 cells, which fall onto themselves, want more than a tick has for them.
 TEST(Soft, SeveralShareATickAndWhatIsPressedGoesFirst) {
     SessionRig rig;
     std::vector<std::shared_ptr<SoftView>> views;

@@ -90,6 +90,9 @@ public:
 
     // Back in its shape at rest, and still.
     void reset();
+    // Another of the same nodes, made of something else: it is where that one is, and goes on as it moves.
+    // False, and nothing happens, where its nodes are others.
+    bool go_on_from(const SoftBody& other);
 
     // Where the vertices of the surface are; as many as the model has. How far the farthest has gone from
     // where `out` had it (unit: meters).
@@ -122,6 +125,7 @@ private:
     void begin_contacts(std::span<const SoftPush> pushes);
     void find_compliance();
     void add_tetrahedra();
+    void add_cells();
     void add_springs();
     void iterate();
     void press_contacts();
@@ -131,7 +135,7 @@ private:
 
     std::shared_ptr<const SoftModel> model_;
     std::vector<Lanes> place_, velocity_;  // by node: x, y, z
-    std::vector<LanesQuat> turn_;          // of each group of tetrahedra
+    std::vector<LanesQuat> turn_;          // of each group of tetrahedra, then of cells
     // Of the step that is made.
     std::vector<Lanes> next_;      // x'
     std::vector<Lanes> inertial_;  // y
