@@ -71,6 +71,9 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
                    std::move(c.detail), nullptr};
         return true;
     };
+    if (const Body* const former = body(c.former.body); c.soft && former && former->soft) {
+        c.soft->go_on_from(*former->soft);
+    }
     const BodyId id = physics_.add(c.body);
     if (!id.valid()) {
         return give_back();
@@ -104,7 +107,7 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
 // Where its former is not near, it has been put elsewhere. Of another shape, how it lies is told.
 void SessionLoop::go_on_from(const command::AddBody& added) {
     const Body* const former = body(added.former.body);
-    if (!former) {
+    if (!former || former->soft) {
         return;
     }
     BodyMotion now = motion(added.former.body);

@@ -14,9 +14,11 @@ namespace {
 constexpr double near_enough = 0.1;
 constexpr std::uint64_t ticks_between_looks = 16;
 
-// What a step takes of one element's forces, and of one entry of the factor in a solve, about (docs/soft.md;
-// unit: seconds). Part of the results, as any budget: not to be measured where it runs.
+// What a step takes of the forces of a tetrahedron or a spring and of a cell, and of one entry of the factor
+// in a solve, about (docs/soft.md; unit: seconds). Part of the results, as any budget: not to be measured
+// where it runs.
 constexpr double element_time = 26e-9;
+constexpr double cell_time = 70e-9;
 constexpr double entry_time = 1.5e-9;
 // Of a tick, for all bodies that give together.
 constexpr double soft_share = 0.6;
@@ -24,7 +26,11 @@ constexpr double soft_share = 0.6;
 double time_of_step(const SoftSlot& soft) {
     const SoftModel& model = soft.body.model();
     const double solve = entry_time * static_cast<double>(model.factor.entries());
-    return element_time * static_cast<double>(model.element_count) + (soft.is_pressed() ? 2.0 : 1.0) * solve;
+    const std::size_t groups = model.tetrahedra.size() + model.springs.size();
+    const double forces = 4.0 * (element_time * static_cast<double>(groups) +
+                                 cell_time * static_cast<double>(model.cells.size()));
+    const double solves = 1.0 + (soft.is_pressed() ? 1.0 : 0.0) + (model.turns.count > 0 ? 1.0 : 0.0);
+    return forces + solves * solve;
 }
 
 }  // namespace

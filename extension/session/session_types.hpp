@@ -80,7 +80,8 @@ enum SessionStatus : std::uint32_t {
 };
 
 // That a body which moves takes the place of. Where it is not farther than `within` from where the new one is
-// said to be, that goes on where it is then, and as it moves. It is to be removed next.
+// said to be, that goes on where it is then, and as it moves. One that gives goes on in the form of another
+// that gives, if they have the same nodes. It is to be removed next.
 struct FormerBody {
     SessionHandle body = no_handle;
     double within = 0.0;  // (unit: meters)

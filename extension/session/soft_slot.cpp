@@ -44,6 +44,17 @@ SoftSlot::SoftSlot(std::shared_ptr<const SoftModel> model, std::shared_ptr<SoftV
     }
 }
 
+void SoftSlot::go_on_from(const SoftSlot& former) {
+    if (!body.go_on_from(former.body)) {
+        return;
+    }
+    body.write_surface(surface_.vertices);
+    for (std::size_t i = 0; i < forms_.size(); ++i) {
+        trees_[i]->follow(surface_);
+        put_ball(forms_[i], *trees_[i]);
+    }
+}
+
 bool SoftSlot::take_form() {
     if (!std::exchange(moved_, false)) {
         return false;

@@ -40,6 +40,10 @@ public:
     // No corner went farther from the one to the other (unit: meters).
     double gave_by() const { return gave_by_; }
 
+    // It takes the place of another: made of the same nodes, it has the other's form at once, and goes on as
+    // it moves. Before it is touched.
+    void go_on_from(const SoftSlot& former);
+
     // Something presses it where it is touched, in this tick: at spring.point on that triangle. `at` is the
     // body's place.
     void press(const Pose& at, const FeatureId& feature, const SpringForce& spring);

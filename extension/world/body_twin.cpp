@@ -65,11 +65,20 @@ bool BodyTwin::take_ready(Session& session, std::uint64_t takes_effect) {
     if (deform(session, *job)) {
         return false;
     }
+    const SessionHandle former = handle_;
+    const bool goes_on = job->built.buildable && job->built.body.soft != nullptr && former != no_handle;
+    AddResult added;
+    if (goes_on) {
+        added = session.add_body(std::move(job->built.body), {former});
+    }
     take_out(session);
     if (!job->built.buildable) {
         return false;
     }
-    AddResult added = session.add_body(std::move(job->built.body));
+    // Where there was no room for both.
+    if (added.handle == no_handle) {
+        added = session.add_body(std::move(job->built.body));
+    }
     handle_ = added.handle;
     if (handle_ == no_handle) {
         problems_.push_back(std::move(added.error));

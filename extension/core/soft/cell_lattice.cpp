@@ -1,5 +1,4 @@
-// A closed surface filled with cells of a lattice: every cell that it cuts or holds, each cut into the six
-// tetrahedra around its diagonal. All cells are cut alike, so that the tetrahedra of neighbours share faces.
+// A closed surface filled with cells of a lattice: every cell that it cuts or holds.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -20,10 +19,6 @@ namespace {
 constexpr int max_cells = 64;          // along a side
 constexpr int samples_a_side = 3;      // of a cell, to tell how much of it is filled
 constexpr double least_filled = 0.05;  // of a cell that the surface cuts: no node is as light as nothing
-
-// The corners from (0, 0, 0) to (1, 1, 1) along the axes in each order, wound right.
-constexpr std::array<std::array<int, 3>, 6> axis_orders{
-    {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
 
 using Cell = std::array<int, 3>;
 
@@ -62,6 +57,7 @@ public:
         }
         add_masses(density);
         draft_.surface = surface_;
+        draft_.spacing = spacing_;
         return std::move(draft_);
     }
 
@@ -89,7 +85,8 @@ private:
         return found->second;
     }
 
-    // Along the axes in the order of how far the point is along each: that is the tetrahedron around it.
+    // Along the axes in the order of how far the point is along each: that is the tetrahedron around it, of
+    // six about the cell's diagonal.
     void add_anchors() {
         for (const Vec3& vertex : surface_.vertices) {
             Cell corner = cell_of(vertex);
@@ -127,27 +124,21 @@ private:
         if (share == 0.0 && !cut_.contains(cell)) {
             return;
         }
-        for (std::size_t k = 0; k < axis_orders.size(); ++k) {
-            Cell corner = cell;
-            Tetrahedron t{node_at(corner), 0, 0, 0};
-            for (std::size_t c = 0; c < 3; ++c) {
-                ++corner[static_cast<std::size_t>(axis_orders[k][c])];
-                t[c + 1] = node_at(corner);
-            }
-            if (k >= 3) {
-                std::swap(t[2], t[3]);
-            }
-            draft_.tetrahedra.push_back(t);
-            draft_.filled.push_back(std::max(share, least_filled));
+        Hexahedron corners{};
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const int bits = static_cast<int>(i);
+            corners[i] = node_at({cell[0] + (bits & 1), cell[1] + (bits >> 1 & 1), cell[2] + (bits >> 2)});
         }
+        draft_.cells.push_back(corners);
+        draft_.filled.push_back(std::max(share, least_filled));
     }
 
     void add_masses(double density) {
         draft_.mass.assign(draft_.nodes.size(), 0.0);
-        for (std::size_t i = 0; i < draft_.tetrahedra.size(); ++i) {
-            const double volume = tetrahedron_volume(draft_.nodes, draft_.tetrahedra[i]) * draft_.filled[i];
-            for (const std::uint32_t corner : draft_.tetrahedra[i]) {
-                draft_.mass[corner] += 0.25 * density * volume;
+        const double mass = density * spacing_.x * spacing_.y * spacing_.z / 8.0;
+        for (std::size_t i = 0; i < draft_.cells.size(); ++i) {
+            for (const std::uint32_t corner : draft_.cells[i]) {
+                draft_.mass[corner] += mass * draft_.filled[i];
             }
         }
     }

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "core/soft/element_lanes.hpp"
 
 namespace tactus {
 
@@ -12,81 +15,18 @@ namespace {
 constexpr double fastest = 100.0;
 // Slower than this it is still (unit: meters per second).
 constexpr double still_speed = 2e-6;
-// Of the rotations, in each step: they go on from where they were.
-constexpr int turns_a_step = 2;
 // Rounds in which contacts that feel each other come to agree.
 constexpr int contact_rounds = 16;
-
-Lanes row_of(const Vec3& v) {
-    return Lanes{v.x, v.y, v.z, 0.0};
-}
-Vec3 vector_of(const Lanes& row) {
-    return {row[0], row[1], row[2]};
-}
-
-// Four rows of x, y, z as four lanes of each.
-LanesVec3 gathered(const std::vector<Lanes>& rows, const std::array<std::uint32_t, 4>& node) {
-    const Lanes a = rows[node[0]], b = rows[node[1]], c = rows[node[2]], d = rows[node[3]];
-    const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);   // x x z z
-    const Lanes ab_high = __builtin_shufflevector(a, b, 1, 5, 3, 7);  // y y . .
-    const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 2, 6);
-    const Lanes cd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-    return {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
-            __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5),
-            __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7)};
-}
-
-// And back, added to the rows one after the other: two lanes may belong to one node.
-void scatter(std::vector<Lanes>& rows, const std::array<std::uint32_t, 4>& node, const LanesVec3& v) {
-    const Lanes none = splat(0.0);
-    const Lanes xy_low = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6);   // x0 y0 x2 y2
-    const Lanes xy_high = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);  // x1 y1 x3 y3
-    const Lanes z_low = __builtin_shufflevector(v.z, none, 0, 4, 2, 6);   // z0 0 z2 0
-    const Lanes z_high = __builtin_shufflevector(v.z, none, 1, 5, 3, 7);
-    rows[node[0]] += __builtin_shufflevector(xy_low, z_low, 0, 1, 4, 5);
-    rows[node[1]] += __builtin_shufflevector(xy_high, z_high, 0, 1, 4, 5);
-    rows[node[2]] += __builtin_shufflevector(xy_low, z_low, 2, 3, 6, 7);
-    rows[node[3]] += __builtin_shufflevector(xy_high, z_high, 2, 3, 6, 7);
-}
-
-LanesVec3 scaled_sum(const LanesVec3& a, Lanes p, const LanesVec3& b, Lanes q) {
-    return {multiply_add(a.x, p, b.x * q), multiply_add(a.y, p, b.y * q), multiply_add(a.z, p, b.z * q)};
-}
-
-LanesMat3 deformation_of(const std::vector<Lanes>& places, const TetGroup& group) {
-    const LanesVec3 origin = gathered(places, group.node[0]);
-    const LanesVec3 first = gathered(places, group.node[1]) - origin;
-    const LanesVec3 second = gathered(places, group.node[2]) - origin;
-    const LanesVec3 third = gathered(places, group.node[3]) - origin;
-    const auto column = [&](Lanes a, Lanes b, Lanes c) {
-        return along(along(first * a, second, b), third, c);
-    };
-    return {column(group.gradient[0].x, group.gradient[1].x, group.gradient[2].x),
-            column(group.gradient[0].y, group.gradient[1].y, group.gradient[2].y),
-            column(group.gradient[0].z, group.gradient[1].z, group.gradient[2].z)};
-}
-
-struct SpringState {
-    LanesVec3 sum;  // e
-    Lanes length;   // |e|
-};
-
-SpringState state_of(const std::vector<Lanes>& places, const SpringGroup& group) {
-    LanesVec3 sum = gathered(places, group.node[0]) * group.share[0];
-    for (std::size_t c = 1; c < 4; ++c) {
-        sum = along(sum, gathered(places, group.node[c]), group.share[c]);
-    }
-    return {sum, lanes_sqrt(dot(sum, sum))};
-}
 
 }  // namespace
 
 SoftBody::SoftBody(std::shared_ptr<const SoftModel> model) : model_(std::move(model)) {
     const std::size_t count = model_->rest.size();
-    for (std::vector<Lanes>* rows : {&place_, &velocity_, &next_, &inertial_, &seen_, &right_, &answers_}) {
+    for (std::vector<Lanes>* rows :
+         {&place_, &velocity_, &next_, &inertial_, &seen_, &right_, &answers_, &arm_, &arm_answer_}) {
         rows->assign(count, splat(0.0));
     }
-    turn_.resize(model_->tetrahedra.size());
+    turn_.resize(model_->tetrahedra.size() + model_->cells.size());
     answer_.resize(count);
     reset();
 }
@@ -98,6 +38,18 @@ void SoftBody::reset() {
     }
     std::ranges::fill(turn_, no_turn_lanes());
     still_ticks_ = 0;
+}
+
+bool SoftBody::go_on_from(const SoftBody& other) {
+    if (model_->rest != other.model_->rest || model_->held != other.model_->held ||
+        turn_.size() != other.turn_.size()) {
+        return false;
+    }
+    place_ = other.place_;
+    velocity_ = other.velocity_;
+    turn_ = other.turn_;
+    wake();
+    return true;
 }
 
 void SoftBody::put(std::size_t node, const Vec3& place, const Vec3& velocity) {
@@ -177,47 +129,31 @@ void SoftBody::find_compliance() {
             }
         }
     }
+    for (Contact& contact : std::span(contacts_).first(contact_count_)) {
+        Vec3 arm(0.0), arm_answer(0.0);
+        for (std::size_t i = 0; i < corners_of_push; ++i) {
+            arm += contact.weight[i] * vector_of(arm_[contact.node[i]]);
+            arm_answer += contact.weight[i] * vector_of(arm_answer_[contact.node[i]]);
+        }
+        for (int k = 0; k < 3; ++k) {
+            Vec3 axis(0.0);
+            axis[k] = 1.0;
+            contact.turn[static_cast<std::size_t>(k)] = glm::cross(axis, arm);
+            contact.answer[static_cast<std::size_t>(k)] = glm::cross(axis, arm_answer);
+        }
+    }
     for (std::size_t c = 0; c < contact_count_; ++c) {
         for (std::size_t d = 0; d < contact_count_; ++d) {
-            compliance_[c][d] = 0.0;
+            double way = 0.0;
             for (std::size_t i = 0; i < corners_of_push; ++i) {
-                compliance_[c][d] += contacts_[c].weight[i] * answer_[contacts_[c].node[i]][d];
+                way += contacts_[c].weight[i] * answer_[contacts_[c].node[i]][d];
             }
-        }
-    }
-}
-
-// f = -dE/dx: with b = lambda V (tr(R^T F) - 3) - 2 mu V, the stress times the volume is 2 mu V F + b R.
-void SoftBody::add_tetrahedra() {
-    for (std::size_t g = 0; g < turn_.size(); ++g) {
-        const TetGroup& group = model_->tetrahedra[g];
-        const LanesMat3 f = deformation_of(seen_, group);
-        for (int i = 0; i < turns_a_step; ++i) {
-            turn_[g] = turned_towards(turn_[g], f);
-        }
-        const LanesMat3 r = matrix_of(turn_[g]);
-        const Lanes b = multiply_subtract(group.bulk, common_trace(r, f) - splat(3.0), group.shear);
-        const LanesMat3 stress{scaled_sum(f.x, group.shear, r.x, b), scaled_sum(f.y, group.shear, r.y, b),
-                               scaled_sum(f.z, group.shear, r.z, b)};
-        LanesVec3 sum = splat(Vec3(0.0));
-        for (std::size_t c = 0; c < 3; ++c) {
-            const LanesVec3& gradient = group.gradient[c];
-            const LanesVec3 back =
-                along(along(stress.x * gradient.x, stress.y, gradient.y), stress.z, gradient.z);
-            scatter(right_, group.node[c + 1], back * splat(-1.0));
-            sum = sum + back;
-        }
-        scatter(right_, group.node[0], sum);
-    }
-}
-
-void SoftBody::add_springs() {
-    for (const SpringGroup& group : model_->springs) {
-        const SpringState spring = state_of(seen_, group);
-        const Lanes rest = group.length / lanes_max(spring.length, splat(1e-12));
-        const LanesVec3 pull = spring.sum * (group.stiffness * (rest - splat(1.0)));
-        for (std::size_t c = 0; c < 4; ++c) {
-            scatter(right_, group.node[c], pull * group.share[c]);
+            const auto turned = [&](const std::array<Vec3, 3>& a, const Mat3& m,
+                                    const std::array<Vec3, 3>& b) {
+                return Mat3(a[0], a[1], a[2]) * m * glm::transpose(Mat3(b[0], b[1], b[2]));
+            };
+            compliance_[c][d] = Mat3(way) + turned(contacts_[c].turn, turn_softness_, contacts_[d].turn) -
+                                turned(contacts_[c].answer, turn_overlap_, contacts_[d].answer);
         }
     }
 }
@@ -243,12 +179,14 @@ void SoftBody::press_contacts() {
             Contact& contact = contacts_[c];
             Vec3 left = contact.slack - free[c];
             for (std::size_t d = 0; d < contact_count_; ++d) {
-                left -= d == c ? Vec3(0.0) : contacts_[d].force * compliance_[c][d];
+                left -= d == c ? Vec3(0.0) : compliance_[c][d] * contacts_[d].force;
             }
-            const double softness = 1.0 / contact.stiffness + compliance_[c][c];
+            const Mat3 softness = Mat3(1.0 / contact.stiffness) + compliance_[c][c];
             const double along = glm::dot(left, contact.direction);
-            const Vec3 pressing = contact.sticks ? left : contact.direction * along;
-            contact.force = along > 0.0 ? pressing / softness : Vec3(0.0);
+            const double soft = glm::dot(contact.direction, softness * contact.direction);
+            const Vec3 pressing =
+                contact.sticks ? glm::inverse(softness) * left : contact.direction * (along / soft);
+            contact.force = along > 0.0 ? pressing : Vec3(0.0);
         }
     }
     for (std::size_t n = 0; n < next_.size(); ++n) {
@@ -258,6 +196,14 @@ void SoftBody::press_contacts() {
         }
         next_[n] += row_of(way);
     }
+    Vec3 torque(0.0), answer(0.0);
+    for (const Contact& contact : std::span(contacts_).first(contact_count_)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            torque[static_cast<int>(k)] += glm::dot(contact.turn[k], contact.force);
+            answer[static_cast<int>(k)] += glm::dot(contact.answer[k], contact.force);
+        }
+    }
+    move_turns(torque, answer);
 }
 
 // One step towards where G is least. Elastic forces are taken ahead of x' by what damping sees, tau v'.
@@ -270,14 +216,18 @@ void SoftBody::iterate() {
         right_[n] = (inertial_[n] - next_[n]) * splat(model.mass[n] * inverse_square);
     }
     add_tetrahedra();
+    add_cells();
     add_springs();
     for (std::size_t n = 0; n < next_.size(); ++n) {
         right_[n] = model.held[n] != 0 ? splat(0.0) : right_[n];
     }
+    Vec3 torque, answer;
+    see_turns(right_, torque, answer);
     model.factor.solve(right_);
     for (std::size_t n = 0; n < next_.size(); ++n) {
         next_[n] += right_[n];
     }
+    move_turns(torque, answer);
     if (contact_count_ > 0) {
         press_contacts();
     }
@@ -357,6 +307,7 @@ std::uint32_t SoftBody::step(const Vec3& gravity, std::span<const SoftPush> push
         next_[n] = model_->held[n] != 0 ? place_[n] : multiply_add(velocity_[n], seconds, place_[n]);
         inertial_[n] = next_[n] + fall;
     }
+    find_turns();
     begin_contacts(pushes);
     find_compliance();
     for (int i = 0; i < iterations; ++i) {
@@ -370,34 +321,6 @@ std::uint32_t SoftBody::step(const Vec3& gravity, std::span<const SoftPush> push
     }
     reset();
     return soft_lost;
-}
-
-SoftEnergy SoftBody::energy() const {
-    SoftEnergy energy;
-    for (std::size_t n = 0; n < place_.size(); ++n) {
-        const Vec3 velocity = vector_of(velocity_[n]);
-        energy.kinetic += 0.5 * model_->mass[n] * glm::dot(velocity, velocity);
-    }
-    const auto add = [&](const Lanes& values) {
-        energy.elastic += values[0] + values[1] + values[2] + values[3];
-    };
-    for (std::size_t g = 0; g < turn_.size(); ++g) {
-        const TetGroup& group = model_->tetrahedra[g];
-        const LanesMat3 f = deformation_of(place_, group);
-        LanesQuat turn = turn_[g];
-        for (int i = 0; i < 4 * turns_a_step; ++i) {
-            turn = turned_towards(turn, f);
-        }
-        const LanesMat3 r = matrix_of(turn);
-        const LanesMat3 d{f.x - r.x, f.y - r.y, f.z - r.z};
-        const Lanes change = common_trace(r, f) - splat(3.0);
-        add(splat(0.5) * (group.shear * common_trace(d, d) + group.bulk * change * change));
-    }
-    for (const SpringGroup& group : model_->springs) {
-        const Lanes longer = state_of(place_, group).length - group.length;
-        add(splat(0.5) * group.stiffness * longer * longer);
-    }
-    return energy;
 }
 
 }  // namespace tactus

@@ -17,6 +17,16 @@
 // so is free fall (W moves nothing that does not deform). More steps of the same kind in one tick
 // (`iterations`) take the added masses off.
 //
+// W resists what turns without deforming, too: it adds dt (dt + tau) 2 (2 mu + 3 lambda) V to the moment of
+// inertia. So the turns of the whole body, phi_k = e_k x (x - c) with x where the elastic forces are taken,
+// are taken out of it. With the projection P = phi J^-1 phi^T M onto them, J = phi^T M phi the inertia, the
+// bound is W' = (1 - P)^T W (1 - P): of H it is one as well, since H phi = 0. The inverse of A' = M / dt^2 +
+// W' is that of A with as many terms added as there are axes:
+//
+//     A'^-1 = A^-1 + dt^2 phi J^-1 phi^T - q (phi^T M q)^-1 q^T,    q = A^-1 M phi = e_k x (A^-1 M (x - c)),
+//
+// one more solve with the same factor, whose matrix is the same along x, y and z.
+//
 // Tetrahedra are corotated: E = V (mu |F - R|^2 + lambda / 2 (tr(R^T F) - 3)^2) with the rotation R nearest
 // to F, which is followed from tick to tick. It is finite for whatever F, and what was turned inside out
 // comes back. Damping takes the elastic forces at x + (dt + tau) v.
@@ -90,6 +100,9 @@ public:
 
     // Back in its shape at rest, and still.
     void reset();
+    // Another of the same nodes, made of something else: it is where that one is, and goes on as it moves.
+    // False, and nothing happens, where its nodes are others.
+    bool go_on_from(const SoftBody& other);
 
     // Where the vertices of the surface are; as many as the model has. How far the farthest has gone from
     // where `out` had it (unit: meters).
@@ -116,13 +129,18 @@ private:
         Vec3 slack{0.0};      // way of the point at which the spring would not press (unit: meters)
         Vec3 direction{0.0};  // of the force at first
         bool sticks = false;
-        Vec3 force{0.0};  // (unit: newtons)
+        Vec3 force{0.0};                       // (unit: newtons)
+        std::array<Vec3, 3> turn{}, answer{};  // phi and q at the point
     };
 
     void begin_contacts(std::span<const SoftPush> pushes);
     void find_compliance();
     void add_tetrahedra();
+    void add_cells();
     void add_springs();
+    void find_turns();
+    void see_turns(const std::vector<Lanes>& rows, Vec3& torque, Vec3& answer) const;
+    void move_turns(const Vec3& torque, const Vec3& answer);
     void iterate();
     void press_contacts();
     Vec3 way_of(const Contact& contact) const;
@@ -131,17 +149,21 @@ private:
 
     std::shared_ptr<const SoftModel> model_;
     std::vector<Lanes> place_, velocity_;  // by node: x, y, z
-    std::vector<LanesQuat> turn_;          // of each group of tetrahedra
+    std::vector<LanesQuat> turn_;          // of each group of tetrahedra, then of cells
     // Of the step that is made.
-    std::vector<Lanes> next_;      // x'
-    std::vector<Lanes> inertial_;  // y
-    std::vector<Lanes> seen_;      // where the elastic forces are taken
-    std::vector<Lanes> right_;     // forces, then ways
-    std::vector<Lanes> answers_;   // of the nodes to a unit force at each of up to four contacts
+    std::vector<Lanes> arm_;         // x - c, nought where it is held
+    std::vector<Lanes> arm_answer_;  // A^-1 M (x - c)
+    Mat3 turn_softness_{0.0};        // dt^2 J^-1 (unit: 1 / newton meters)
+    Mat3 turn_overlap_{0.0};         // (phi^T M q)^-1
+    std::vector<Lanes> next_;        // x'
+    std::vector<Lanes> inertial_;    // y
+    std::vector<Lanes> seen_;        // where the elastic forces are taken
+    std::vector<Lanes> right_;       // forces, then ways
+    std::vector<Lanes> answers_;     // of the nodes to a unit force at each of up to four contacts
     std::vector<std::array<double, max_pushes>> answer_;  // the same by node, of all contacts
     std::array<Contact, max_pushes> contacts_{};
     std::size_t contact_count_ = 0;
-    std::array<std::array<double, max_pushes>, max_pushes> compliance_{};  // (unit: meters per newton)
+    std::array<std::array<Mat3, max_pushes>, max_pushes> compliance_{};  // (unit: meters per newton)
     int still_ticks_ = 0;
 };
 

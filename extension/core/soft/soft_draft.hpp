@@ -15,7 +15,9 @@ struct SoftDraft {
     std::vector<Vec3> nodes;
     std::vector<double> mass;             // of the nodes
     std::vector<Tetrahedron> tetrahedra;  // wound right
-    std::vector<double> filled;           // share of each that is made of something, above 0
+    std::vector<Hexahedron> cells;
+    Vec3 spacing{1.0};           // edges of a cell (unit: meters)
+    std::vector<double> filled;  // share of each cell that is made of something, above 0
     std::vector<Spring> springs;
     std::vector<SoftAnchor> anchors;
     TriangleMesh surface;

@@ -10,6 +10,7 @@
 
 #include "core/mesh/closed_mesh.hpp"
 #include "core/mesh/mesh_check.hpp"
+#include "core/soft/cell_bending.hpp"
 #include "core/soft/soft_draft.hpp"
 
 namespace tactus {
@@ -22,6 +23,10 @@ namespace {
 double bound_of(double shear, double bulk) {
     return shear + 3.0 * bulk;
 }
+
+// Above it, what turns keeps the added inertia: elastic forces are taken so far ahead that the axes of the
+// turn change within a few ticks, and with them energy comes in (unit: seconds).
+constexpr double most_damping_of_turns = 5e-3;
 
 struct Gradients {
     std::array<Vec3, 4> of_corner;
@@ -38,7 +43,8 @@ public:
     Assembly(SoftDraft&& draft, SoftDesign&& design)
         : draft_(std::move(draft)), model_(std::make_shared<SoftModel>()) {
         model_->design = std::move(design);
-        model_->element_count = draft_.tetrahedra.size() + draft_.springs.size();
+        model_->element_count = draft_.tetrahedra.size() + draft_.cells.size() + draft_.springs.size();
+        model_->spacing = draft_.spacing;
         renumber();
         hold(model_->design.held);
     }
@@ -46,6 +52,7 @@ public:
     SoftModelResult result() {
         add_masses();
         add_tetrahedra();
+        add_cells();
         add_springs();
         SoftModel& model = *model_;
         if (!model.factor.make(model.rest.size(), entries_)) {
@@ -56,6 +63,7 @@ public:
         if (model.factor.entries() > max_factor_entries) {
             return {nullptr, "a step of it takes longer than a tick: give it fewer cells or vertices"};
         }
+        model.turns = find_turns();
         model.anchors = std::move(draft_.anchors);
         model.surface = std::move(draft_.surface);
         model.closed = is_closed(model.surface);
@@ -63,8 +71,7 @@ public:
     }
 
 private:
-    void connect(std::vector<std::vector<std::uint32_t>>& neighbours,
-                 const std::array<std::uint32_t, 4>& nodes) {
+    void connect(std::vector<std::vector<std::uint32_t>>& neighbours, const auto& nodes) {
         for (const std::uint32_t a : nodes) {
             for (const std::uint32_t b : nodes) {
                 if (a != b) {
@@ -80,6 +87,9 @@ private:
         for (const Tetrahedron& t : draft_.tetrahedra) {
             connect(neighbours, t);
         }
+        for (const Hexahedron& cell : draft_.cells) {
+            connect(neighbours, cell);
+        }
         for (const SoftDraft::Spring& spring : draft_.springs) {
             connect(neighbours, spring.node);
         }
@@ -90,12 +100,13 @@ private:
             model_->rest.push_back(draft_.nodes[order[i]]);
             model_->mass.push_back(draft_.mass[order[i]]);
         }
-        const auto rename = [&](std::array<std::uint32_t, 4>& nodes) {
+        const auto rename = [&](auto& nodes) {
             for (std::uint32_t& node : nodes) {
                 node = place_of[node];
             }
         };
         std::ranges::for_each(draft_.tetrahedra, rename);
+        std::ranges::for_each(draft_.cells, rename);
         std::ranges::for_each(draft_.springs, rename, &SoftDraft::Spring::node);
         std::ranges::for_each(draft_.anchors, rename, &SoftAnchor::node);
         Vec3 low = model_->rest.front(), high = low;
@@ -119,6 +130,36 @@ private:
                 }
             }
         }
+    }
+
+    SoftTurns find_turns() const {
+        const SoftModel& model = *model_;
+        if (model.design.material.damping > most_damping_of_turns) {
+            return {};
+        }
+        if (model.is_free()) {
+            return {3, Vec3(0.0), Vec3(0.0)};
+        }
+        SoftTurns turns;
+        double held = 0.0;
+        for (std::size_t i = 0; i < model.rest.size(); ++i) {
+            turns.center += model.held[i] != 0 ? model.rest[i] : Vec3(0.0);
+            held += model.held[i] != 0 ? 1.0 : 0.0;
+        }
+        turns.center /= held;
+        for (std::size_t i = 0; i < model.rest.size(); ++i) {
+            const Vec3 arm = model.rest[i] - turns.center;
+            turns.axis = model.held[i] != 0 && glm::length(arm) > glm::length(turns.axis) ? arm : turns.axis;
+        }
+        const double rounding = 1e-6 * model.size;
+        const double length = glm::length(turns.axis);
+        turns.axis = length > rounding ? turns.axis / length : Vec3(0.0);
+        turns.count = length > rounding ? 1 : 3;
+        for (std::size_t i = 0; i < model.rest.size(); ++i) {
+            const bool beside = glm::length(glm::cross(model.rest[i] - turns.center, turns.axis)) > rounding;
+            turns.count = model.held[i] != 0 && turns.count == 1 && beside ? 0 : turns.count;
+        }
+        return turns;
     }
 
     void add_entry(std::uint32_t a, std::uint32_t b, double value) {
@@ -151,7 +192,7 @@ private:
         }
         for (std::size_t i = 0; i < count; ++i) {
             const Tetrahedron& t = draft_.tetrahedra[i];
-            const double volume = tetrahedron_volume(model_->rest, t) * draft_.filled[i];
+            const double volume = tetrahedron_volume(model_->rest, t);
             const Gradients gradients = gradients_of(model_->rest, t);
             TetGroup& group = model_->tetrahedra[i / 4];
             const std::size_t lane = i % 4;
@@ -168,6 +209,31 @@ private:
                 }
                 for (std::size_t d = 0; d < 4; ++d) {
                     add_entry(t[c], t[d], bound * glm::dot(gradients.of_corner[c], gradients.of_corner[d]));
+                }
+            }
+        }
+    }
+
+    // Of the mean deformation as of a tetrahedron's; of each bending shape (see cell_bending.hpp) the
+    // stiffest way.
+    void add_cells() {
+        const CellMaterial m(model_->design.material, model_->spacing);
+        const double volume = model_->spacing.x * model_->spacing.y * model_->spacing.z;
+        model_->cells.assign((draft_.cells.size() + 3) / 4, CellGroup{});
+        for (CellGroup& group : model_->cells) {
+            group.volume = splat(0.0);
+        }
+        for (std::size_t i = 0; i < draft_.cells.size(); ++i) {
+            const Hexahedron& cell = draft_.cells[i];
+            CellGroup& group = model_->cells[i / 4];
+            group.volume[i % 4] = volume * draft_.filled[i];
+            const double scale = volume * draft_.filled[i] * with_damping();
+            for (std::size_t a = 0; a < 8; ++a) {
+                group.node[a][i % 4] = cell[a];
+                for (std::size_t b = 0; b < 8; ++b) {
+                    const double mean = glm::dot(m.gradient_of(a), m.gradient_of(b));
+                    add_entry(cell[a], cell[b],
+                              scale * (bound_of(m.shear, m.bulk) * mean + m.bending_bound(a, b)));
                 }
             }
         }
@@ -316,7 +382,6 @@ SoftDraftResult draft_tetrahedra(const SoftDesign& design) {
             draft.mass[corner] += 0.25 * design.material.density * volume;
         }
     }
-    draft.filled.assign(draft.tetrahedra.size(), 1.0);
     draft.surface = {draft.nodes, outer_faces(draft.tetrahedra)};
     for (std::uint32_t i = 0; i < draft.nodes.size(); ++i) {
         draft.anchors.push_back({{i, i, i, i}, {1.0, 0.0, 0.0, 0.0}});
@@ -336,9 +401,10 @@ SoftModelResult make_soft(SoftDesign design) {
     }
     const SoftDraft& draft = made.draft;
     if (draft.nodes.size() > max_soft_nodes ||
-        draft.tetrahedra.size() + draft.springs.size() > max_soft_elements) {
+        draft.tetrahedra.size() + 3 * draft.cells.size() + draft.springs.size() > max_soft_elements) {
         return {nullptr,
-                "it has more than 4,096 nodes or 12,000 elements, for which a tick has no time: give "
+                "it has more than 4,096 nodes or 12,000 elements, of which a cell is three, for which a tick "
+                "has no time: give "
                 "it fewer cells or vertices"};
     }
     return Assembly(std::move(made.draft), std::move(design)).result();

@@ -49,8 +49,8 @@ using Tetrahedron = std::array<std::uint32_t, 4>;
 // What a model is made from. The same makes the same one, to the last bit.
 struct SoftDesign {
     enum class Form : std::uint8_t {
-        volume,      // cut into cells of about the `cells`th part of its longest side, those into six
-                     // tetrahedra each; cells that the surface cuts count by their share of the volume
+        volume,      // cut into cells of about the `cells`th part of its longest side, each a hexahedron;
+                     // cells that the surface cuts count by their share of the volume
         sheet,       // cloth, or any other: it stretches along its edges and bends across them
         tetrahedra,  // that are given; touched where no two of them meet
     };
@@ -80,6 +80,15 @@ struct TetGroup {
     Lanes bulk;                                          // lambda V (unit: joules)
 };
 
+// Corners of a box; bit 0 of the index: the upper one along x, bit 1: y, bit 2: z.
+using Hexahedron = std::array<std::uint32_t, 8>;
+
+// Four cells of one lattice. Lanes that fill up a group have no volume.
+struct CellGroup {
+    std::array<std::array<std::uint32_t, 4>, 8> node{};  // by corner and lane
+    Lanes volume;                                        // that is filled (unit: cubic meters)
+};
+
 // Four springs over the sum of up to four nodes, e = sum of c_i x_i: k / 2 (|e| - L)^2. Edges stretch by two
 // nodes, hinges between two triangles bend by four.
 struct SpringGroup {
@@ -89,17 +98,28 @@ struct SpringGroup {
     Lanes length;     // L (unit: meters)
 };
 
+// How the body may turn as a whole: about its center of mass, about the one place or about the line that
+// holds it.
+struct SoftTurns {
+    std::size_t count = 0;  // axes: 3, 1 of a line, or 0
+    Vec3 center{0.0};  // where it is held (unit: meters); of a free body its center of mass, wherever that is
+    Vec3 axis{0.0};    // of a line, unit
+};
+
 struct SoftModel {
     std::vector<Vec3> rest;          // nodes, in the order of elimination
     std::vector<double> mass;        // of the nodes (unit: kilograms)
     std::vector<std::uint8_t> held;  // by node: not 0 where it stays
     std::vector<TetGroup> tetrahedra;
+    std::vector<CellGroup> cells;
+    Vec3 spacing{1.0};  // edges of a cell (unit: meters)
     std::vector<SpringGroup> springs;
     std::vector<SoftAnchor> anchors;  // by vertex of the surface
     TriangleMesh surface;             // at rest
-    std::size_t element_count = 0;    // tetrahedra and springs
+    std::size_t element_count = 0;    // tetrahedra, cells and springs
     bool closed = false;              // the surface bounds a volume
     SparseFactor factor;
+    SoftTurns turns;
     double size = 0.0;  // diagonal of the box around it (unit: meters)
     SoftDesign design;
 
@@ -108,7 +128,7 @@ struct SoftModel {
 };
 
 // What a tick has time for.
-constexpr std::size_t max_soft_elements = 12'000;
+constexpr std::size_t max_soft_elements = 12'000;  // a cell counts as three
 constexpr std::size_t max_soft_nodes = 4'096;
 constexpr std::size_t max_factor_entries = 250'000;
 

@@ -10,6 +10,7 @@
 #include "core/math/bit_hash.hpp"
 #include "shared/meshes.hpp"
 #include "shared/random_values.hpp"
+#include "shared/soft_cases.hpp"
 #include "support/realtime_audit.hpp"
 
 namespace tactus::soft_body_test {
@@ -169,6 +170,42 @@ TEST(SoftBody, ABarHangsAsFarAsTheClosedFormSays) {
         const double wanted = 1000.0 * 9.81 * 0.2 * 0.2 / (2.0 * stiffness);
         EXPECT_NEAR(lower / ends, wanted, 0.01 * wanted) << stiffness << " Pa";
     }
+}
+
+// What resists deforming does not resist turning as a whole.
+TEST(SoftBody, APlateThatHangsByAnEdgeSwingsInTimeHoweverStiffItIs) {
+    for (const double stiffness : {1e5, 1e6}) {
+        const shared::SoftCase found = shared::hung_plate_period(stiffness, 2e-3);
+        EXPECT_NEAR(found.ours, found.right, 0.03 * found.right) << stiffness << " Pa";
+    }
+}
+
+// One cell high, it bends as it should: elements that lock let it sag by a fifth.
+TEST(SoftBody, ABeamSagsAsFarAsTheClosedFormSaysAtEachResolution) {
+    for (const int cells : {8, 16}) {
+        const shared::SoftCase found = shared::beam_sag(1e6, cells);
+        EXPECT_NEAR(found.ours, found.right, 0.02 * found.right) << cells << " cells";
+    }
+}
+
+TEST(SoftBody, ABallRollsDownASlope) {
+    const shared::SoftCase found = shared::rolling_ball(3e4, 2e-3);
+    EXPECT_NEAR(found.ours, found.right, 0.1 * found.right);
+}
+
+// Made of something else, it is where it was, pressed as it was.
+TEST(SoftBody, GoesOnFromAnotherOfTheSameNodes) {
+    SoftBody soft = block({.stiffness = 1e4}, below(-0.039));
+    Press press(soft, Vec3(0.0, 0.04, 0.0));
+    for (int i = 0; i < 300; ++i) {
+        press.tick(Vec3(0.0, i < 100 ? -1e-4 : 0.0, 0.0));
+    }
+    SoftBody stiff = block({.stiffness = 2e4}, below(-0.039));
+    ASSERT_TRUE(stiff.go_on_from(soft));
+    EXPECT_EQ(bits_of(stiff), bits_of(soft));
+    SoftBody finer = block({.stiffness = 2e4}, below(-0.039), 5);
+    EXPECT_FALSE(finer.go_on_from(soft));
+    EXPECT_EQ(farthest_from_rest(finer), 0.0);
 }
 
 TEST(SoftBody, ASheetHangsAboutAsFarAsTheClosedFormSays) {
