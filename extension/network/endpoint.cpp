@@ -287,10 +287,11 @@ bool Endpoint::send(const Message& message) {
 }
 
 void Endpoint::end_tick() {
+    has_said_hello_ = !leaves_ && now_ >= next_hello_;
     if (leaves_) {
         return;
     }
-    if (now_ >= next_hello_) {
+    if (has_said_hello_) {
         say_hello();
         next_hello_ = now_ + settings_.hello_every;
     }

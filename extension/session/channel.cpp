@@ -4,6 +4,16 @@
 
 namespace tactus {
 
+Channel::Channel(const TeleopSettings& settings, Link& link, std::shared_ptr<TeleopPort> port,
+                 const EndpointSettings& endpoint)
+    : settings_(settings),
+      before_(settings),
+      link_(link, endpoint),
+      port_(std::move(port)),
+      side_(endpoint.side) {
+    link_.set_scenario(scenario_of(settings_));
+}
+
 bool Channel::begin_tick(Nanoseconds now) {
     bool changed = false;
     if (port_->settings.refresh()) {
@@ -19,6 +29,7 @@ bool Channel::begin_tick(Nanoseconds now) {
         changed = true;
     }
     link_.begin_tick(now);
+    compare_terms();
     return changed;
 }
 
@@ -33,12 +44,63 @@ bool Channel::peer_has_started() {
 }
 
 const Packet* Channel::receive() {
-    const Endpoint::Received* const received = link_.receive();
-    return received ? &received->packet : nullptr;
+    while (const Endpoint::Received* const received = link_.receive()) {
+        const Terms* const terms = std::get_if<Terms>(&received->packet.message);
+        if (terms == nullptr) {
+            return &received->packet;
+        }
+        take(*terms, received->packet.header.sequence);
+    }
+    compare_terms();
+    return nullptr;
+}
+
+void Channel::take(const Terms& terms, std::uint64_t packet) {
+    if (peer_terms_epoch_ != link_.peer_epoch() || packet > peer_terms_packet_) {
+        peer_terms_epoch_ = link_.peer_epoch();
+        peer_terms_packet_ = packet;
+        peer_ = terms;
+    }
+}
+
+Terms Channel::terms_of_settings() const {
+    Terms terms;
+    terms.scenario = scenario_of(settings_);
+    terms.passivity = static_cast<std::uint8_t>(settings_.passivity);
+    return terms;
+}
+
+void Channel::set_own(const Terms& terms) {
+    own_changed_ = own_changed_ || terms != own_;
+    own_ = terms;
+}
+
+// A far side that speaks an older version says its scenario only.
+void Channel::compare_terms() {
+    const Hello& hello = link_.statistics().peer_hello;
+    disagreement_ = {};
+    if (!link_.hears_peer()) {
+        return;
+    }
+    if (peer_terms_epoch_ == link_.peer_epoch()) {
+        disagreement_ = side_ == Side::operator_side ? compare(own_, peer_) : compare(peer_, own_);
+    } else if (hello.newest_version >= first_version_with_terms) {
+        disagreement_.whole = true;
+    } else {
+        Terms peer = own_;
+        peer.scenario = hello.scenario;
+        disagreement_ = compare(own_, peer);
+    }
 }
 
 void Channel::end_tick(TeleopStatistics& statistics) {
     link_.end_tick();
+    if (own_changed_ || link_.has_said_hello()) {
+        own_changed_ = !link_.send(own_);
+    }
+    statistics.disagreement = disagreement_;
+    statistics.own_terms = own_;
+    statistics.peer_terms = peer_;
     statistics.link = link_.statistics();
     port_->statistics.publish(statistics);
 }

@@ -71,6 +71,14 @@ public:
 private:
     using Target = Resimulator::Target;
 
+    // What the far side has been sent of a hand.
+    struct SentHand {
+        OperatorSample last;
+        Nanoseconds at = 0;
+        SampleSequence since = no_sample;         // the first one that says what `last` says; no_sample: none
+        SampleSequence acknowledged = no_sample;  // the newest one that has come there and stands
+    };
+
     struct Pointer {
         FeltPointer felt;
         CarriedPointer carried;
@@ -78,16 +86,14 @@ private:
         Vec3 modelled{0.0};                   // by the model, one tick ago (unit: newtons)
         Vec3 modelled_before{0.0};            // two ticks ago, or the same where a change was in between
         Vec3 hand{0.0};                       // one tick ago (unit: meters)
+        Vec3 velocity{0.0};                   // of the hand, one tick ago (unit: meters per second)
         Vec3 force{0.0};                      // given to the hand, one tick ago (unit: newtons)
         TouchedBody touched;                  // one tick ago
         bool known = false;                   // there was such a tick
         bool answered = false;                // traditional: what the far side said last still held then
         OperatorPassivity passivity;
         PassiveUpdate update;
-        // Sending.
-        OperatorSample sent;
-        bool has_sent = false;
-        Nanoseconds sent_at = 0;
+        SentHand sent;
     };
 
     // The same for a tool.
@@ -105,10 +111,7 @@ private:
         bool fixed = false;               // ToolHand::fixed, one tick ago
         Quat turned{1.0, 0.0, 0.0, 0.0};  // where it is, as it is turned there
         WrenchPassivity passivity;
-        // Sending.
-        OperatorSample sent;
-        bool has_sent = false;
-        Nanoseconds sent_at = 0;
+        SentHand sent;
     };
 
     // A body of the model that moves by itself, while something is learnt about it.
@@ -134,6 +137,7 @@ private:
 
     // --- operator_side.cpp
     void take_settings(SessionLoop& loop);
+    void hold_back_hands(SessionLoop& loop);
     void round_hands(SessionLoop& loop) const;
     void begin_model(SessionLoop& loop);
     void forget_past();
@@ -151,6 +155,7 @@ private:
     void take(const ForceSample& force);
     void take(const WrenchSample& wrench);
     void take(const ObjectEstimates& estimates, std::uint64_t packet);
+    void take(const SampleAcknowledgements& acknowledgements);
     void follow_far_side(SessionLoop& loop);
     bool nothing_is_touched(SessionLoop& loop) const;
     bool is_news(SessionLoop& loop, SessionHandle body) const;
@@ -204,6 +209,10 @@ private:
 
     // --- operator_sending.cpp
     void acknowledge();
+    bool is_guessed(const SentHand& sent, const OperatorSample& sample) const;
+    bool is_due(const SentHand& sent, Nanoseconds now) const;
+    void send_absence(SentHand& sent, Nanoseconds now);
+    void send(SentHand& sent, const OperatorSample& sample, bool says_nothing_new, Nanoseconds now);
     void send_sample(SessionLoop& loop, std::size_t index, Nanoseconds now);
     void find_nearest(SessionLoop& loop, const SessionLoop::ProxySlot& slot, OperatorSample& sample) const;
 

@@ -183,6 +183,9 @@ void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
         for (ProxySlot& slot : proxies_) {
             slot.parts = {};  // nothing is touched here, so nothing is pressed
+            if (!slot.present()) {
+                slot.state = {};
+            }
         }
         return;
     }
@@ -248,7 +251,12 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.torsion.count = 0;
         slot.proxy->restart();
         slot.walls = {};
-        slot.state = {};
+        const ProxyState before = std::exchange(slot.state, {});
+        if (slot.idle) {
+            slot.state.position = before.position;
+            slot.state.hand = before.hand;
+            slot.state.status = far_hand_away;
+        }
         slot.step = step_of(slot);
         slot.jumped = true;
         return;

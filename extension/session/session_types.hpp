@@ -112,6 +112,10 @@ enum FeltStatus : std::uint32_t {
     felt_limited = 1u << 19,  // the force was to change or to give more than is allowed
 };
 
+// A bit of ProxyState::status and ToolState::status at the far side: no operator's hand is there, and the
+// place is that of the last one.
+inline constexpr std::uint32_t far_hand_away = 1u << 22;
+
 // Bits of ToolState::status besides ToolStatus, with a link to robots.
 enum FarTool : std::uint32_t {
     tool_turn_fixed = 1u << 20,   // the robot that carries it cannot turn it

@@ -113,6 +113,9 @@ std::string state_of_fingertip(const ProxyState& state) {
     if (state.handle == no_handle) {
         return "waiting for the first tick";
     }
+    if ((state.status & far_hand_away) != 0) {
+        return "no hand of the operator is here";
+    }
     if ((state.status & proxy_absent) != 0) {
         return "the hand began inside a body: move it out once";
     }
@@ -125,6 +128,9 @@ std::string state_of_fingertip(const ProxyState& state) {
 std::string state_of_tool(const ToolState& state) {
     if (state.handle == no_handle) {
         return "waiting for the first tick";
+    }
+    if ((state.status & far_hand_away) != 0) {
+        return "no hand of the operator is here";
     }
     if ((state.status & tool_absent) != 0) {
         return "the tool does not fit in where the hand holds it: move it to where it touches nothing";
