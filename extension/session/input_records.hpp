@@ -288,6 +288,8 @@ inline constexpr int members<StealthSettings> = 10;
 template <>
 inline constexpr int members<EstimateSettings> = 7;
 template <>
+inline constexpr int members<ResidualSettings> = 4;
+template <>
 inline constexpr int members<PoseFilterSettings> = 5;
 template <>
 inline constexpr int members<SeenPoseSettings> = 2;
@@ -304,7 +306,7 @@ inline constexpr int members<DeadbandSettings> = 7;
 template <>
 inline constexpr int members<ClockSkew> = 3;
 template <>
-inline constexpr int members<TeleopSettings> = 25;
+inline constexpr int members<TeleopSettings> = 26;
 template <>
 inline constexpr int members<EndpointSettings> = 8;
 template <>

@@ -20,6 +20,7 @@ void ModelPast::note_pushes(SessionLoop& loop, const TruthStore& truths, SampleS
     for (std::size_t place = 0; place < truths.places(); ++place) {
         if (const SessionHandle body = truths.body_at(place); loop.body(body)) {
             pushes_[place * samples() + sample % samples()] = loop.pushed(body);
+            helps_[place * samples() + sample % samples()] = loop.helped(body);
         }
     }
 }
@@ -32,12 +33,21 @@ void ModelPast::note_motions(SessionLoop& loop, const TruthStore& truths, Sample
     }
 }
 
-Vec3 ModelPast::pushed(std::uint32_t place, SampleSequence first, SampleSequence last) const {
-    Vec3 sum(0.0);
+Vec3 ModelPast::sum(const std::vector<Vec3>& of, std::uint32_t place, SampleSequence first,
+                    SampleSequence last) const {
+    Vec3 all(0.0);
     for (SampleSequence sample = first + 1; sample <= last; ++sample) {
-        sum += pushes_[place * samples() + sample % samples()];
+        all += of[place * samples() + sample % samples()];
     }
-    return sum;
+    return all;
+}
+
+Vec3 ModelPast::pushed(std::uint32_t place, SampleSequence first, SampleSequence last) const {
+    return sum(pushes_, place, first, last);
+}
+
+Vec3 ModelPast::helped(std::uint32_t place, SampleSequence first, SampleSequence last) const {
+    return sum(helps_, place, first, last);
 }
 
 }  // namespace tactus

@@ -26,7 +26,10 @@ public:
     };
 
     ModelPast(std::size_t places, std::size_t samples)
-        : history_(places, samples), moments_(samples), pushes_(places * samples, Vec3(0.0)) {}
+        : history_(places, samples),
+          moments_(samples),
+          pushes_(places * samples, Vec3(0.0)),
+          helps_(places * samples, Vec3(0.0)) {}
 
     std::size_t samples() const { return moments_.size(); }
 
@@ -41,8 +44,9 @@ public:
     const BodyMotion* motion(std::uint32_t place, SampleSequence sample) const {
         return place != TruthStore::no_place && sample != no_sample ? history_.at(place, sample) : nullptr;
     }
-    // The velocity that hands gave the body after sample `first` up to `last`.
+    // The velocity that hands gave the body after sample `first` up to `last`, and its residual.
     Vec3 pushed(std::uint32_t place, SampleSequence first, SampleSequence last) const;
+    Vec3 helped(std::uint32_t place, SampleSequence first, SampleSequence last) const;
 
     // The body has been elsewhere since `first`.
     void carry(std::uint32_t place, SampleSequence first, SampleSequence last, const BodyMotion& before,
@@ -52,9 +56,11 @@ public:
     void forget(std::uint32_t place) { history_.forget(place); }
 
 private:
+    Vec3 sum(const std::vector<Vec3>& of, std::uint32_t place, SampleSequence first, SampleSequence last) const;
+
     StateHistory history_;
     std::vector<Moment> moments_;
-    std::vector<Vec3> pushes_;  // by place and sample
+    std::vector<Vec3> pushes_, helps_;  // by place and sample
 };
 
 }  // namespace tactus

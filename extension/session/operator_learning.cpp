@@ -118,9 +118,40 @@ void OperatorSide::teach(SessionLoop& loop, std::size_t group) {
     }
     for (const Pupil& pupil : pupils_) {
         if (pupil.group == group) {
-            ParameterEstimate& estimate = estimates_[pupil.place];
-            estimate.learn(settings().estimate, count == 1 ? pupil.lesson : common);
-            set_factors(loop, pupil.body, estimate);
+            learn_of(loop, pupil, count == 1, common);
+        }
+    }
+}
+
+// A body alone teaches its residual as well; mass and friction are learnt from what the model does without it.
+void OperatorSide::learn_of(SessionLoop& loop, const Pupil& pupil, bool is_alone, const MotionLesson& common) {
+    ParameterEstimate& estimate = estimates_[pupil.place];
+    MotionLesson lesson = is_alone ? pupil.lesson : common;
+    if (is_alone) {
+        const Vec3 helped = past_.helped(pupil.place, pupil.from, pupil.to);
+        residuals_[pupil.place].learn(settings().residual, lesson, helped);
+        lesson.model -= helped;
+    }
+    estimate.learn(settings().estimate, lesson);
+    set_factors(loop, pupil.body, estimate);
+}
+
+// Once a tick: the present and the past that is done again have the same.
+void OperatorSide::set_residuals(SessionLoop& loop) {
+    const bool replays = settings().derivation == Derivation::resimulate && resimulator_.exists() &&
+                         settings().correction != Correction::none && !settings().traditional;
+    for (std::uint32_t place = 0; place < truths_.places(); ++place) {
+        const SessionHandle body = truths_.body_at(place);
+        if (body == no_handle || !loop.body(body)) {
+            continue;
+        }
+        ResidualForce& residual = residuals_[place];
+        residual.tick(settings().residual, seconds_);
+        const Vec3 force =
+            replays ? loop.mass(body) * residual.acceleration(settings().residual) : Vec3(0.0);
+        loop.set_residual(body, force);
+        if (SessionLoop* const twin = resimulator_.twin()) {
+            twin->set_residual(body, force);
         }
     }
 }

@@ -18,7 +18,8 @@ void OperatorSide::acknowledge() {
     }
 }
 
-// With a deadband: whether the far side guesses what `sample` says.
+// With a deadband: whether the far side guesses what `sample` says. That the hand begins or ceases to touch its
+// model it does not: no guess there touches what the hand does not.
 bool OperatorSide::is_guessed(const SentHand& sent, const OperatorSample& sample) const {
     const DeadbandSettings& deadband = settings().deadband;
     const OperatorSample& last = sent.last;
@@ -27,6 +28,7 @@ bool OperatorSide::is_guessed(const SentHand& sent, const OperatorSample& sample
     const Quat turned = turn_by(last.spin, guessed_time(seconds)) * last.rotation;
     return deadband.enabled && sent.since != no_sample &&
            !position_needs_sending(deadband, guessed, sample.position, sample.velocity) &&
+           (settings().traditional || (sample.force == Vec3(0.0)) == (last.force == Vec3(0.0))) &&
            (!sample.has_turn || angle_between(turned, sample.rotation) <= deadband.angle) &&
            sample.buttons == last.buttons && sample.connected == last.connected;
 }

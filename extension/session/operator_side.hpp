@@ -53,6 +53,10 @@ TouchedBody touched_body(const SessionLoop& loop, const auto& state) {
                                loop.mass(state.bodies[0])}
                  : TouchedBody{};
 }
+// Whatever happens at the far side, to the model or to the link, changes a hand's force by no more in a tick (unit:
+// newtons). What the hand's own motion changes it by comes on top.
+inline constexpr double max_unexplained_step = 0.5;
+
 // FeltStatus.
 std::uint32_t felt_status(FeltState state);
 
@@ -64,7 +68,7 @@ public:
     void set_hands(SessionLoop& loop, Nanoseconds now) override;
     void set_forces(SessionLoop& loop, Nanoseconds now) override;
     void report(SessionLoop& loop, Nanoseconds now) override;
-    const ForceLimits& limits() const override { return channel_.settings().limits; }
+    const ForceLimits& limits() const override { return limits_; }
     bool simulates() const override { return !settings().traditional; }
     SessionLoop* twin() override { return resimulator_.twin(); }
 
@@ -88,6 +92,7 @@ private:
         Vec3 hand{0.0};                       // one tick ago (unit: meters)
         Vec3 velocity{0.0};                   // of the hand, one tick ago (unit: meters per second)
         Vec3 force{0.0};                      // given to the hand, one tick ago (unit: newtons)
+        Vec3 damped{0.0};                     // traditional: by its passivity, one tick ago (unit: newtons)
         TouchedBody touched;                  // one tick ago
         bool known = false;                   // there was such a tick
         bool answered = false;                // traditional: what the far side said last still held then
@@ -105,6 +110,7 @@ private:
         Pose hand;                         // ToolHand::goal, one tick ago
         Vec3 place{0.0};                   // ToolHand::place, one tick ago (unit: meters)
         Wrench given;                      // to the hand, one tick ago
+        Vec3 damped{0.0};                  // traditional: by its passivity, one tick ago (unit: newtons)
         TouchedBody touched;               // one tick ago
         bool known = false;
         bool answered = false;
@@ -170,6 +176,8 @@ private:
     void gather_pupils(SessionLoop& loop);
     bool lesson_for(SessionLoop& loop, SessionHandle body, MotionLesson& lesson) const;
     void teach(SessionLoop& loop, std::size_t group);
+    void learn_of(SessionLoop& loop, const Pupil& pupil, bool is_alone, const MotionLesson& common);
+    void set_residuals(SessionLoop& loop);
     void take_over_found(SessionLoop& loop);
     bool take_over(SessionLoop& loop, SessionHandle body, const ObjectEstimate& estimate);
     void set_factors(SessionLoop& loop, SessionHandle body, const ParameterEstimate& estimate);
@@ -226,6 +234,7 @@ private:
     Resimulator resimulator_;
     TraditionalTouch traditional_;
     std::vector<ParameterEstimate> estimates_;  // by place
+    std::vector<ResidualForce> residuals_;      // by place
     std::vector<SampleSequence> alone_since_;   // by place: the body has touched no other that moves since
     std::vector<Pupil> pupils_;                 // of this tick
     std::vector<PoseFilter> filters_;           // by body
@@ -242,6 +251,7 @@ private:
     std::uint32_t replays_without_tool_ = 0;  // one after the other
     bool corrected_ = false;                  // in this tick
     bool changed_ = false;  // something else than a correction has changed what is touched in this tick
+    ForceLimits limits_;  // see max_unexplained_step
     TeleopStatistics statistics_;
     bool restart_waits_ = false;  // the owner has not been told yet
 };

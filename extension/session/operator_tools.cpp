@@ -200,9 +200,16 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, ToolSlot& slot) {
     const double way = glm::distance(slot.hand.goal.position, tool.hand.position) +
                        length * angle_between(slot.hand.goal.rotation, tool.hand.rotation);
     const double own_doing = 2.0 * slot.use.settings.stiffness * way;
-    const bool is_modelled = tool.known && !settings().traditional;
-    slot.own_change =
-        is_modelled ? std::min(glm::distance(modelled.force, tool.modelled.force), own_doing) : 0.0;
+    // See feel() for a pointer.
+    const Vec3 damped =
+        settings().traditional ? whole - traditional_.far_tool(index).wrench.force : Vec3(0.0);
+    const double damped_more = glm::distance(damped, std::exchange(tool.damped, damped));
+    slot.own_change = !tool.known ? 0.0
+                      : settings().passivity != Passivity::none && settings().traditional && tool.answered
+                          ? damped_more
+                      : settings().traditional
+                          ? 0.0
+                          : std::min(glm::distance(modelled.force, tool.modelled.force), own_doing);
     const Wrench felt =
         tool.felt.feel(settings().stealth,
                        {modelled, slot.hand.velocity_at(slot.hand.place), slot.hand.spin,

@@ -306,8 +306,15 @@ void OperatorSide::feel(SessionLoop& loop, std::size_t index, SessionLoop::Proxy
     const Vec3 turned_speed = slot.hand_velocity - pointer.velocity;
     const double own_doing = 2.0 * spring.steepest() * glm::length(way) +
                              slot.step.damping * glm::length(turned_speed);
-    const bool is_modelled = pointer.known && !settings().traditional;
-    slot.own_change = is_modelled ? std::min(glm::distance(in.modelled, pointer.modelled), own_doing) : 0.0;
+    // What keeps traditional touch passive follows the hand's motion.
+    const Vec3 damped = settings().traditional ? whole - traditional_.far(index).force : Vec3(0.0);
+    const double damped_more = glm::distance(damped, std::exchange(pointer.damped, damped));
+    slot.own_change = !pointer.known ? 0.0
+                      : settings().passivity != Passivity::none && settings().traditional && pointer.answered
+                          ? damped_more
+                      : settings().traditional
+                          ? 0.0
+                          : std::min(glm::distance(in.modelled, pointer.modelled), own_doing);
     pointer.velocity = slot.hand_velocity;
     const Vec3 modelled = in.modelled;
     if (settings().correction == Correction::passive && !settings().traditional) {

@@ -18,8 +18,9 @@ namespace tactus {
 
 class PressLimit {
 public:
-    // Of the force that a limit changes (unit: newtons per second).
-    static constexpr double rate = 200.0;
+    // Of the force that a limit changes, where the hand comes, returns or goes, and after a guess (unit: newtons
+    // per second).
+    static constexpr double slow_rate = 200.0, rate = 500.0;
     static constexpr double guessed_force = 0.8;  // (unit: newtons)
     // A guess that lasts longer is an outage: the hand comes back from it (unit: seconds).
     static constexpr double longest_guess = 0.05;
@@ -39,18 +40,19 @@ public:
     void come() { state_ = State::comes; }
     // The hand is away: it comes from nothing.
     void begin() { *this = {}; }
-    bool binds(Hand hand) const { return state_ != State::here || hand != Hand::here; }
+    bool binds(Hand hand) const { return state_ != State::here || hand != Hand::here || holds_back_; }
     double depth() const { return depth_; }  // (unit: meters)
     bool is_gone() const { return depth_ <= 0.0; }
 
     // Once a tick in which it binds, before the hand is drawn back.
     void step(const In& in) {
-        const double change = rate * in.seconds / in.stiffness;
+        const double change = (state_ == State::here ? rate : slow_rate) * in.seconds / in.stiffness;
         guessed_for_ = in.hand == Hand::guessed ? guessed_for_ + in.seconds : 0.0;
+        const bool touches = known_ > 0.0 || (in.own_force && *in.own_force > 0.0);
         if (in.hand == Hand::goes) {
-            depth_ = std::max(0.0, depth_ - change);
+            depth_ = std::max(0.0, depth_ - slow_rate * in.seconds / in.stiffness);
         } else if (in.hand == Hand::guessed) {
-            const double more = known_ > 0.0 ? guessed_force / in.stiffness : 0.0;
+            const double more = touches ? guessed_force / in.stiffness : 0.0;
             depth_ = std::min(depth_ + change, known_ + more);
             state_ = guessed_for_ > longest_guess && state_ == State::here ? State::returns : state_;
         } else if (state_ == State::comes && in.own_force && in.force > *in.own_force) {
@@ -59,19 +61,18 @@ public:
             depth_ += change;
         }
     }
-    // After it has been applied to a hand that was `depth` deep.
+    // After it has been applied to a hand that is `depth` deep.
     void applied(Hand hand, double depth) {
-        if (hand == Hand::here && depth <= depth_) {
-            state_ = State::here;
+        holds_back_ = depth > depth_;
+        if (hand != Hand::here) {
+            return;
         }
-        note(hand, std::min(depth, depth_));
+        state_ = holds_back_ ? state_ : State::here;
+        known_ = state_ == State::here ? depth : depth_;
+        depth_ = std::min(depth, depth_);
     }
-    // How deep the hand is (unit: meters); 0: it touches nothing.
-    void note(Hand hand, double depth) {
-        if (hand == Hand::here) {
-            known_ = depth_ = depth;
-        }
-    }
+    // How deep a hand is that is here and not held back (unit: meters); 0: it touches nothing.
+    void note(double depth) { known_ = depth_ = depth; }
 
 private:
     enum class State : std::uint8_t {
@@ -81,6 +82,7 @@ private:
     };
 
     State state_ = State::comes;
+    bool holds_back_ = false;
     double depth_ = 0.0;        // that is allowed, or is there (unit: meters)
     double known_ = 0.0;        // when the hand was known last (unit: meters)
     double guessed_for_ = 0.0;  // (unit: seconds)

@@ -150,6 +150,7 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
     end_travel(c.handle);
     forget_magnet(c.handle);
     std::erase(pushed_, c.handle);
+    std::erase(helped_, c.handle);
     std::erase(guessed_, c.handle);
     std::erase(forming_, c.handle);
     std::erase(giving_, c.handle);

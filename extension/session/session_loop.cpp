@@ -51,6 +51,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     giving_.reserve(settings.max_bodies);
     magnets_.reserve(settings.max_bodies);
     pushed_.reserve(settings.max_bodies);
+    helped_.reserve(settings.max_bodies);
     guessed_.reserve(settings.max_bodies);
     joints_.resize(settings.physics.max_joints);
     states_.reserve(settings.max_bodies);
@@ -367,7 +368,32 @@ void SessionLoop::hold_against_turning(ProxySlot& slot) const {
     }
 }
 
+void SessionLoop::set_residual(SessionHandle handle, const Vec3& force) {
+    Body* const changed = body(handle);
+    if (!changed || changed->motion != Motion::Dynamic || changed->residual == force) {
+        return;
+    }
+    const bool had_none = std::exchange(changed->residual, force) == Vec3(0.0);
+    if (had_none) {
+        helped_.push_back(handle);
+    } else if (force == Vec3(0.0)) {
+        std::erase(helped_, handle);
+    }
+}
+
+Vec3 SessionLoop::helped(SessionHandle handle) const {
+    const Body* const known = body(handle);
+    const double weighs = known ? mass(handle) : 0.0;
+    return weighs > 0.0 ? known->residual * (seconds_ / weighs) : Vec3(0.0);
+}
+
 void SessionLoop::push_bodies() {
+    for (const SessionHandle handle : helped_) {
+        const Body& helped = bodies_[handle];
+        if (helped.motion == Motion::Dynamic && physics_.awake(helped.id)) {
+            physics_.apply_force(helped.id, helped.residual, physics_.center_of_mass(helped.id));
+        }
+    }
     for (const SessionHandle handle : pushed_) {
         const Body& pushed = bodies_[handle];
         if (pushed.motion == Motion::Dynamic) {

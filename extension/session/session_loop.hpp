@@ -43,7 +43,8 @@ public:
         // A way that the owner asked for: from where it is to `target` in `ticks_left` ticks.
         Pose target;
         int ticks_left = 0;
-        Vec3 push{0.0};  // in every tick, see Session::set_body_push
+        Vec3 residual{0.0};  // force in every tick, see set_residual() (unit: newtons)
+        Vec3 push{0.0};      // in every tick, see Session::set_body_push
         Vec3 twist{0.0};
         // See Session::see_body.
         std::optional<PoseDoubt> doubt;  // none: it has never been seen
@@ -145,6 +146,10 @@ public:
     bool asleep(SessionHandle handle);
     bool touching(SessionHandle first, SessionHandle second) const;  // each other, in the last step
     void set_factors(SessionHandle handle, const BodyFactors& factors);
+    // What acts on a body at its centre of mass in every tick, as the far side's motion shows (unit: newtons).
+    void set_residual(SessionHandle handle, const Vec3& force);
+    // The velocity that gives it in a tick (unit: meters per second).
+    Vec3 helped(SessionHandle handle) const;
     double mass(SessionHandle handle) const;  // (unit: kilograms); 0 for what cannot move
     void set_touch(SessionHandle handle, const TouchMaterial& material);
     const Vec3& gravity() const { return gravity_; }
@@ -330,6 +335,7 @@ private:
     std::size_t soft_turn_ = 0;            // of those, the first in the next tick
     std::size_t slowed_soft_ = 0;          // of those, left out in the last
     std::vector<SessionHandle> pushed_;    // bodies with a push of their own
+    std::vector<SessionHandle> helped_;    // bodies with a residual
     std::vector<SessionHandle> guessed_;   // bodies that were seen to move
     std::vector<JointId> joints_;          // by handle
     std::vector<SessionHandle> magnets_;   // bodies that pull before they are touched

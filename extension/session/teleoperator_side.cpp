@@ -182,21 +182,22 @@ void TeleoperatorSide::draw_back(SessionLoop& loop, Pointer& pointer, SessionLoo
     pointer.limit.applied(hand, depth);
 }
 
+// How deep those are that nothing holds back.
 void TeleoperatorSide::note_pressed(SessionLoop& loop) {
     for (std::size_t i = 0; i < share_.most(); ++i) {
         const SessionLoop::ProxySlot& slot = slot_of(loop, i);
-        if (slot.proxy && pointers_[i].holds) {
-            const ProxyState& state = slot.state;
-            pointers_[i].limit.note(
-                hands_.leads(i) ? PressLimit::Hand::guessed : PressLimit::Hand::here,
-                state.contact_count > 0 ? glm::distance(slot.hand, state.position) : 0.0);
+        const ProxyState& state = slot.state;
+        const auto hand = hands_.leads(i) ? PressLimit::Hand::guessed : PressLimit::Hand::here;
+        if (slot.proxy && pointers_[i].holds && !pointers_[i].limit.binds(hand)) {
+            pointers_[i].limit.note(state.contact_count > 0 ? glm::distance(slot.hand, state.position) : 0.0);
         }
     }
     for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
-        if (const ToolSlot* const slot = tool_of(loop, i); slot && tools_[i].holds) {
-            tools_[i].limit.note(
-                PlayedHands::leads(*slot) ? PressLimit::Hand::guessed : PressLimit::Hand::here,
-                slot->state.contact_count > 0 ? slot->stretch(slot->state.pose) : 0.0);
+        const ToolSlot* const slot = tool_of(loop, i);
+        if (slot && tools_[i].holds &&
+            !tools_[i].limit.binds(PlayedHands::leads(*slot) ? PressLimit::Hand::guessed
+                                                             : PressLimit::Hand::here)) {
+            tools_[i].limit.note(slot->state.contact_count > 0 ? slot->stretch(slot->state.pose) : 0.0);
         }
     }
 }

@@ -273,6 +273,8 @@ bool set(const std::string& key, const std::string& value, TeleopCase& c) {
         s.stealth.bound = number;
     } else if (key == "estimate") {
         s.estimate.gain = number;
+    } else if (key == "residual") {
+        s.residual.gain = number;
     } else if (key == "fade_window") {
         s.stealth.window = number;
     } else if (key == "deadband") {

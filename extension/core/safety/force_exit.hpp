@@ -14,9 +14,7 @@
 namespace tactus {
 
 struct ForceLimits {
-    // Most change of the force besides the hand's own doing (unit: newtons per second), > 0: half a newton in
-    // a tick of a millisecond.
-    double slew = 500.0;
+    double slew = 2000.0;  // most change of the force (unit: newtons per second), > 0
     double energy = 1.0;   // most that is given to the hand at once (unit: joules), > 0
     double power = 5.0;    // and in the long run (unit: watts), > 0
 };

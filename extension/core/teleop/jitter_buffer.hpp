@@ -68,9 +68,9 @@ public:
         lag_.set({ratio_, settings.depth, settings.sparse, ticks(PlayoutLag::stretch_seconds)});
     }
     const BufferCounts& counts() const { return counts_; }
-    // Whether the hand was not there, as what was played last says: it is guessed, or on its way from where it
-    // was when some were missing.
-    bool leads() const { return led_ || (settings_.sparse && guesses()); }
+    // Sparse: whether the hand was not there, as what was played last says: it is guessed, or on its way from
+    // where it was when some were missing.
+    bool leads() const { return settings_.sparse && (led_ || guesses()); }
     // Samples between the one played last and the newest one.
     std::uint64_t depth() const {
         return ring_.newest() > played_.sequence ? ring_.newest() - played_.sequence : 0;
