@@ -54,7 +54,7 @@ void DepthSensor::show() {
     if (sensor_ != nullptr) {
         SeenBodies::Looks looks = looks_;
         looks.touch_cloud = touches_cloud();
-        seen_.update(*this, sight(), library_, looks, age());
+        seen_.update(*this, sight(), library_, looks, age(), get_process_delta_time());
     }
 }
 

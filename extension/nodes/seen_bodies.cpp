@@ -25,6 +25,9 @@ const Color unknown_color(0.85f, 0.6f, 0.2f, 1.0f);
 constexpr float support_size = 2.0f;
 constexpr float support_thickness = 0.04f;
 
+// More than the noise of a camera, and less than a hand feels of a stiff body (unit: meters, radians).
+constexpr MotionThreshold corrected{.position = 5e-5, .angle = 1e-3};
+
 Ref<ConvexPolygonShape3D> hull_shape(const TriangleMesh& mesh) {
     Ref<ConvexPolygonShape3D> shape;
     shape.instantiate();
@@ -71,32 +74,44 @@ Node3D* SeenBodies::make(const SeenForm& form) const {
     return made;
 }
 
+void SeenBodies::lead(const SightedObject& object, double age) const {
+    if (Node3D* const node = node_of(object.id)) {
+        node->set_global_transform(to_godot(pose_after(object, age)));
+    }
+}
+
 // What is pushed belongs to the loop, which is told at once; its node follows. All else goes where its node
-// is put.
-void SeenBodies::place(HapticWorld* world, const SightedObject& object, double age) const {
+// is put: that is a motion, which pushes, as far as it was seen to move. Where it was seen to be elsewhere no
+// way leads: the loop is told of that, too, and a hand is let out of it gently.
+void SeenBodies::place(HapticWorld* world, const SightedObject& object, double age, double since_last) {
     Node3D* const node = node_of(object.id);
     if (node == nullptr) {
         return;
     }
-    const BodySighting sighting{
-        {object.pose, object.linear_velocity, object.angular_velocity}, age, object.chance};
+    const BodyMotion seen{object.pose, object.linear_velocity, object.angular_velocity};
+    const auto [led, is_new] = led_.try_emplace(object.id, seen);
+    const BodyMotion before = std::exchange(led->second, seen);
+    const Pose expected = carried_on(pose_of(node->get_global_transform()), before.linear_velocity,
+                                     before.angular_velocity, since_last);
+    const bool is_free = looks_.objects == SeenAs::free_bodies;
+    const bool is_corrected = !is_new && poses_differ(expected, pose_after(object, age), corrected);
     const bool is_told =
-        looks_.objects == SeenAs::free_bodies && world != nullptr && world->see(node, sighting);
-    if (!is_told) {
-        node->set_global_transform(to_godot(pose_after(object, age)));
+        world != nullptr && (is_free || is_corrected) && world->see(node, {seen, age, object.chance});
+    if (!is_told || !is_free) {
+        lead(object, age);
     }
 }
 
 void SeenBodies::go_on(const Sight& sight, double age) {
     for (const SightedObject& object : sight.objects) {
         if (moves(object) && looks_.objects != SeenAs::free_bodies) {
-            place(nullptr, object, age);
+            lead(object, age);
         }
     }
 }
 
 void SeenBodies::update(Node3D& sensor, const Sight& sight, const SeenLibrary& library, const Looks& looks,
-                        double age) {
+                        double age, double since_last) {
     const Looks before = std::exchange(looks_, looks);
     if (before.objects != looks.objects || before.show_objects != looks.show_objects ||
         before.touch_cloud != looks.touch_cloud) {
@@ -114,9 +129,10 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, const SeenLibrary& l
     roll_.update(sight, show, free_later);
     HapticWorld* const world = HapticWorld::above(&sensor);
     for (const SightedObject& object : sight.objects) {
-        place(world, object, age);
+        place(world, object, age, since_last);
     }
-    hold_support(sensor, sight.plane, looks.objects != SeenAs::pictures || looks.touch_cloud);
+    std::erase_if(led_, [&](const auto& one) { return object_of(sight, one.first) == nullptr; });
+    hold_support(sensor, world, sight.plane, looks.objects != SeenAs::pictures || looks.touch_cloud);
     if (looks.touch_cloud) {
         touched_cloud_.update(sensor, sight.surface, looks.show_objects);
     } else {
@@ -127,7 +143,7 @@ void SeenBodies::update(Node3D& sensor, const Sight& sight, const SeenLibrary& l
 
 // What the objects stand on is a slab, and is put elsewhere only where it is seen to be: its noise would
 // shake all that stands on it.
-void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is_wanted) {
+void SeenBodies::hold_support(Node3D& sensor, HapticWorld* world, const SupportPlane& plane, bool is_wanted) {
     auto* slab = node_of_id<Node3D>(support_);
     if (!is_wanted || !plane.is_found) {
         if (!is_wanted) {
@@ -148,7 +164,13 @@ void SeenBodies::hold_support(Node3D& sensor, const SupportPlane& plane, bool is
         return;
     }
     support_plane_ = plane;
-    slab->set_global_transform(to_godot(slab_under(plane, support_thickness)));
+    const Pose place = slab_under(plane, support_thickness);
+    if (world != nullptr && !is_new) {
+        BodySighting sighting;
+        sighting.motion.pose = place;
+        world->see(slab, sighting);
+    }
+    slab->set_global_transform(to_godot(place));
 }
 
 void SeenBodies::draw_cloud(Node3D& sensor, const Sight& sight, bool is_wanted) {
@@ -173,6 +195,7 @@ Node3D* SeenBodies::node_of(std::uint64_t object) const {
 
 void SeenBodies::clear() {
     roll_.hide_all(free_later);
+    led_.clear();
     free_later(std::exchange(cloud_, 0));
     free_later(std::exchange(support_, 0));
     touched_cloud_.clear();

@@ -5,7 +5,9 @@
 #include <godot_cpp/classes/array_mesh.hpp>
 #include <godot_cpp/classes/mesh_instance3d.hpp>
 #include <godot_cpp/classes/node3d.hpp>
+#include <map>
 
+#include "core/math/body_motion.hpp"
 #include "nodes/touched_cloud.hpp"
 #include "world/seen_library.hpp"
 #include "world/sight_roll.hpp"
@@ -30,9 +32,9 @@ public:
     };
 
     // Below `sensor`, which outlives this. `age`: of the sight; what moves is where it must be by now (unit:
-    // seconds).
+    // seconds). `since_last`: since the last update or go_on (unit: seconds).
     void update(godot::Node3D& sensor, const Sight& sight, const SeenLibrary& library, const Looks& looks,
-                double age);
+                double age, double since_last);
     // The same sight, older by now: what moves has gone on.
     void go_on(const Sight& sight, double age);
     // Takes everything away.
@@ -43,16 +45,18 @@ public:
 
 private:
     godot::Node3D* make(const SeenForm& form) const;
-    void place(HapticWorld* world, const SightedObject& object, double age) const;
+    void place(HapticWorld* world, const SightedObject& object, double age, double since_last);
+    void lead(const SightedObject& object, double age) const;
     void draw_cloud(godot::Node3D& sensor, const Sight& sight, bool is_wanted);
-    void hold_support(godot::Node3D& sensor, const SupportPlane& plane, bool is_wanted);
+    void hold_support(godot::Node3D& sensor, HapticWorld* world, const SupportPlane& plane, bool is_wanted);
 
     Looks looks_;  // as of the last time
     SightRoll roll_;
     std::uint64_t cloud_ = 0;
     std::uint64_t support_ = 0;
     TouchedCloud touched_cloud_;
-    SupportPlane support_plane_;  // as it was put there last
+    std::map<std::uint64_t, BodyMotion> led_;  // by object: as it was seen last, and where its node was put
+    SupportPlane support_plane_;               // as it was put there last
 };
 
 }  // namespace tactus

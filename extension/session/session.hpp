@@ -106,8 +106,9 @@ public:
     // Pushes a dynamic body in every tick from now on: a force at its centre of mass and a torque, in the
     // world (units: newtons, newton meters).
     void set_body_push(SessionHandle body, const Vec3& force, const Vec3& torque);
-    // A dynamic body is seen: it is where it must be by now. Where nothing is simulated it goes on so until
-    // it is seen again, for longest_guess at most (core/teleop/seen_pose.hpp).
+    // A body is seen: it is where it must be by now, and no way leads there, as in teleport_body(). A dynamic
+    // one where nothing is simulated goes on so until it is seen again, for longest_guess at most
+    // (core/teleop/seen_pose.hpp).
     void see_body(SessionHandle body, const BodySighting& sighting);
     // Once, in the next tick.
     void push_body(SessionHandle body, const BodyPush& push);

@@ -343,7 +343,7 @@ bool SessionLoop::carry_out(command::SetBodyPush& c, Retired&) {
 
 bool SessionLoop::carry_out(command::SeeBody& c, Retired&) {
     Body* const seen = body(c.handle);
-    if (seen == nullptr || seen->motion != Motion::Dynamic) {
+    if (seen == nullptr) {
         return false;
     }
     const BodyMotion& then = c.sighting.motion;
@@ -352,9 +352,12 @@ bool SessionLoop::carry_out(command::SeeBody& c, Retired&) {
     const Pose now =
         moves ? carried_on(then.pose, then.linear_velocity, then.angular_velocity, age) : then.pose;
     end_travel(c.handle);
-    physics_.set_velocity(seen->id, then.linear_velocity, then.angular_velocity);
     physics_.set_pose(seen->id, now);
     place(c.handle, now, true);
+    if (seen->motion != Motion::Dynamic) {
+        return false;  // its owner leads it on
+    }
+    physics_.set_velocity(seen->id, then.linear_velocity, then.angular_velocity);
     seen->doubt = c.sighting.doubt;
     seen->guessed_until = time_ + from_seconds(longest_guess - age);
     std::erase(guessed_, c.handle);

@@ -184,6 +184,37 @@ func test_what_is_found_can_be_touched() -> void:
 		check_near(contact[0].point.y, 0.1, 0.004, "top of the cube")
 
 
+## The camera sees what is touched 4 mm higher, as where it was calibrated anew, and back again.
+func test_what_is_seen_elsewhere_while_it_is_touched_is_no_kick() -> void:
+	var world := add_world()
+	var sensor := _sensor(world)
+	sensor.knows_support = true
+	sensor.bodies = DepthSensor.BODIES_HELD
+	var cube := _drawn(HapticMesh.create_library_mesh("cube"), Vector3(0, 0.06, 0), world.get_node("Table"))
+	world.add_child(sensor)
+	check(
+		await until(func() -> bool: return _named(sensor, "cube").size() > 0, 60.0),
+		"it says: %s, and has %s" % [sensor.get_state_text(), sensor.get_objects()]
+	)
+	var hand := add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.099, 0)), 0.005)
+	world.advance(2.0)
+	check(hand.get_force().length() > 1.0, "nothing is touched: %s" % hand.get_state_text())
+	var worst := [0.0, hand.get_force()]
+	var height := func() -> float: return _named(sensor, "cube").transform.origin.y
+	var seen: float = height.call()
+	for up: float in [0.004, -0.004]:
+		cube.position.y += up
+		var is_seen_there := func() -> bool:
+			world.advance(0.001)
+			worst[0] = maxf(worst[0], hand.get_force().distance_to(worst[1]))
+			worst[1] = hand.get_force()
+			return absf(height.call() - seen - maxf(up, 0.0)) < 0.001
+		check(await until(is_seen_there, 60.0), "it is seen at %s" % height.call())
+		for _tick in 100:
+			is_seen_there.call()
+	check(worst[0] <= 0.5, "%.2f N in a tick" % worst[0])
+
+
 func test_every_source_that_is_not_there_says_what_to_do() -> void:
 	var sensor := DepthSensor.new()
 	add_child(sensor)

@@ -188,6 +188,7 @@ private:
     void judge(const ProxyState& state);
     void event();
     void teleport();
+    void see();
     void come_or_go();
     void change_hands();
     void change_workspace();
@@ -307,6 +308,17 @@ void KickPlay::teleport() {
                           pose_.rotation}
                    : near_hand(1.2 * size_ + radius_);
     session_.teleport_body(body_, pose_);
+}
+
+// By a camera that has moved, or by what it is seen by.
+void KickPlay::see() {
+    const double off = random_.magnitude(1e-4, 0.02);
+    pose_.position += off * random_.direction();
+    pose_.rotation =
+        glm::normalize(turn_by(random_.direction(), random_.between(0.0, 0.05)) * pose_.rotation);
+    BodySighting sighting;
+    sighting.motion.pose = pose_;
+    session_.see_body(body_, sighting);
 }
 
 void KickPlay::come_or_go() {
@@ -430,6 +442,9 @@ void KickPlay::event() {
             session_.deform_body(body_, session_.prepare_body(body(form_, pose_, Motion::Static)));
             break;
         }
+        case KickCase::seen:
+            see();
+            break;
         case KickCase::squeezed:
         case KickCase::crosses:
             break;
@@ -548,7 +563,7 @@ KickFigures KickPlay::play() {
 std::string_view name_of(KickCase kick) {
     constexpr std::string_view names[] = {"appears",  "teleports", "grows",   "squeezed",
                                           "vanishes", "stiffens",  "deforms", "crosses",
-                                          "hands",    "workspace", "tool"};
+                                          "hands",    "workspace", "tool",    "seen"};
     return names[static_cast<std::size_t>(kick)];
 }
 

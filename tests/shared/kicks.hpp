@@ -1,8 +1,9 @@
 // What a hand must never feel: a kick because the scene changed. Whole sessions in virtual time, with a
 // device that keeps the force it is given; a body of any form appears over the hand, is put elsewhere, leaves
 // no room; the sphere grows; a material changes; a mesh deforms; pointers come, go and change hands; the
-// device's workspace is put elsewhere; all that to a tool in place of a sphere. And a hand that only drags,
-// from one surface to another one that is as much softer or stiffer as can be.
+// device's workspace is put elsewhere; all that to a tool in place of a sphere; a camera sees a body
+// elsewhere than it was. And a hand that only drags, from one surface to another one that is as much softer
+// or stiffer as can be.
 #pragma once
 
 #include <cstdint>
@@ -22,12 +23,13 @@ enum class KickCase {
     hands,
     workspace,
     tool,
+    seen,
 };
 
 inline constexpr KickCase kick_cases[] = {KickCase::appears,   KickCase::teleports, KickCase::grows,
                                           KickCase::squeezed,  KickCase::vanishes,  KickCase::stiffens,
                                           KickCase::deforms,   KickCase::crosses,   KickCase::hands,
-                                          KickCase::workspace, KickCase::tool};
+                                          KickCase::workspace, KickCase::tool,      KickCase::seen};
 
 std::string_view name_of(KickCase kick);
 
