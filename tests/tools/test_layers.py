@@ -50,7 +50,7 @@ FORBIDDEN = [
 ]
 # The compiler's own vectors are 70,000 lines of core/; Jolt and Godot come with 60,000 to 80,000.
 MOST_LINES = {
-    "binding": 75_000, "core": 175_000, "platform": 90_000, "realtime": 180_000, "physics": 215_000, "devices": 100_000,
+    "binding": 75_000, "core": 175_000, "platform": 90_000, "realtime": 180_000, "physics": 215_000, "devices": 105_000,
     "network": 120_000, "sensing": 120_000, "session": 190_000, "world": 200_000, "nodes": 215_000,
 }  # fmt: skip
 LAYERS = ["core", "platform", "realtime", "physics", "devices", "network", "session", "world", "sensing"]
