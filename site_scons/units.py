@@ -2,7 +2,7 @@
 
 Compiling a file of 200 lines takes some four seconds, three of which go into the 150,000 lines of headers before it. A
 unit includes up to AT_A_TIME sources of the same folder, so that these are read once. What each source may include does
-not change by that; that each of them still stands alone, `./run test layers` shows.
+not change by that; that each header still stands alone, `./run test layers` shows.
 """
 
 from pathlib import Path

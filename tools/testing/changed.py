@@ -7,17 +7,16 @@ anything that is not compiled has changed, else the files that have.
 
 import hashlib
 import json
-import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from setup import cache
+from testing import cpp_suite
 
 _FILE = cache.clone() / "build/last_green.json"
 _PROGRAMS = "build/template_debug/tests/"
 _COMPILED = (".cpp", ".hpp", ".h")
-_TEST = re.compile(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", re.M)
 
 
 @dataclass
@@ -80,8 +79,7 @@ def _tests_in(path: str) -> list[str]:
     source = cache.clone() / path
     if not path.endswith("_test.cpp") or not source.is_file():
         return []
-    layer = Path(path).parts[1]
-    return [f"cpp.{layer}.{suite}.{test}" for suite, test in _TEST.findall(source.read_text())]
+    return cpp_suite.named_in(source)
 
 
 def _digests() -> dict[str, str]:

@@ -46,9 +46,14 @@ def _named_in_sources() -> list[str]:
     tests = cache.clone() / "tests"
     found = []
     for path in sorted(tests.rglob("*_test.cpp")):
-        layer = path.relative_to(tests).parts[0]
-        found += [f"cpp.{layer}.{suite}.{test}" for suite, test in _TEST.findall(path.read_text())]
+        found += named_in(path)
     return found
+
+
+def named_in(source: Path) -> list[str]:
+    """The tests of a file of tests/, without their parameters."""
+    layer = source.relative_to(cache.clone() / "tests").parts[0]
+    return [f"cpp.{layer}.{suite}.{test}" for suite, test in _TEST.findall(source.read_text())]
 
 
 def run(
