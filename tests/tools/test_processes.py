@@ -75,6 +75,25 @@ def test_who_waits_for_what_it_has_started_can_save_what_it_has(tmp_path):
     assert time.monotonic() - begun < 25.0  # not the 30 s of what it has started
 
 
+LATE = """
+import os, signal, sys
+sys.path.insert(0, {tools!r})
+from setup import processes
+wait = os.waitpid
+def waited(*which):
+    found = wait(*which)
+    os.kill(os.getpid(), signal.SIGHUP)
+    return found
+os.waitpid = waited
+sys.exit(processes.kept(lambda: 3))
+"""
+
+
+def test_a_signal_may_come_when_the_work_has_just_ended():
+    done = subprocess.run([sys.executable, "-c", LATE.format(tools=str(cache.clone() / "tools"))], text=True, capture_output=True, timeout=60)
+    assert done.returncode == 3, done.stderr
+
+
 @pytest.fixture
 def clone(tmp_path):
     """With the clone's own script for packages, and an apt-get beside it that takes its time."""

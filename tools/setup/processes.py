@@ -35,7 +35,7 @@ def kept(work: Callable[[], int]) -> int:
         _leave_with(work if os.getppid() == keeper else lambda: 1)
     for number in _ENDING:
         if signal.getsignal(number) != signal.SIG_IGN:
-            signal.signal(number, lambda number, _: os.kill(child, number))
+            signal.signal(number, lambda number, _: _signal(child, number))
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     for number in _ENDING:
         signal.signal(number, signal.SIG_IGN)
