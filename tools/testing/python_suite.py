@@ -12,7 +12,7 @@ from pathlib import Path
 from setup import cache
 from testing.results import Result, matching
 
-AT_A_TIME = 2  # they build in folders of their own, or wait their turn
+AT_A_TIME = 3  # they build in folders of their own, or wait for processes and their turn
 
 
 def has(wanted: str) -> bool:
@@ -34,10 +34,11 @@ def run(wanted: str, is_reached: Callable[[str], bool] = lambda _: True) -> list
     if not chosen:
         return []
     # Files stay whole: their fixtures are made once.
-    files = list(dict.fromkeys(_file(name) for name in chosen))
-    shares = [[names[name] for name in chosen if _file(name) in files[start::AT_A_TIME]] for start in range(AT_A_TIME)]
+    files: dict[str, list[str]] = {}
+    for name in chosen:
+        files.setdefault(name.split(".")[1], []).append(names[name])
     with ThreadPoolExecutor(AT_A_TIME) as pool:
-        return sum(pool.map(_run, filter(None, shares)), [])
+        return sum(pool.map(_run, sorted(files.values(), key=len, reverse=True)), [])
 
 
 def _run(identities: list[str]) -> list[Result]:
@@ -52,10 +53,6 @@ def _run(identities: list[str]) -> list[Result]:
 def _pytest(*arguments: str) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--rootdir", ".", *arguments]
     return subprocess.run(command, cwd=cache.clone() / "tests/tools", text=True, capture_output=True)
-
-
-def _file(name: str) -> str:
-    return name.split(".")[1]
 
 
 def _name(identity: str) -> str:
