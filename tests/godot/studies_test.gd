@@ -389,5 +389,6 @@ func test_a_guided_path_is_measured_trial_by_trial_and_goes_on_after_a_crash() -
 	check_equal(off.size(), 3, "conditions")
 	check(off[0.0] > 1.0, "the hand's own path is off the line by %s mm" % off[0.0])
 	for number in [1, 2, 3]:
-		var ticks := _rows(study.file.folder.path_join("trial_%03d.csv" % number))
-		check(ticks.size() > 2000, "ticks of trial %d: %d" % [number, ticks.size()])
+		var path: String = study.file.folder.path_join("trial_%03d.csv" % number)
+		var ticks := FileAccess.get_file_as_string(path).count("\n") - 1
+		check(ticks > 2000, "ticks of trial %d: %d" % [number, ticks])
