@@ -249,6 +249,8 @@ func _run_scene(scene: Node) -> int:
 	statistics["recorded_rows"] = recorder.get_rows()
 	statistics["lost_rows"] = recorder.get_lost_rows()
 	var problems := world.get_problems()
+	if recorder.get_problem() != "":
+		problems.append(recorder.get_problem())
 	if not _has_ticked:
 		problems.append("there was not one tick")
 	for problem in problems:

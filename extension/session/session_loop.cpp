@@ -560,6 +560,7 @@ void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
     row.hand = state.hand;
     row.proxy_position = state.position;
     row.force = state.force;
+    row.displayed = devices_[proxies_[recording.proxy].description.device].force;
     row.proxy_status = state.status;
     row.contacts = static_cast<std::uint32_t>(state.contact_count);
     if (const Body* object = body(recording.object)) {

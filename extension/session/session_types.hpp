@@ -212,7 +212,8 @@ struct SessionRecord {
     SessionHandle proxy = no_handle;
     Vec3 hand{0.0};             // in the world (unit: meters)
     Vec3 proxy_position{0.0};   // in the world (unit: meters)
-    Vec3 force{0.0};            // on the hand, in the world (unit: newtons)
+    Vec3 force{0.0};            // that the proxy asks for, in the world (unit: newtons)
+    Vec3 displayed{0.0};        // that its device was given by all limits, in the world (unit: newtons)
     Vec3 object_position{0.0};  // of the followed body (unit: meters); zero where none is followed
     Quat object_rotation{1.0, 0.0, 0.0, 0.0};
     std::uint32_t proxy_status = 0;

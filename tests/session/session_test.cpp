@@ -131,6 +131,25 @@ TEST(Session, RecordsEveryTickOldestFirstAndCountsWhatIsLost) {
     EXPECT_EQ(ring.drain([](const SessionRecord&) {}), 0u);
 }
 
+TEST(Session, ARecordHasWhatIsAskedForAndWhatIsDisplayed) {
+    SessionRig rig;
+    rig.add(ground());
+    RecorderRing<SessionRecord> ring(1024);
+    rig.session.record(ring, rig.proxy, no_handle);
+    rig.device.position = {0.0, 0.05, 0.0};
+    rig.ticks(10);
+    Workspace workspace;
+    workspace.force_limit = 2.0;
+    rig.session.set_workspace(rig.hand, workspace);
+    rig.device.position = {0.0, -0.01, 0.0};
+    rig.ticks(500);
+    SessionRecord last;
+    ring.drain([&](const SessionRecord& row) { last = row; });
+    EXPECT_NEAR(last.force.y, 10.0, 0.1);
+    EXPECT_NEAR(last.displayed.y, 2.0, 1e-9);
+    EXPECT_EQ(last.displayed, rig.device.force);
+}
+
 TEST(Session, SeveralRecordingsGoOnSideBySide) {
     SessionRig rig;
     std::deque<RecorderRing<SessionRecord>> rings;
