@@ -300,6 +300,7 @@ void Endpoint::end_tick() {
     } else if (now_ < often_until_) {
         next_request_ = std::min(next_request_, now_ + often_every);
     }
+    statistics_.clock = clock_.figures_at(local_now_);
     measure_rates(now_);
 }
 
