@@ -124,6 +124,7 @@ namespace heard {
 struct Tick {
     Nanoseconds now = 0;
     std::uint32_t commands = 0;
+    Nanoseconds late = 0;  // it began so long after `now`
 };
 // Between ticks.
 struct Settle {
@@ -400,7 +401,7 @@ inline constexpr int members<call::WriteRows> = 1;
 template <>
 inline constexpr int members<call::RowsWritten> = 2;
 template <>
-inline constexpr int members<heard::Tick> = 2;
+inline constexpr int members<heard::Tick> = 3;
 template <>
 inline constexpr int members<heard::Settle> = 1;
 template <>

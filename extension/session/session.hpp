@@ -174,8 +174,9 @@ public:
     // --- loop side
     // --------------------------------------------------------------------------------------------------
 
-    // One tick at `now`, a time that rises by the period. `trace` may be null.
-    TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr);
+    // One tick at `now`, a time that rises by the period. `trace` may be null. `late`: how long after `now`
+    // it begins, for what is recorded (unit: nanoseconds).
+    TickStatus tick(Nanoseconds now, TickTrace* trace = nullptr, Nanoseconds late = 0);
 
     // Where ticks stop for a while, or for good: devices are given no force, and the snapshot says so. A hand
     // that is elsewhere when they go on begins anew there, without a kick.

@@ -57,7 +57,7 @@ SessionLoop::SessionLoop(const SessionSettings& settings, TripleBuffer<SessionSn
     hands_.reserve(max_proxies + max_tools);
 }
 
-TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
+TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace, Nanoseconds late) {
     TACTUS_ASSERT_HAPTIC_THREAD();
     ++tick_;
     time_ = now;
@@ -110,7 +110,7 @@ TickStatus SessionLoop::tick(Nanoseconds now, TickTrace* trace) {
     if (recording_count_ > 0) {
         const TraceScope scope(trace, TickStage::append_record);
         for (const Recording& recording : std::span(recordings_).first(recording_count_)) {
-            append_record(recording, now);
+            append_record(recording, now, late);
         }
     }
     return std::exchange(status_, 0u);
@@ -549,13 +549,14 @@ std::uint64_t SessionLoop::outcome() const {
     return hash.value();
 }
 
-void SessionLoop::append_record(const Recording& recording, Nanoseconds now) {
+void SessionLoop::append_record(const Recording& recording, Nanoseconds now, Nanoseconds late) {
     if (recording.proxy >= max_proxies || !proxies_[recording.proxy].proxy) {
         return;
     }
     const ProxyState& state = proxies_[recording.proxy].state;
     SessionRecord row;
     row.time = now;
+    row.ran = now + late;
     row.proxy = recording.proxy;
     row.hand = state.hand;
     row.proxy_position = state.position;

@@ -109,7 +109,7 @@ public:
     // After the first bodies have come in and before the first tick.
     void settle() { physics_.settle_broad_phase(); }
 
-    TickStatus tick(Nanoseconds now, TickTrace* trace);
+    TickStatus tick(Nanoseconds now, TickTrace* trace, Nanoseconds late);
 
     // See Session.
     void rest();
@@ -326,7 +326,7 @@ private:
     void step_soft();
     void guess();
     void publish(Nanoseconds now);
-    void append_record(const Recording& recording, Nanoseconds now);
+    void append_record(const Recording& recording, Nanoseconds now, Nanoseconds late);
     void describe(ProxySlot& slot, const ProxyTick& tick);
 
     SessionSettings settings_;

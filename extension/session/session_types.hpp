@@ -208,7 +208,8 @@ const typename States::value_type* state_of(const States& states, std::size_t co
 
 // One row of a recording: a proxy and, where a body is followed, that body (thesis 4.5).
 struct SessionRecord {
-    Nanoseconds time = 0;  // the tick's time on the session's clock
+    Nanoseconds time = 0;  // when the tick was due, on the session's clock
+    Nanoseconds ran = 0;   // when it began, on that clock: `time` where no clock drives the session
     SessionHandle proxy = no_handle;
     Vec3 hand{0.0};             // in the world (unit: meters)
     Vec3 proxy_position{0.0};   // in the world (unit: meters)

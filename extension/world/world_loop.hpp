@@ -35,7 +35,7 @@ public:
     // Stepped time: ticks at once, here. `between` is called now and then, before any ring is full.
     void advance(std::int64_t ticks, const std::function<void()>& between);
     // One tick, here; nobody else ticks.
-    void tick_once() { tick(next_time_); }
+    void tick_once() { tick(next_time_, 0); }
 
     // Every tick is timed from now on. Empty text, or why the loop could not go on.
     std::string trace_ticks();
@@ -58,7 +58,7 @@ public:
 
 private:
     static TickStatus tick_function(void* self, Nanoseconds scheduled);
-    TickStatus tick(Nanoseconds now);
+    TickStatus tick(Nanoseconds now, Nanoseconds late);
 
     Session& session_;
     bool real_time_;
