@@ -167,12 +167,14 @@ std::unique_ptr<InputRecording> HapticWorld::record_inputs(const SessionSettings
         return nullptr;
     }
     ++starts_;
+    inputs_problem_ = String();
     const String path = starts_ == 1 ? inputs_path_
                                      : inputs_path_.get_basename() + "_" + String::num_int64(starts_) + "." +
                                            inputs_path_.get_extension();
     return InputRecording::open(
         whole_path(path), settings, [id = get_instance_id()](const std::string& what) {
-            if (const auto* const world = node_of_id<HapticWorld>(id)) {
+            if (auto* const world = node_of_id<HapticWorld>(id)) {
+                world->inputs_problem_ = to_godot(what);
                 UtilityFunctions::push_warning(name_of(*world), ": ", to_godot(what), ".");
             }
         });

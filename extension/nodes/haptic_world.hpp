@@ -45,6 +45,7 @@ public:
     godot::Dictionary get_period_distribution() const;
     godot::Dictionary get_baseline_period_distribution() const;
     godot::PackedStringArray get_problems() const;
+    godot::String get_inputs_problem() const { return inputs_problem_; }
 
     // Bodies of this world, as RigidBody3D has it. Forces act for the time of one frame. A body comes as a
     // Variant, so that one that has been freed is an error and no pointer to freed memory.
@@ -123,6 +124,7 @@ private:
     bool measure_baseline_ = false;
     godot::String inputs_path_;
     int starts_ = 0;  // with inputs that are recorded
+    godot::String inputs_problem_;
 
     // Null while nothing runs: in the editor, always. Shared with whoever is at work in it.
     std::shared_ptr<WorldRun> run_;
