@@ -25,7 +25,7 @@ std::shared_ptr<const TouchImage> image_of(const Ref<Texture2D>& texture) {
 }  // namespace
 
 void HapticMaterial::set_preset(Preset preset) {
-    if (preset < PRESET_CUSTOM || preset > PRESET_SPONGE) {
+    if (preset < PRESET_CUSTOM || preset > PRESET_FOAM) {
         refuse(*this, "preset", static_cast<int64_t>(preset), "one of the constants PRESET_…");
         return;
     }

@@ -24,6 +24,10 @@ public:
         PRESET_SANDPAPER = static_cast<int64_t>(MaterialPreset::sandpaper),
         PRESET_STEEL = static_cast<int64_t>(MaterialPreset::steel),
         PRESET_SPONGE = static_cast<int64_t>(MaterialPreset::sponge),
+        PRESET_WOOD = static_cast<int64_t>(MaterialPreset::wood),
+        PRESET_GLASS = static_cast<int64_t>(MaterialPreset::glass),
+        PRESET_SKIN = static_cast<int64_t>(MaterialPreset::skin),
+        PRESET_FOAM = static_cast<int64_t>(MaterialPreset::foam),
     };
 
     TACTUS_PROPERTIES(HapticMaterial)
