@@ -10,7 +10,8 @@ const Run := preload("res://launcher/run.gd")
 const Replay := preload("res://experiments/replay.gd")
 
 ## Each row of the form: its words, the choice, and what can be chosen: texts to values, an enumeration, or a
-## range of numbers with its step; nothing: any text.
+## range of numbers with its step and, where it is shown in another unit, what one of that is; nothing: any
+## text.
 const ROWS := [
 	["Scenario", "scenario", Launch.SCENARIOS],
 	[
@@ -26,7 +27,7 @@ const ROWS := [
 	["File with the key", "key_file", null],
 	["Delay, there and back (ms)", "delay_ms", [0, 2000, 1]],
 	["Jitter (ms)", "jitter_ms", [0, 500, 1]],
-	["Loss (share)", "loss", [0, 1, 0.01]],
+	["Loss (%)", "loss", [0, 100, 1, 0.01]],
 	["Correction", "correction", Launch.CORRECTIONS],
 	["Derivation", "derivation", Launch.DERIVATIONS],
 	["Control scheme", "control", Launch.CONTROLS],
@@ -110,9 +111,11 @@ func _number(limits: Array, choice: String) -> SpinBox:
 	box.min_value = limits[0]
 	box.max_value = limits[1]
 	box.step = limits[2]
-	box.value = _launch.chosen[choice]
+	var unit: float = limits[3] if limits.size() > 3 else 1.0
+	box.value = _launch.chosen[choice] / unit
 	box.value_changed.connect(
-		func(value: float) -> void: _choose(choice, type_convert(value, typeof(_launch.chosen[choice])))
+		func(value: float) -> void:
+			_choose(choice, type_convert(value * unit, typeof(_launch.chosen[choice])))
 	)
 	return box
 
