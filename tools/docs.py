@@ -1,4 +1,5 @@
 """./run docs --figures: makes each table anew that a command makes (doc_tables/make.py).
+./run docs --pictures: draws the pictures of docs/pictures/ anew (docs_pictures.py).
 ./run docs: README.md, docs/ and the class reference as pages in build/docs/, made by Sphinx.
 
 Sphinx, for it reads Markdown (by MyST), checks every reference between pages, writes plain files that work from a folder as well
@@ -19,8 +20,8 @@ from setup import cache
 # Pages by the shelf they stand on beside every page. README.md is the first page.
 CONTENTS = {
     "Guide": [
-        "guide", "install", "addon", "existing_project", "hardware", "platforms", "vr", "performance", "threads", "csharp", "migration",
-        "safety", "faq", "troubleshooting", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera",
+        "guide", "install", "addon", "editor", "gallery", "existing_project", "hardware", "platforms", "vr", "performance", "threads", "csharp",
+        "migration", "safety", "faq", "troubleshooting", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera",
         "tutorials/own_force_effect", "tutorials/own_driver", "tutorials/own_experiment", "studies",
     ],
     "Reference": ["classes/index", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
@@ -44,6 +45,11 @@ def main(arguments: list[str]) -> int:
 
         changed = tables.all_tables()
         print(f"{len(changed)} tables are others than they were{': ' if changed else ''}{', '.join(changed)}")
+        return 0
+    if "--pictures" in arguments:
+        import docs_pictures
+
+        print(f"docs/pictures: {', '.join(docs_pictures.make())}")
         return 0
     source = cache.emptied(cache.clone() / "build/docs_source")
     write(source)
