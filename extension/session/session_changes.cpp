@@ -408,7 +408,9 @@ bool SessionLoop::carry_out(command::AddDevice& c, Retired&) {
 }
 
 bool SessionLoop::carry_out(command::SetWorkspace& c, Retired&) {
-    devices_[c.handle].workspace = c.workspace;
+    DeviceSlot& slot = devices_[c.handle];
+    slot.workspace = c.workspace;
+    slot.wanted_stiffness = slot.used_stiffness = 0.0;  // another scale makes other walls of them
     note_hand_change(c.handle);
     return false;
 }

@@ -224,8 +224,10 @@ private:
         HandSafety safety;
         SafeForce safe;
         double carried = 0.0;  // of the weight of its arm (unit: newtons)
-        // Of what is touched, the last that was not safe (unit: newtons per meter).
+        // Of the walls that were pressed last, the one of which most was not safe; 0: all were (unit: newtons
+        // per meter).
         double wanted_stiffness = 0.0, used_stiffness = 0.0;
+        bool has_pressed = false;  // a wall, in this tick
         bool was_held = false;
 
         // A device is there from its first reading on, and a moment longer than its last: what it touches is
