@@ -272,7 +272,12 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
     // Like a guide, a field has half of what is left, and walls have the rest.
     const HandMotion motion{slot.hand, slot.hand_velocity};
     const Wall field = safe_wall(lag, 0.5 * unled, slot.field.begin_tick(now));
-    const Vec3 field_force = slot.field.force(motion, field);
+    const double most_damping =
+        device.capabilities.feels
+            ? std::min(HandField::thickest,
+                       damping_in_scene(device.workspace, device.capabilities.max_damping))
+            : HandField::thickest;
+    const Vec3 field_force = slot.field.force(motion, field, most_damping);
     const double left = unled - damping_needed(field.stiffness, lag) - field.damping;
     force = contact_force(scene_, slot.proxy->touching(), tick.slide, slot.hand_velocity, seconds_,
                           {lag, left, slot.description.finger.stiffness});
