@@ -8,11 +8,13 @@
 
 namespace tactus::stand_ins {
 
-// The force of `force` becomes that: `most_step` notes how far it jumps.
+// The force of `force` becomes that: `most_step` notes how far it jumps where it grows. It may go at once.
 inline void set_force(std::atomic<double> (&force)[3], std::atomic<double>& most_step, double x, double y,
                       double z) {
     const double step = std::hypot(x - force[0], y - force[1], z - force[2]);
-    most_step = std::max(most_step.load(), step);
+    if (std::hypot(x, y, z) > std::hypot(force[0], force[1], force[2])) {
+        most_step = std::max(most_step.load(), step);
+    }
     force[0] = x;
     force[1] = y;
     force[2] = z;
