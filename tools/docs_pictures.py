@@ -17,6 +17,7 @@ SCREEN = "1440x1200x24"
 PLUGIN = '[plugin]\n\nname="Pictures"\ndescription=""\nauthor=""\nversion=""\nscript="editor_pictures.gd"\n'
 # Of what is seen from a distance, and of what is read (unit: pixels).
 WIDTH_OF_SCENES = 960
+FRAME_MS = 83  # of the moving one
 TIME_LIMIT = 900  # (unit: seconds)
 
 
@@ -63,7 +64,13 @@ def _keep(made: Path) -> list[str]:
 
     FOLDER.mkdir(exist_ok=True)
     names = []
-    for file in sorted(made.glob("*.png")):
+    moving = sorted(made.glob("*-*.png"))
+    for name in sorted({file.stem.partition("-")[0] for file in moving}):
+        frames = [Image.open(file).convert("RGB") for file in moving if file.stem.startswith(f"{name}-")]
+        rest = {"append_images": frames[1:], "duration": FRAME_MS, "loop": 0}
+        frames[0].save(FOLDER / f"{name}.webp", save_all=True, quality=60, method=6, **rest)
+        names.append(name)
+    for file in sorted(set(made.glob("*.png")) - set(moving)):
         picture = Image.open(file).convert("RGB")
         if file.stem.startswith(("scene_", "rig_")):
             picture = picture.resize((WIDTH_OF_SCENES, picture.height * WIDTH_OF_SCENES // picture.width), Image.Resampling.LANCZOS)

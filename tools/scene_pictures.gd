@@ -6,6 +6,7 @@ const Gallery := preload("res://gallery/gallery.gd")
 const Stepping := preload("res://gallery/stage/stepping.gd")
 const RIG := "res://addons/tactus/HapticRig.tscn"
 const OVERLAY := "res://addons/tactus/overlay/overlay.tscn"
+const SIZE := Vector2i(1280, 720)
 const FRAME := 1.0 / 60.0
 const FINDS_WITHIN := 120.0
 
@@ -33,6 +34,21 @@ const GALLERY := {
 }
 ## With the mouse at a place of the rig's table.
 const RIG_TOUCHES := {"rig_ball": Vector3(-0.14, 0.06, -0.02), "rig_cushion": Vector3(0.16, 0.02, -0.03)}
+## A hand that strokes the rig's table, ball and cushion and comes back: where it goes, in the device's frame.
+const MOVING_WAY: Array[Vector3] = [
+	Vector3(0.02, -0.05, 0.06),
+	Vector3(-0.1, -0.108, 0.05),
+	Vector3(-0.16, -0.05, 0.0),
+	Vector3(-0.14, -0.04, -0.06),
+	Vector3(-0.03, -0.06, 0.02),
+	Vector3(0.06, -0.108, 0.03),
+	Vector3(0.15, -0.06, 0.0),
+	Vector3(0.17, -0.08, -0.05),
+	Vector3(0.1, -0.04, 0.04),
+]
+const MOVING_FRAMES := 72
+const MOVING_STEP := 1.0 / 12.0
+const MOVING_SIZE := Vector2i(640, 360)
 ## Pages, and how long they need in real time.
 const PAGES := {
 	"menu": ["res://main.tscn", 1.0],
@@ -52,7 +68,7 @@ var _folder := ""
 
 
 func _initialize() -> void:
-	root.size = Vector2i(1280, 720)
+	root.size = SIZE
 	_run.call_deferred()
 
 
@@ -62,6 +78,8 @@ func _run() -> void:
 	for called: String in RIG_TOUCHES:
 		if asked.is_empty() or called in asked:
 			await _rig(called, RIG_TOUCHES[called])
+	if asked.is_empty() or "rig_moving" in asked:
+		await _rig_moving("rig_moving")
 	for called: String in PAGES:
 		if asked.is_empty() or called in asked:
 			await _page(called, PAGES[called][0], PAGES[called][1])
@@ -86,6 +104,36 @@ func _rig(called: String, at: Vector3) -> void:
 	device.aim_mouse(camera.unproject_position(at), depth)
 	await _play(worlds, 1.5)
 	await _save(called)
+	scene.free()
+
+
+## One picture for each twelfth of a second.
+func _rig_moving(called: String) -> void:
+	var scene := _added(RIG)
+	var worlds := Stepping.hold(scene)
+	var path := HapticPath.new()
+	path.form = HapticPath.FORM_POINTS
+	var way := PackedVector3Array(MOVING_WAY)
+	way.append(MOVING_WAY[0])
+	path.points_positions = way
+	path.points_times = PackedFloat64Array(
+		range(way.size()).map(
+			func(i: int) -> float: return i * MOVING_FRAMES * MOVING_STEP / (way.size() - 1)
+		)
+	)
+	var device: HapticDevice = scene.get_node("HapticWorld/HapticDevice")
+	device.path = path
+	device.driver = HapticDevice.DRIVER_PATH
+	root.size = MOVING_SIZE
+	for frame in MOVING_FRAMES:
+		RenderingServer.render_loop_enabled = false
+		await _play(worlds, MOVING_STEP)
+		RenderingServer.render_loop_enabled = true
+		await process_frame
+		await RenderingServer.frame_post_draw
+		root.get_texture().get_image().save_png(_folder.path_join("%s-%03d.png" % [called, frame]))
+	print("PICTURE ", called)
+	root.size = SIZE
 	scene.free()
 
 
