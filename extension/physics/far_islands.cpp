@@ -98,7 +98,7 @@ float FarIslands::distance(const JPH::Body& body) const {
 }
 
 void FarIslands::survey_islands() {
-    islands_.assign(awake_count(), Island{std::numeric_limits<float>::max(), 0, false, false});
+    islands_.assign(awake_count(), Island{std::numeric_limits<float>::max(), 0, false, false, true, {}});
     for (const JPH::BodyID id : awake()) {
         Island* island = island_of(id);
         if (island == nullptr)
@@ -107,7 +107,81 @@ void FarIslands::survey_islands() {
         ++island->bodies;
         // A body that moves as told is told anew for every step.
         island->stays |= !body(id).IsDynamic();
+        island->calm = island->calm && but_rests(body(id));
+        island->last = id;
     }
+}
+
+// Each of its points goes less than `all_but_still` in a long step.
+bool FarIslands::but_rests(const JPH::Body& body) const {
+    constexpr double all_but_still = 1e-3;  // (unit: meters)
+    const float speed =
+        body.GetLinearVelocity().Length() +
+        body.GetAngularVelocity().Length() * body.GetShape()->GetLocalBounds().GetExtent().Length();
+    return speed * seconds_ * turns < units::length(all_but_still);
+}
+
+// Nothing that it collides with is near its way in the next long step. What is awake itself may come towards
+// it as fast as it goes.
+bool FarIslands::flies_freely(const JPH::Body& body) const {
+    class Any final : public JPH::CollideShapeBodyCollector {
+    public:
+        Any(const FarIslands& far, JPH::BodyID except, const JPH::AABox& way)
+            : far_(far), except_(except), way_(way) {}
+        void AddHit(const JPH::BodyID& id) override {
+            const JPH::Body& other = far_.body(id);
+            const bool moves = other.IsActive() || far_.holds(other);
+            if (id != except_ && (moves || other.GetWorldSpaceBounds().Overlaps(way_))) {
+                found = true;
+                ForceEarlyOut();
+            }
+        }
+        bool found = false;
+
+    private:
+        const FarIslands& far_;
+        JPH::BodyID except_;
+        JPH::AABox way_;
+    };
+    constexpr double beside = 2e-3;  // (unit: meters)
+    const float seconds = seconds_ * turns;
+    const JPH::Vec3 fall =
+        body.GetMotionProperties()->GetGravityFactor() * seconds * seconds * system_.GetGravity();
+    const JPH::Vec3 way = seconds * body.GetLinearVelocity() + fall;
+    JPH::AABox swept = body.GetWorldSpaceBounds();
+    JPH::AABox there = swept;
+    there.Translate(way);
+    swept.Encapsulate(there);
+    // What turns is no wider than its longest diagonal.
+    const float turning =
+        body.GetAngularVelocity().Length() * seconds * body.GetShape()->GetLocalBounds().GetExtent().Length();
+    swept.ExpandBy(JPH::Vec3::sReplicate(units::length(beside) + turning));
+    JPH::AABox wide = swept;
+    wide.ExpandBy(JPH::Vec3::sReplicate(way.Length()));
+    Any any(*this, body.GetID(), swept);
+    system_.GetBroadPhaseQuery().CollideAABox(wide, any,
+                                              system_.GetDefaultBroadPhaseLayerFilter(body.GetObjectLayer()),
+                                              system_.GetDefaultLayerFilter(body.GetObjectLayer()));
+    return !any.found;
+}
+
+bool FarIslands::may_wait(const Island& island) const {
+    return !island.stays && (island.calm || (island.bodies == 1 && flies_freely(body(island.last))));
+}
+
+// A long step of n short ones falls by g (n dt)^2, and these by g dt^2 n (n + 1) / 2.
+void FarIslands::as_in_short_steps(JPH::Body& flown) const {
+    constexpr float same = 1e-3f;  // share of the velocity that gravity gives
+    const JPH::MotionProperties& motion = *flown.GetMotionProperties();
+    const JPH::Vec3 gravity = motion.GetGravityFactor() * system_.GetGravity();
+    const JPH::Vec3 fallen = seconds_ * turns * gravity;
+    const JPH::Vec3 rest = motion.GetLinearVelocity() - kept(flown).linear - fallen;
+    if (rest.LengthSq() > same * same * fallen.LengthSq())
+        return;  // something else has acted on it
+    constexpr float n = turns;
+    system_.GetBodyInterfaceNoLock().SetPosition(
+        flown.GetID(), flown.GetPosition() - 0.5f * n * (n - 1.0f) * seconds_ * seconds_ * gravity,
+        JPH::EActivation::DontActivate);
 }
 
 // Null for what the last step did not know.
@@ -128,9 +202,13 @@ void FarIslands::choose(std::size_t most) {
                                                             : a < b;
     });
     std::size_t chosen = 0;
+    std::size_t looks = 2 * most;
     for (const std::uint32_t i : order_) {
-        if (chosen > 0 && chosen + islands_[i].bodies > most)
+        if ((chosen > 0 && chosen + islands_[i].bodies > most) || chosen >= most || looks == 0)
             break;
+        looks -= islands_[i].calm ? 0 : 1;
+        if (!may_wait(islands_[i]))
+            continue;
         islands_[i].chosen = true;
         chosen += islands_[i].bodies;
     }
@@ -203,9 +281,10 @@ private:
     const FarIslands& far_;
 };
 
-void FarIslands::plan() {
+void FarIslands::plan(double seconds) {
     if (full_rate_ == 0)
         return;
+    seconds_ = static_cast<float>(seconds);
     changed_.clear();
     turn_ = (turn_ + 1) % turns;
     stage_ = Stage::begin;
@@ -267,14 +346,16 @@ void FarIslands::end_turn() {
     if (stage_ == Stage::bodies)
         turn.contacts.bytes = {0, 0};
     save(turn.contacts, stage_ == Stage::bodies ? 0 : 1);
+    for (const JPH::BodyID id : awake())
+        as_in_short_steps(body(id));
     survey_islands();
     const std::size_t low = full_rate_ - full_rate_ / 4;
     const bool all_return = waiting_.size() + awake_count() <= low;
     list_.assign(awake().begin(), awake().end());
     for (const JPH::BodyID id : list_) {
         const Island* island = island_of(id);
-        const bool goes_on = !all_return && island != nullptr && !island->stays &&
-                             island->distance > squared_length(returns_within);
+        const bool goes_on = !all_return && island != nullptr &&
+                             island->distance > squared_length(returns_within) && may_wait(*island);
         if (goes_on)
             send_away(id, Keep::in_turn, turn.bodies);
         else {

@@ -11,6 +11,11 @@
 // a body, or changes it, wakes it as it would one that sleeps, and it is given its velocity back. An island
 // is never divided: one of many hundred bodies takes its step at once, and a pile under the hand all of them.
 //
+// A long step must not change what comes of it. So only such islands are set aside as all but rest (a point
+// of theirs goes less than a millimeter in a long step), and single bodies whose way through the air meets
+// nothing; these end up where short steps would have led them. Everything else takes every step, however far
+// from a hand: what slides, what collides, what is about to.
+//
 // Places and counts decide, never a clock: the same on every run.
 #pragma once
 
@@ -35,6 +40,8 @@ namespace tactus {
 class FarIslands {
 public:
     static constexpr std::uint32_t turns = 16;
+    // Of the solver in a long step: what a stack begins with is sixteen times as far from right.
+    static constexpr int iterations = 24;
 
     // full_rate 0: never sets anything aside and takes no memory.
     FarIslands(JPH::PhysicsSystem& system, std::vector<BodyRecord*>& records, std::uint32_t full_rate);
@@ -58,13 +65,13 @@ public:
     bool release(JPH::Body& body, bool give_velocity_back);
 
     // After each step at the full rate:
-    //     far.plan();
+    //     far.plan(seconds);
     //     while (far.begin_turn()) {
     //         ... a step of `turns` times the length, of nobody but those whose turn it is ...
     //         far.end_turn();
     //     }
     //     far.finish();
-    void plan();
+    void plan(double seconds);  // the length of that step
     bool begin_turn();
     void end_turn();
     void finish();
@@ -90,6 +97,8 @@ private:
         std::uint32_t bodies;
         bool stays;  // something in it has to take every step
         bool chosen;
+        bool calm;         // all of it but rests
+        JPH::BodyID last;  // of its bodies
     };
 
     // As Jolt writes them, in up to two parts.
@@ -114,6 +123,10 @@ private:
     std::span<const JPH::BodyID> awake() const;
     std::size_t awake_count() const;
     float distance(const JPH::Body& body) const;
+    bool but_rests(const JPH::Body& body) const;
+    bool flies_freely(const JPH::Body& body) const;
+    bool may_wait(const Island& island) const;
+    void as_in_short_steps(JPH::Body& body) const;
     void survey_islands();
     Island* island_of(JPH::BodyID id);
     void choose(std::size_t most);
@@ -125,6 +138,7 @@ private:
     JPH::PhysicsSystem& system_;
     std::vector<BodyRecord*>& records_;
     std::size_t full_rate_;
+    float seconds_ = 0.0f;  // of a short step
     std::uint32_t turn_ = 0;
     std::size_t count_ = 0;
     bool exchanging_ = false;

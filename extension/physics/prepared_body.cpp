@@ -162,6 +162,8 @@ PreparedBody prepare(const BodyDescription& description) {
     auto record = std::make_unique<BodyRecord>();
     record->collision = description.collision;
     record->may_be_dynamic = may_turn_dynamic(description);
+    record->linear_damping = description.linear_damping;
+    record->angular_damping = description.angular_damping;
     JPH::BodyCreationSettings settings;
     if (needs_motion(description)) {
         const SolidProperties solid = solid_of(description, *converted.shape);
@@ -188,8 +190,7 @@ PreparedBody prepare(const BodyDescription& description) {
     settings.mAllowSleeping = description.can_sleep;
     settings.mFriction = stored_friction(description.material);
     settings.mRestitution = stored_restitution(description.material);
-    settings.mLinearDamping = static_cast<float>(description.linear_damping);
-    settings.mAngularDamping = static_cast<float>(description.angular_damping);
+    settings.mLinearDamping = settings.mAngularDamping = 0.0f;  // implicit_damping.hpp
     settings.mMaxLinearVelocity = units::length(limits::fastest);
     settings.mMaxAngularVelocity = static_cast<float>(limits::fastest_spin);
     settings.mGravityFactor =
@@ -205,6 +206,8 @@ PreparedBody duplicate(const PreparedBody& body) {
     record->collision = original.collision;
     record->may_be_dynamic = original.may_be_dynamic;
     record->mass = original.mass;
+    record->linear_damping = original.linear_damping;
+    record->angular_damping = original.angular_damping;
     record->mass_properties = original.mass_properties;
     JPH::BodyCreationSettings settings = original.body->GetBodyCreationSettings();
     // Not the inverse of the inverse, which is off by a bit.
