@@ -391,8 +391,8 @@ std::uint32_t PhysicsWorld::step(double seconds) {
     std::uint32_t status = impl_->update(seconds, impl_->settings.velocity_iterations);
     impl_->remove_pushes();
     impl_->far.plan(seconds);
-    while (impl_->far.begin_turn()) {
-        status |= impl_->update(seconds * FarIslands::turns, FarIslands::iterations);
+    while (const SlowRate* rate = impl_->far.begin_turn()) {
+        status |= impl_->update(seconds * rate->steps, rate->iterations);
         impl_->far.end_turn();
     }
     impl_->far.finish();

@@ -35,7 +35,7 @@ struct SessionSettings {
     std::uint32_t max_bodies = 4096;  // that may be in the session at once
     std::uint32_t max_parts = 8192;   // shapes of all of them together
     // When more are awake, physics far from every hand takes fewer, longer steps (PhysicsSettings).
-    std::uint32_t full_rate_bodies = 64;
+    std::uint32_t full_rate_bodies = 32;
     // Taken from the owner in one tick; the rest waits for the next. A dynamic body that comes counts as
     // four: it is awake at first, and its contacts are new.
     std::uint32_t commands_per_tick = 64;

@@ -114,7 +114,45 @@ TEST(FarIslands, WhatIsSlowedDoesNotFallThrough) {
     }
 }
 
-// What slides takes every step, so it stops where it would alone, within 1 %.
+// Their speed asks for more than one step of 16 ms, but not for each.
+TEST(FarIslands, WhatMovesSlowlyTakesEveryFourthStep) {
+    Field field(200, 64);
+    field.throw_all({1.0, 0.0, 0.0});
+    run(field.world, 60);
+    EXPECT_GE(field.world.slowed_count(), 100u);
+    int moved_first = 0;
+    int moved_last = 0;
+    for (int i = 0; i < 32; ++i) {
+        const double first = field.place(0).x;
+        const double last = field.place(199).x;
+        field.world.step(tick);
+        moved_first += field.place(0).x != first ? 1 : 0;
+        moved_last += field.place(199).x != last ? 1 : 0;
+    }
+    EXPECT_EQ(moved_first, 32);
+    EXPECT_EQ(moved_last, 8);
+}
+
+// Without slip after 2/7 of its speed is gone, whichever steps it takes.
+TEST(FarIslands, SlowedBallsRollAsTheyWouldAlone) {
+    PhysicsWorld world(limited(64));
+    add(world, ground());
+    std::vector<BodyId> ids;
+    for (int i = 0; i < 200; ++i) {
+        BodyDescription body = ball(0.04, {0.3 * (i % 16), 0.04, 0.3 * static_cast<double>(i / 16)}, 0.5);
+        body.material.friction = 0.5;
+        body.linear_velocity = {0.7, 0.0, 0.0};
+        ids.push_back(add(world, body));
+    }
+    run(world, 500);
+    EXPECT_GE(world.slowed_count(), 100u);
+    for (const BodyId id : ids) {
+        EXPECT_NEAR(world.linear_velocity(id).x, 0.5, 0.005);
+        EXPECT_NEAR(world.angular_velocity(id).z * -0.04, 0.5, 0.005);
+    }
+}
+
+// What slides stops where it would alone, within 1 %, whichever steps it takes.
 TEST(FarIslands, FastOnesEndWhereTheyWouldAlone) {
     Field crowd(200, 64);
     Field alone(1, 64);

@@ -10,7 +10,7 @@ namespace {
 
 PhysicsSettings crowded() {
     PhysicsSettings settings;
-    settings.full_rate_bodies = 64;
+    settings.full_rate_bodies = 32;
     return settings;
 }
 
