@@ -137,7 +137,8 @@ void ForceSlot::aim_reading(const ForceCommand& command) {
 
 Nanoseconds ForceSlot::next_reading() const {
     const ForceCommand& command = commands_.front();
-    return command.looked_at + tick_.load(std::memory_order_relaxed) - lead_;
+    const Nanoseconds tick = tick_.load(std::memory_order_relaxed);
+    return command.looked_at == 0 || tick == 0 ? 0 : command.looked_at + tick - lead_;
 }
 
 // The thread that sends forces may still be at it: it begins anew with its next one.

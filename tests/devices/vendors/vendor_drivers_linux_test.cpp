@@ -130,6 +130,14 @@ TEST(ForceDimension, ALoopThatIsTooSlowIsGivenNoForceAndAReason) {
     EXPECT_EQ(device.health().text, "");
 }
 
+// Before the loop's first tick, too: its reading was due at a time below zero, for which no kernel waits.
+TEST(ForceDimension, ALoopThatIsTooSlowHasTheDeviceBeforeItsFirstTick) {
+    DriverDevice device(std::make_unique<ForceDimensionDriver>(""));
+    device.set_pace({10 * one_tick, true});
+    EXPECT_TRUE(wait_until([&] { return device.health().readings > 5; }));
+    EXPECT_NE(device.health().text.find("'tick_rate'"), std::string::npos) << device.health().text;
+}
+
 // The owner waits no longer than for a tenth of a second; what the thread uses lives on.
 TEST(ForceDimension, ALibraryThatHangsIsLeftBehindAndThatIsSaid) {
     static std::string told;
@@ -263,7 +271,8 @@ TEST(OpenHaptics, TwoDevicesShareTheScheduler) {
         };
         EXPECT_TRUE(tick_until(two, {1.0, 0.0, 0.0}, [&](const DeviceSample& sample) {
             one.read(0);
-            one.write(0, {1.0, 0.0, 0.0});
+            // The second one is looked for while the first gives no force.
+            one.write(0, sample.connected ? Vec3(1.0, 0.0, 0.0) : Vec3(0.0));
             return both(sample);
         }));
     }
