@@ -22,7 +22,7 @@ from testing.results import Result, matching
 FOLDER = cache.clone() / "tests/godot"
 PROJECT = cache.clone() / "demo_project"
 RELEASED = ["first_touch_test", "misuse_test", "random_calls_test", "scripts_test", "turns_test"]
-EDITED = ["editor_test"]
+EDITED = ["citizen_editor_test", "editor_test"]
 NEED_EYES = ["scenario5_test", "sensing_test"]
 MAIN_SCENE = """[gd_scene load_steps=2 format=3]
 
