@@ -131,7 +131,11 @@ void SessionLoop::place(SessionHandle handle, const BodyMotion& now, bool telepo
 
 void SessionLoop::note_state(SessionHandle handle, const BodyMotion& now) {
     const std::uint32_t state = state_of_[handle];
-    states_[state] = {handle, now.pose, now.linear_velocity, now.angular_velocity};
+    states_[state] = {.handle = handle,
+                      .pose = now.pose,
+                      .linear_velocity = now.linear_velocity,
+                      .angular_velocity = now.angular_velocity,
+                      .asked = bodies_[handle].asked};
     note_change(state);
 }
 

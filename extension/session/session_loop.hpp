@@ -49,6 +49,7 @@ public:
         std::optional<PoseDoubt> doubt;  // none: it has never been seen
         Nanoseconds guessed_until = 0;   // it goes on as it was seen to
         std::shared_ptr<SoftSlot> soft;  // null: it does not give; else the one that owns `shape`
+        std::uint32_t asked = 0;         // see BodyState::asked
     };
 
     // What touching the scene gives a hand.
@@ -243,6 +244,7 @@ private:
     bool carry_out(command::DeformBody& c, Retired& retired);
     bool carry_out(command::NarrowTouch& c, Retired& retired);
     bool carry_out(command::TeleportBody& c, Retired&);
+    bool carry_out(command::ShiftBody& c, Retired&);
     bool carry_out(command::MoveBody& c, Retired&);
     bool carry_out(command::SetBodyVelocity& c, Retired&);
     bool carry_out(command::SetTouchMaterial& c, Retired& retired);
@@ -276,6 +278,7 @@ private:
     void take_forms();
     void travel();
     void follow_physics();
+    void put(SessionHandle handle, const Pose& pose);
     void place(SessionHandle handle, const Pose& pose, bool teleport);
     void place(SessionHandle handle, const BodyMotion& now, bool teleport);
     void show_state(SessionHandle handle);

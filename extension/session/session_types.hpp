@@ -100,6 +100,8 @@ struct BodyState {
     Vec3 linear_velocity{0.0};     // (unit: meters per second)
     Vec3 angular_velocity{0.0};    // (unit: radians per second)
     std::uint64_t changed_at = 0;  // tick
+    // So many teleport_body(), shift_body() and set_body_velocity() have been carried out on it.
+    std::uint32_t asked = 0;
 };
 
 // Bits of ProxyState::status besides ProxyStatus, with a link: what is between the model's force and the
