@@ -29,6 +29,7 @@ public:
     std::string start(const TickLoopSettings& settings, bool baseline);
     void stop();
     bool is_running() const { return loop_.running(); }
+    const TickLoopSettings& settings() const { return settings_; }  // as it was started last
     // A thread of its own makes the ticks, or will.
     bool is_real_time() const { return real_time_; }
 
