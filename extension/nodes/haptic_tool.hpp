@@ -66,6 +66,7 @@ public:
     using Touched = TouchedBodies<ToolState::max_contacts>;
     void take_state(const ToolState& state, const Touched::Ids& bodies);
     void clear_state();
+    void end_contact(std::uint64_t node) { touched_.end(*this, node); }
     bool is_kept_out() const { return has(tool_absent); }
     void clear_force();
 

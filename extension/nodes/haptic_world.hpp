@@ -66,7 +66,6 @@ public:
     godot::Vector3 get_linear_velocity(const godot::Variant& body) const;
     godot::Vector3 get_angular_velocity(const godot::Variant& body) const;
 
-    void _process(double seconds) override;
     godot::PackedStringArray _get_configuration_warnings() const override;
 
     // --- for the other nodes
@@ -94,7 +93,7 @@ protected:
 private:
     // What a change of a property asks for. It is done at the beginning of the next frame, or of advance():
     // many changes at once are one start, and none happens while something of the world is in use.
-    enum class Change { none, loop, world };
+    enum class Change : std::uint8_t { none, loop, world };
 
     // By the script's `method`; for_a_frame: see RunningWorld::push().
     void push(const char* method, const godot::Variant& body, const BodyPush& push, bool for_a_frame);
@@ -111,6 +110,9 @@ private:
     std::unique_ptr<InputRecording> record_inputs(const SessionSettings& settings);
     void start_loop();
     TickLoopSettings loop_settings() const;
+    bool is_urgent() const;
+    // In every frame. No virtual method: a script's _process() would take its place.
+    void process(double seconds);
     void node_added(const godot::Variant& node);
     void node_removed(const godot::Variant& node);
     void report_status(double seconds);

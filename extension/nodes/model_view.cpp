@@ -17,9 +17,23 @@ namespace {
 
 const Color picture_color(0.28F, 0.32F, 0.38F);
 
+// Rigid bodies below it stay where they are. May call a script, which may free any of them.
 void place(const ModelRoll::Shown& shown, const Pose& pose) {
-    if (auto* node = node_of_id<Node3D>(shown.node)) {
-        node->set_global_transform(to_godot(pose, shown.scaling));
+    auto* node = node_of_id<Node3D>(shown.node);
+    if (node == nullptr) {
+        return;
+    }
+    std::vector<std::pair<std::uint64_t, Transform3D>> below;
+    for (const std::uint64_t id : shown.carried) {
+        if (const auto* carried = node_of_id<Node3D>(id); carried != nullptr && carried->is_inside_tree()) {
+            below.emplace_back(id, carried->get_global_transform());
+        }
+    }
+    node->set_global_transform(to_godot(pose, shown.scaling));
+    for (const auto& [id, at] : below) {
+        if (auto* carried = node_of_id<Node3D>(id); carried != nullptr && carried->is_inside_tree()) {
+            carried->set_global_transform(at);
+        }
     }
 }
 
@@ -78,6 +92,11 @@ ModelRoll::Shown ModelView::show(const std::string& name, const ModelRoll::Form&
     if (const CollisionObject3D* body = scene_body(name)) {
         shown.node = body->get_instance_id();
         shown.scaling = scaling_of(frame_of(body->get_global_transform()));
+        for_each_below(*body, [&shown](const Node& node) {
+            if (Object::cast_to<RigidBody3D>(&node) != nullptr) {
+                shown.carried.push_back(node.get_instance_id());
+            }
+        });
     } else {
         shown.node = make_picture(name, form)->get_instance_id();
         shown.is_picture = true;
@@ -92,7 +111,7 @@ std::vector<ModelNews> ModelView::update(const std::vector<ModelObject>& objects
         hide);
 }
 
-void ModelView::show(const BodyState& state, std::uint64_t) {
+void ModelView::show(const BodyState& state, std::uint64_t, Session&) {
     ModelRoll::Shown* const shown = roll_.shown(state.handle);
     if (shown == nullptr || std::exchange(shown->changed_at, state.changed_at) == state.changed_at) {
         return;

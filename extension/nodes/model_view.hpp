@@ -24,7 +24,7 @@ public:
     SessionHandle body_of(std::uint64_t node) const override { return roll_.body_of(node); }
     std::uint64_t node_of(SessionHandle body) const override { return roll_.node_of(body); }
     std::size_t body_count() const override { return roll_.size(); }
-    void show(const BodyState& state, std::uint64_t tick) override;
+    void show(const BodyState& state, std::uint64_t tick, Session& session) override;
     // Takes the pictures away, too.
     void release(Session& session) override;
 

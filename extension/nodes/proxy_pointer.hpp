@@ -62,6 +62,7 @@ public:
     using Touched = TouchedBodies<HandForce::max_contacts>;
     void take_state(const ProxyState& state, const Touched::Ids& bodies);
     void clear_state();
+    void end_contact(std::uint64_t node) { touched_.end(*this, node); }
     // Its hand began inside a body.
     bool is_kept_out() const { return has(proxy_absent); }
     void clear_force() { state_.force = Vec3(0.0); }

@@ -33,6 +33,8 @@ public:
         bool is_picture = false;       // made for it; else it is a body of the scene
         Mat3 scaling{1.0};             // that the node keeps
         std::uint64_t changed_at = 0;  // BodyState::changed_at that is shown
+        // Nodes of rigid bodies below it, parents first: physics moves each by itself.
+        std::vector<std::uint64_t> carried = {};
     };
     using Show = std::function<Shown(const std::string& name, const Form& form)>;
     using Hide = std::function<void(const Shown& shown)>;
