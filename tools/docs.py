@@ -24,7 +24,7 @@ CONTENTS = {
         "migration", "safety", "faq", "troubleshooting", "tutorials/falcon", "tutorials/two_computers", "tutorials/depth_camera",
         "tutorials/own_force_effect", "tutorials/own_driver", "tutorials/own_experiment", "studies",
     ],
-    "Reference": ["classes/index", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
+    "Reference": ["classes/index", "godot_physics", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
     "Results": [
         "reproduce", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "devices", "sensing", "discovery", "stress", "proof",
     ],

@@ -15,7 +15,7 @@ using namespace godot;
 namespace {
 
 // A property that is used where it is another number than `unused`: a vector counts by its length, a flag as
-// 0 or 1, a list by its size.
+// 0 or 1.
 struct PassedProperty {
     const char* kind;
     const char* property;
@@ -23,11 +23,10 @@ struct PassedProperty {
     const char* why;
 };
 
-constexpr PassedProperty properties[] = {
+constexpr PassedProperty passed_properties[] = {
     {"RigidBody3D", "custom_integrator", 0,
      "'custom_integrator' is not carried out, the world's own forces and damping go on: switch it off, and "
-     "set "
-     "'gravity_scale' and the damping to 0 where a script moves the body"},
+     "set 'gravity_scale' and the damping to 0 where a script moves the body"},
     {"RigidBody3D", "contact_monitor", 0,
      "'contact_monitor' reports nothing (body_entered, get_colliding_bodies()): ask "
      "HapticWorld.intersect_sphere(), or listen to 'contact_started' of a ProxyPointer"},
@@ -66,12 +65,11 @@ struct PassedKind {
     const char* kind;
     const char* why;
 };
-constexpr PassedKind kinds[] = {
+constexpr PassedKind passed_kinds[] = {
     {"GridMap", "a GridMap is not carried over: give its tiles as StaticBody3D nodes with shapes"},
     {"SoftBody3D",
      "a SoftBody3D is not carried over: put a HapticSoftBody below a StaticBody3D in its place, with its "
-     "mesh and "
-     "its pinned points"},
+     "mesh and its pinned points"},
     {"PhysicalBone3D",
      "a PhysicalBone3D is not carried over: give the bone as a RigidBody3D with joints, or as an "
      "AnimatableBody3D that follows the skeleton"},
@@ -119,7 +117,8 @@ bool calls(const String& source, const char* method) {
     for (int64_t at = source.find(call); at >= 0; at = source.find(call, at + 1)) {
         const String before = source.substr(std::max<int64_t>(0, at - 5), std::min<int64_t>(5, at));
         const String last = before.right(1);
-        if (before == "self." || (last != "." && last != "_" && !last.is_valid_identifier())) {
+        if (before == String("self.") ||
+            (last != String(".") && last != String("_") && !last.is_valid_identifier())) {
             return true;
         }
     }
@@ -149,8 +148,7 @@ void add_exceptions(const Node& node, std::vector<std::string>& found) {
     if (body != nullptr && !body->get_collision_exceptions().is_empty()) {
         found.push_back(
             "its collision exceptions are not carried out: give the two bodies layers and masks that leave "
-            "each "
-            "other out");
+            "each other out");
     }
 }
 
@@ -172,7 +170,7 @@ void add_signals(const Node& node, std::vector<std::string>& found) {
 
 std::vector<std::string> passed_over(const Node& node) {
     std::vector<std::string> found;
-    for (const PassedKind& kind : kinds) {
+    for (const PassedKind& kind : passed_kinds) {
         if (node.is_class(kind.kind)) {
             found.emplace_back(kind.why);
         }
@@ -181,7 +179,7 @@ std::vector<std::string> passed_over(const Node& node) {
         found.push_back("a " + from_godot(node.get_class()) +
                         " is not carried over: bake its collision shape (menu CSG) into a StaticBody3D");
     }
-    for (const PassedProperty& one : properties) {
+    for (const PassedProperty& one : passed_properties) {
         if (node.is_class(one.kind) && number_of(node.get(one.property)) != one.unused) {
             found.emplace_back(one.why);
         }
