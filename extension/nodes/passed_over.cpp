@@ -1,12 +1,15 @@
 #include "nodes/passed_over.hpp"
 
 #include <algorithm>
+#include <godot_cpp/classes/joint3d.hpp>
 #include <godot_cpp/classes/physics_body3d.hpp>
 #include <godot_cpp/classes/rigid_body3d.hpp>
 #include <godot_cpp/variant/array.hpp>
 #include <span>
 
 #include "nodes/conversions.hpp"
+#include "nodes/haptic_world.hpp"
+#include "nodes/tree_walk.hpp"
 
 namespace tactus {
 
@@ -143,9 +146,20 @@ void add_calls(const Node& node, std::vector<std::string>& found) {
     }
 }
 
+// A joint makes Godot's exceptions for the two that it joins, and is carried out.
+bool is_joined(const Node& body) {
+    const HapticWorld* const world = HapticWorld::above(&body);
+    return world != nullptr && find_below(*world, [&body](Node& one) {
+                                   const auto* joint = Object::cast_to<Joint3D>(&one);
+                                   return joint != nullptr && joint->get_exclude_nodes_from_collision() &&
+                                          (joint->get_node_or_null(joint->get_node_a()) == &body ||
+                                           joint->get_node_or_null(joint->get_node_b()) == &body);
+                               }) != nullptr;
+}
+
 void add_exceptions(const Node& node, std::vector<std::string>& found) {
     auto* const body = Object::cast_to<PhysicsBody3D>(const_cast<Node*>(&node));
-    if (body != nullptr && !body->get_collision_exceptions().is_empty()) {
+    if (body != nullptr && !body->get_collision_exceptions().is_empty() && !is_joined(node)) {
         found.push_back(
             "its collision exceptions are not carried out: give the two bodies layers and masks that leave "
             "each other out");

@@ -206,7 +206,7 @@ std::vector<std::string> problems_across(const HapticWorld& world) {
         const auto* joint = Object::cast_to<Joint3D>(&node);
         for (const NodePath& path : joint != nullptr ? std::vector{joint->get_node_a(), joint->get_node_b()}
                                                      : std::vector<NodePath>()) {
-            const Node* body = path.is_empty() ? nullptr : joint->get_node_or_null(path);
+            Node* const body = path.is_empty() ? nullptr : joint->get_node_or_null(path);
             if (body != nullptr && world.is_ancestor_of(body)) {
                 all.push_back(name + "stands outside of the HapticWorld that moves '" +
                               from_godot(String(body->get_name())) +

@@ -225,14 +225,14 @@ void SessionLoop::take_forms() {
 
 bool SessionLoop::carry_out(command::TeleportBody& c, Retired&) {
     if (Body* const moved = body(c.handle)) {
-        put(c.handle, written(scene_.body(moved->slot).pose, c.pose, c.axes));
+        put(c.handle, written(physics_.pose(moved->id), c.pose, c.axes));
     }
     return false;
 }
 
 bool SessionLoop::carry_out(command::ShiftBody& c, Retired&) {
     if (Body* const moved = body(c.handle)) {
-        put(c.handle, shifted(scene_.body(moved->slot).pose, c.by, c.turn));
+        put(c.handle, shifted(physics_.pose(moved->id), c.by, c.turn));
     }
     return false;
 }

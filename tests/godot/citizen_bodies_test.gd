@@ -247,27 +247,6 @@ func test_a_body_that_turns_is_not_made_anew() -> void:
 	)
 
 
-func test_a_scaled_body_of_a_library_mesh_turns_and_is_not_made_anew() -> void:
-	var world := add_world()
-	var body := RigidBody3D.new()
-	body.freeze = true
-	body.freeze_mode = RigidBody3D.FREEZE_MODE_KINEMATIC
-	body.physics_material_override = material(500.0)
-	var touched := HapticMesh.new()
-	touched.library_mesh = "cube"
-	touched.use_library_mass = true
-	touched.scale = Vector3(1.3, 1.3, 1.3)
-	body.add_child(touched)
-	world.add_child(body)
-	world.advance(TICK)
-	var built: int = world.get_statistics().bodies_made
-	for i in 200:
-		body.rotate_y(0.01)
-		touched.rotate_x(0.0)
-		world.advance(TICK)
-	check_equal(int(world.get_statistics().bodies_made), built, "bodies that were made")
-
-
 func test_a_followed_mesh_that_changes_in_place_is_felt() -> void:
 	for kind in 2:
 		var world := add_world()
