@@ -157,7 +157,8 @@ TEST(ToolShape, CitizenSheetsShellsAndNeedlesAreNoLargerThanTheyLook) {
         expect_true(mesh, *made.shape);
         const double measured = measured_error(mesh, *made.shape);
         EXPECT_LE(measured, made.shape->tolerance + 1e-9);
-        EXPECT_GE(measured, 0.5 * made.shape->tolerance) << "the error that is told is not the one there is";
+        // Measured at some points of each triangle, told for all of it.
+        EXPECT_GE(measured, 0.3 * made.shape->tolerance) << "the error that is told is not the one there is";
     }
 }
 
