@@ -62,7 +62,8 @@ func _scenes(folder: String) -> PackedStringArray:
 ## What scripts made into a scene for its look is not stored with it.
 func test_a_scene_that_is_saved_is_as_small_as_it_was() -> void:
 	var scenes := _scenes("res://gallery")
-	scenes.append_array(_scenes("res://scenes"))
+	scenes.append_array(_scenes("res://studies"))
+	scenes.append_array(_scenes("res://experiments"))
 	check(scenes.size() > 30, "only %d scenes" % scenes.size())
 	for file in scenes:
 		var scene: Node = (load(file) as PackedScene).instantiate(PackedScene.GEN_EDIT_STATE_MAIN)

@@ -4,7 +4,7 @@ extends "test_case.gd"
 
 const ADDON := "res://addons/tactus"
 ## Nodes in space that have no extent of their own, or are not for the editor.
-const WITHOUT_EXTENT := ["HapticFeedback", "BodyWatch"]
+const WITHOUT_EXTENT := ["HapticFeedback", "BodyWatch", "InputWatch"]
 
 static var _edited := 0
 

@@ -116,10 +116,12 @@ void list_values() {
 
     constructor<Dictionary>();
     same<Array (Dictionary::*)() const>(&Dictionary::keys);
+    same<Dictionary (Dictionary::*)(bool) const>(&Dictionary::duplicate);
     same<Variant& (Dictionary::*)(const Variant&)>(&Dictionary::operator[]);
     same<Variant (Dictionary::*)(const Variant&, const Variant&) const>(&Dictionary::get);
     same<const Variant& (Dictionary::*)(const Variant&) const>(&Dictionary::operator[]);
 
+    constructor<NodePath, const NodePath&>();
     constructor<NodePath, const String&>();
     constructor<NodePath>();
     same<bool (NodePath::*)() const>(&NodePath::is_empty);
