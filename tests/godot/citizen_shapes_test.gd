@@ -218,3 +218,39 @@ func test_a_moving_body_that_collides_as_its_hull_says_so() -> void:
 			var is_said := "\n".join(world.get_problems()).contains("convex hull")
 			check_equal(is_said, mesh != ball and not freeze, "said of %s, frozen: %s" % [mesh, freeze])
 			world.free()
+
+
+func _felt_with(image: Texture2D, is_friction: bool, on_surface: bool) -> String:
+	var world := add_world()
+	var felt := material(500.0)
+	felt.set("friction_image" if is_friction else "texture_image", image)
+	felt.texture_depth = 1e-4
+	var body := with_shape(StaticBody3D.new(), box(Vector3.ONE)) as StaticBody3D
+	if on_surface:
+		var touched := HapticMesh.new()
+		touched.mesh = BoxMesh.new()
+		touched.surface_materials = [felt]
+		body.add_child(touched)
+	else:
+		body.physics_material_override = felt
+	world.add_child(body)
+	world.advance(TICK)
+	var problems := "\n".join(world.get_problems())
+	world.free()
+	return problems
+
+
+func test_a_texture_without_an_image_is_said() -> void:
+	for on_surface: bool in [false, true]:
+		for is_friction: bool in [false, true]:
+			for without: Texture2D in [PlaceholderTexture2D.new(), AtlasTexture.new()]:
+				var problems := _felt_with(without, is_friction, on_surface)
+				var name := "friction_image" if is_friction else "texture_image"
+				check(problems.contains("'%s'" % name), "of %s it says: %s" % [without, problems])
+			var noise := NoiseTexture2D.new()
+			noise.noise = FastNoiseLite.new()
+			var image := ImageTexture.create_from_image(Image.create_empty(4, 4, false, Image.FORMAT_L8))
+			var ramp := GradientTexture2D.new()
+			ramp.gradient = Gradient.new()
+			for sound: Texture2D in [image, noise, ramp]:
+				check_equal(_felt_with(sound, is_friction, on_surface), "", "said of %s" % sound)
