@@ -227,9 +227,6 @@ func test_a_body_that_turns_is_not_made_anew() -> void:
 	var body := with_shape(StaticBody3D.new(), box(Vector3(0.2, 0.2, 0.2)), Vector3.ZERO)
 	body.scale = Vector3(2, 1, 2)
 	body.physics_material_override = material(500.0)
-	var touched := HapticMesh.new()
-	touched.library_mesh = HapticMesh.get_library_names()[0]
-	touched.name = "Touched"
 	world.add_child(body)
 	var proxy := add_hand(world, path(Vector3(0, 0.2, 0), Vector3(0, 0.105, 0), 0.1))
 	proxy.contact_ended.connect(func(_body: Variant) -> void: _ended += 1)
