@@ -1,6 +1,7 @@
 #include "world/body_mirrors.hpp"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <unordered_set>
 #include <utility>
 
@@ -14,13 +15,17 @@ constexpr Turns looks{.frames_a_round = 128, .min = 4, .max = 32};
 // Speeds are cheaper to ask for, and a throw should not wait.
 constexpr Turns looks_at_speeds{.frames_a_round = 16, .min = 12, .max = 256};
 
-// Whether a body that gives can lie on it: on solids alone.
+// Whether a body that gives can lie on it: on solids alone, not on another one of its kind.
 bool bears(const BodyForm& form) {
     return form.soft == nullptr && form.meshes.empty() && form.touched.empty() &&
            std::ranges::all_of(form.shapes, [](const PlacedShape& placed) {
                return !std::holds_alternative<ConvexHullShape>(placed.shape) &&
                       !std::holds_alternative<HeightFieldShape>(placed.shape);
            });
+}
+
+bool are_near(const BodyTwin& a, const BodyTwin& b) {
+    return glm::distance(a.pose().position, b.pose().position) < a.reach() + b.reach();
 }
 
 // Calls come(id) for what has come, in the order of `there`; what has gone is let go.
@@ -262,7 +267,10 @@ std::vector<std::pair<SceneBody*, std::string>> BodyMirrors::fallen_through() co
         }
         for (const auto& other : bodies_) {
             const bool meets = (soft->twin().values().layers.mask & other->twin().values().layers.layer) != 0;
-            if (other != soft && meets && other->body() != nullptr && !bears(other->twin().planned().form)) {
+            const bool is_apart =
+                other->twin().planned().form.soft != nullptr && !are_near(soft->twin(), other->twin());
+            if (other != soft && meets && !is_apart && other->body() != nullptr &&
+                !bears(other->twin().planned().form)) {
                 all.emplace_back(body,
                                  "it falls through '" + other->body()->name() +
                                      "', whose shape bears no body that gives: give that one boxes, spheres, "

@@ -193,6 +193,30 @@ func test_what_a_soft_body_falls_through_is_said() -> void:
 		world.free()
 
 
+func _sponge(at: Vector3) -> StaticBody3D:
+	var soft := HapticSoftBody.new()
+	var brick := BoxMesh.new()
+	brick.size = Vector3.ONE * 0.1
+	soft.mesh = brick
+	soft.cells = 3
+	var body := StaticBody3D.new()
+	body.position = at
+	body.add_child(soft)
+	return body
+
+
+func test_soft_bodies_that_meet_are_said_and_others_not() -> void:
+	for apart: float in [0.12, 0.3]:
+		var world := add_world()
+		add_floor(world)
+		world.add_child(_sponge(Vector3(0, 0.06, 0)))
+		world.add_child(_sponge(Vector3(0, 0.06 + apart, 0)))
+		world.advance(TICK)
+		var is_said := "\n".join(world.get_problems()).contains("falls through")
+		check_equal(is_said, apart < 0.2, "said at a distance of %s m" % apart)
+		world.free()
+
+
 ## A U: its convex hull is a block.
 func _u_mesh() -> ArrayMesh:
 	var tool := SurfaceTool.new()

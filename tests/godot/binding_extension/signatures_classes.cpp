@@ -296,6 +296,8 @@ void list_classes() {
 
     same<Error (Object::*)(const StringName&, const Callable&, uint32_t)>(&Object::connect);
     same<String (Object::*)() const>(&Object::get_class);
+    same<TypedArray<Dictionary> (Object::*)(const StringName&) const>(&Object::get_signal_connection_list);
+    same<Variant (Object::*)() const>(&Object::get_script);
     same<Variant (Object::*)(const StringName&) const>(&Object::get);
     same<Variant (Object::*)(const StringName&, const Array&)>(&Object::callv);
     same<bool (Object::*)(const String&) const>(&Object::is_class);
@@ -306,6 +308,7 @@ void list_classes() {
     same<void (Object::*)(const StringName&, const Callable&)>(&Object::disconnect);
     same<void (Object::*)(const StringName&, const Variant&)>(&Object::set);
 
+    same<TypedArray<PhysicsBody3D> (PhysicsBody3D::*)()>(&PhysicsBody3D::get_collision_exceptions);
     same<bool (PhysicsBody3D::*)(PhysicsServer3D::BodyAxis) const>(&PhysicsBody3D::get_axis_lock);
 
     same<bool (PhysicsMaterial::*)() const>(&PhysicsMaterial::is_absorbent);
