@@ -4,9 +4,7 @@ extends "test_case.gd"
 
 
 func _dock() -> Control:
-	for control: Node in EditorInterface.get_base_control().find_children(
-		"*", "ScrollContainer", true, false
-	):
+	for control: Node in EditorInterface.get_base_control().find_children("*", "Container", true, false):
 		if control.has_method("show_figures"):
 			return control
 	return null

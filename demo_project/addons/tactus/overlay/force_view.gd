@@ -2,6 +2,8 @@ extends Node3D
 ## Shows the force on a hand in the scene itself: an arrow at the proxy, and a bar with its size. Put it below
 ## a ProxyPointer or a HapticTool. Where that is below its HapticDevice, or names it, the force is the one
 ## that the device is given, within all of its limits.
+@warning_ignore_start("inferred_declaration", "untyped_declaration", "return_value_discarded", "unsafe_cast")
+@warning_ignore_start("unsafe_method_access", "unsafe_property_access", "unsafe_call_argument")
 
 ## Forces below this have no arrow, in newtons.
 const LEAST := 0.02
