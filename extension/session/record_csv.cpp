@@ -36,7 +36,7 @@ void append(std::string& text, const Vec3& vector) {
 std::string record_csv_header() {
     return "time_us,force_x,force_y,force_z,object_x,object_y,object_z,hand_x,hand_y,hand_z,"
            "proxy_x,proxy_y,proxy_z,object_qx,object_qy,object_qz,object_qw,proxy_status,contacts,"
-           "displayed_x,displayed_y,displayed_z,ran_us\n";
+           "displayed_x,displayed_y,displayed_z,ran_us,force_cut\n";
 }
 
 void append_record_csv(std::string& text, const SessionRecord& record, Nanoseconds epoch) {
@@ -56,6 +56,8 @@ void append_record_csv(std::string& text, const SessionRecord& record, Nanosecon
     append(text, record.displayed);
     text += ',';
     append(text, (record.ran + epoch) / 1000);
+    text += ',';
+    append(text, static_cast<std::int64_t>(record.cuts));
     text += '\n';
 }
 

@@ -52,6 +52,7 @@ void SessionLoop::read_devices(Nanoseconds now) {
         }
         const DeviceSample sample = slot.device->read(now);
         slot.heard = sample;
+        slot.displayed = slot.device->displayed();
         const DeviceCapabilities before = std::exchange(slot.capabilities, slot.device->capabilities());
         slot.jumped = slot.jumped || slot.capabilities != before;
         if (recorder_) {

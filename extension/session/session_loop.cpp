@@ -570,7 +570,11 @@ void SessionLoop::append_record(const Recording& recording, Nanoseconds now, Nan
     row.hand = state.hand;
     row.proxy_position = state.position;
     row.force = state.force;
-    row.displayed = devices_[proxies_[recording.proxy].description.device].force;
+    if (const SessionHandle device = proxies_[recording.proxy].description.device; device < max_devices) {
+        const DeviceSlot& slot = devices_[device];
+        row.displayed = slot.displayed ? force_in_scene(slot.workspace, slot.displayed->force) : slot.force;
+        row.cuts = slot.displayed ? slot.displayed->cuts : 0u;
+    }
     row.proxy_status = state.status;
     row.contacts = static_cast<std::uint32_t>(state.contact_count);
     if (const Body* object = body(recording.object)) {

@@ -208,16 +208,17 @@ private:
         Vec3 offset{0.0};         // in the world: what clutch and edge have made of it so far (unit: meters)
         Vec3 hand{0.0};           // in the world (unit: meters)
         Vec3 hand_velocity{0.0};  // in the world (unit: meters per second)
-        Quat rotation{1.0, 0.0, 0.0, 0.0};     // of the handle, in the world
-        Vec3 hand_turn{0.0};                   // in this tick, in the world (unit: radians)
-        Quat turn_offset{1.0, 0.0, 0.0, 0.0};  // in the world: what the clutch has made of it
-        Quat orientation{1.0, 0.0, 0.0, 0.0};  // of the hand, in the world
-        Vec3 torque{0.0};                      // of all its tools, in the world (unit: newton meters)
-        Vec3 force{0.0};                       // of all its proxies, in the world (unit: newtons)
-        Vec3 refused{0.0};                     // of what they wanted, by its limits (unit: newtons)
-        DeviceSample heard;                    // as it came, with whatever nonsense
-        bool is_sound = true;                  // `heard` has none
-        double silent = never_heard;           // since it was connected (unit: seconds)
+        Quat rotation{1.0, 0.0, 0.0, 0.0};        // of the handle, in the world
+        Vec3 hand_turn{0.0};                      // in this tick, in the world (unit: radians)
+        Quat turn_offset{1.0, 0.0, 0.0, 0.0};     // in the world: what the clutch has made of it
+        Quat orientation{1.0, 0.0, 0.0, 0.0};     // of the hand, in the world
+        Vec3 torque{0.0};                         // of all its tools, in the world (unit: newton meters)
+        Vec3 force{0.0};                          // of all its proxies, in the world (unit: newtons)
+        Vec3 refused{0.0};                        // of what they wanted, by its limits (unit: newtons)
+        DeviceSample heard;                       // as it came, with whatever nonsense
+        std::optional<DisplayedForce> displayed;  // up to `heard`
+        bool is_sound = true;                     // `heard` has none
+        double silent = never_heard;              // since it was connected (unit: seconds)
         DeviceCapabilities capabilities;
         FadingWrench fading;       // from both to what its safety is asked for, as the device measures them
         bool jumped = false;       // its owner has changed what makes the force

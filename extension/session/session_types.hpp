@@ -213,10 +213,13 @@ struct SessionRecord {
     Nanoseconds time = 0;  // when the tick was due, on the session's clock
     Nanoseconds ran = 0;   // when it began, on that clock: `time` where no clock drives the session
     SessionHandle proxy = no_handle;
-    Vec3 hand{0.0};             // in the world (unit: meters)
-    Vec3 proxy_position{0.0};   // in the world (unit: meters)
-    Vec3 force{0.0};            // that the proxy asks for, in the world (unit: newtons)
-    Vec3 displayed{0.0};        // that its device was given by all limits, in the world (unit: newtons)
+    Vec3 hand{0.0};            // in the world (unit: meters)
+    Vec3 proxy_position{0.0};  // in the world (unit: meters)
+    Vec3 force{0.0};           // that the proxy asks for, in the world (unit: newtons)
+    // That its device was given by all limits, in the world (unit: newtons); where a driver knows it, what
+    // the motors were given up to this tick's reading, and DisplayedForce::cuts.
+    Vec3 displayed{0.0};
+    std::uint32_t cuts = 0;
     Vec3 object_position{0.0};  // of the followed body (unit: meters); zero where none is followed
     Quat object_rotation{1.0, 0.0, 0.0, 0.0};
     std::uint32_t proxy_status = 0;

@@ -45,12 +45,13 @@ TEST(RecordCsv, WritesMicrosecondsAndNineDecimals) {
         row(sample()).starts_with("1234567,1.500000000,-2.250000000,0.000000001,0.100000000,0.200000000,"));
 }
 
-TEST(RecordCsv, EndsWithTheForceThatWasDisplayedAndWhenTheTickRan) {
+TEST(RecordCsv, EndsWithTheForceThatWasDisplayedWhenTheTickRanAndWhyItWasCut) {
     SessionRecord record = sample();
     record.displayed = {0.5, 0.0, -8.0};
     record.ran = record.time + 70'000;
-    EXPECT_TRUE(row(record).ends_with(",0.500000000,0.000000000,-8.000000000,1234637\n"));
-    EXPECT_TRUE(record_csv_header().ends_with(",displayed_x,displayed_y,displayed_z,ran_us\n"));
+    record.cuts = 5;
+    EXPECT_TRUE(row(record).ends_with(",0.500000000,0.000000000,-8.000000000,1234637,5\n"));
+    EXPECT_TRUE(record_csv_header().ends_with(",displayed_x,displayed_y,displayed_z,ran_us,force_cut\n"));
 }
 
 TEST(RecordCsv, CountsFromTheEpoch) {

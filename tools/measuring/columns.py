@@ -11,6 +11,7 @@ FILE = "columns.json"
 _MEANINGS = (
     (r"time_us", "when the tick was due, microseconds"),
     (r"ran_us", "when the tick began, microseconds: time_us where the clock is stepped"),
+    (r"force_cut", "why the device's force was cut since the row before, as a sum: 1 a late tick, 2 a silent device, 4 a stuck driver; 0: it was not"),
     (r"force_[xyz]", "force that the proxy asks for, in the world's frame, newtons"),
     (r"displayed_[xyz]", "force that the device was given, behind every limit, in the world's frame, newtons"),
     (r"direct_[xyz]", "force of direct, undelayed touch by the same hand, newtons"),
