@@ -247,13 +247,16 @@ void DriverWork::keep_watch() {
         if (now_due.looked_at != due.looked_at || (now_due.at > at && due.looked_at != taken)) {
             continue;  // it has been renewed
         }
+        // The driver may look at any moment: it begins at nothing then, or has looked before and goes on.
+        forces_.taken();
+        if (forces_.due().looked_at != due.looked_at) {
+            continue;
+        }
         if (is_open_) {
             if (due.looked_at != taken) {
                 forces_.note_taken(monotonic_now());
                 let_go_.fetch_add(1, std::memory_order_relaxed);
             }
-            // The driver may look at any moment: neither before nor after may it go on from what it gave.
-            forces_.taken();
             driver_->let_go();
             forces_.taken();
         }

@@ -70,7 +70,9 @@ Vec3 ForceSlot::living(Nanoseconds now) {
     if (is_new) {
         aim_reading(command);
     }
-    if (is_taken_.exchange(false, std::memory_order_acq_rel)) {
+    // In this order, and taken() before due(): of a look and a watchdog at the same time one sees the other.
+    looked_.store(now);
+    if (is_taken_.exchange(false)) {
         displayed_ = given_ = {};
         returns_ = true;
     } else if (!lives && displayed_ != Wrench{}) {
@@ -91,12 +93,11 @@ Vec3 ForceSlot::living(Nanoseconds now) {
         displayed_ = wanted;
     }
     end_ = displayed_ != Wrench{} ? end : 0;
-    watch(now);
+    watch();
     return displayed_.force;
 }
 
-void ForceSlot::watch(Nanoseconds now) {
-    looked_.store(now, std::memory_order_release);
+void ForceSlot::watch() {
     switch_on(displayed_ != Wrench{} ? 1 : 0);
 }
 
@@ -156,7 +157,7 @@ ForceSlot::Due ForceSlot::due() const {
         return {};
     }
     const ForceLife life = this->life();
-    const Nanoseconds looked = looked_.load(std::memory_order_acquire);
+    const Nanoseconds looked = looked_.load();
     const Nanoseconds written = written_.load(std::memory_order_acquire);
     return {looked, std::min(written + life.written, looked + life.sent) + life.grace};
 }

@@ -96,7 +96,7 @@ public:
     Due due() const;
     void wait_for_force() const { wait_while(is_on_, 0); }
     // The force is taken away past the driver, which begins anew.
-    void taken() { is_taken_.store(true, std::memory_order_release); }
+    void taken() { is_taken_.store(true); }
     // For the owner: why, once for each silence.
     void note_taken(Nanoseconds now);
     // Wakes it, since no force will come.
@@ -118,7 +118,7 @@ public:
 
 private:
     ForceLife life() const { return force_life(tick_.load(std::memory_order_acquire), exchange_); }
-    void watch(Nanoseconds now);
+    void watch();
     void switch_on(std::int64_t on);
     void cut(ForceCut why);
     void aim_reading(const ForceCommand& command);

@@ -131,7 +131,7 @@ private:
 std::string refusal(const WatchedDevice& watched, double rate) {
     DriverDevice device(watched.driver());
     device.set_pace({from_seconds(1.0 / rate), true});
-    wait_until([&] { return device.health().phase == DriverHealth::Phase::running; }, 5'000'000'000);
+    wait_until([&] { return device.health().phase == DriverHealth::Phase::running; });
     const std::string said = device.health().text;
     return said.find("gives no force") != std::string::npos ? said : std::string();
 }

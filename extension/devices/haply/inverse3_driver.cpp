@@ -163,6 +163,9 @@ Driver::Exchange Inverse3Driver::exchange(ForceSlot& forces, Nanoseconds until, 
             const Vec3 force = forces.living(now);
             send(reading.sample.connected ? force : Vec3(0.0));
             forces.given(monotonic_now());
+            if (!reading.sample.connected) {
+                forces.taken();  // whether or not the loop sees this reading
+            }
             return Exchange::reading;
         }
         // A newer force of the loop waits for the next state.
