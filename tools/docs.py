@@ -26,7 +26,8 @@ CONTENTS = {
     ],
     "Reference": ["classes/index", "godot_physics", "glossary", "wire_format", "experiments", "bundles", "bibliography"],
     "Results": [
-        "reproduce", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "devices", "sensing", "discovery", "stress", "proof",
+        "reproduce", "comparison", "proxy", "teleoperation", "tool", "soft", "physics", "credibility", "devices", "sensing", "discovery",
+        "stress", "proof",
     ],
     "Internals": ["development", "architecture", "proxy_steps", "tolerances", "roadmap", "changes"],
     "Project": ["CONTRIBUTING", "SECURITY", "CODE_OF_CONDUCT"],

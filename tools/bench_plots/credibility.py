@@ -56,7 +56,7 @@ TITLES = {
     "slide_spin.way": "cube that slides at 1 m/s and spins at 20 rad/s: way",
     "slide_spin.spin_time": "… its spin ends",
     "disc.stop": "disc of 100 mm that spins on the floor stops",
-    "square.stop": "square of 100 mm likewise",
+    "square.stop": "square of 100 mm",
     "slide.way": "cube that slides at 1.5 m/s: way",
     "free_rotation.flip": "box about its middle axis: from one flip to the next",
     "top.precession": "top at 200 rad/s: precession",
