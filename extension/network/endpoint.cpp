@@ -287,10 +287,11 @@ bool Endpoint::send(const Message& message) {
 }
 
 void Endpoint::end_tick() {
+    has_said_hello_ = !leaves_ && now_ >= next_hello_;
     if (leaves_) {
         return;
     }
-    if (now_ >= next_hello_) {
+    if (has_said_hello_) {
         say_hello();
         next_hello_ = now_ + settings_.hello_every;
     }
@@ -321,9 +322,14 @@ void Endpoint::leave() {
     leaves_ = true;
 }
 
+// That there is more to come is said before it comes: nothing that moves falls before all is described.
 void Endpoint::set_world(std::uint32_t object_count, const Vec3& gravity) {
-    own_hello_.object_count = object_count;
+    const bool is_more = object_count > std::exchange(own_hello_.object_count, object_count);
     own_hello_.gravity = glm::clamp(gravity, -plausible::max_gravity, plausible::max_gravity);
+    if (is_more && hears_peer() && !leaves_) {
+        say_hello();
+        next_hello_ = now_ + settings_.hello_every;
+    }
 }
 
 void Endpoint::measure_rates(Nanoseconds now) {
