@@ -82,6 +82,7 @@ bool SessionLoop::carry_out(command::AddBody& c, Retired& retired) {
         return give_back();
     }
     bodies_[c.handle] = {};
+    bodies_end_ = std::max(bodies_end_, c.handle + 1);
     Body& added = bodies_[c.handle];
     added.id = id;
     added.slot = slot;
@@ -176,6 +177,9 @@ bool SessionLoop::carry_out(command::RemoveBody& c, Retired& retired) {
                nullptr,
                std::move(removed->former)};
     *removed = {};
+    while (bodies_end_ > 0 && !body(bodies_end_ - 1)) {
+        --bodies_end_;
+    }
     return true;
 }
 

@@ -187,6 +187,9 @@ void SessionLoop::touch_all(Nanoseconds now) {
     if (side_ && !side_->simulates()) {
         for (ProxySlot& slot : proxies_) {
             slot.parts = {};  // nothing is touched here, so nothing is pressed
+            if (!slot.present()) {
+                slot.state = {};
+            }
         }
         return;
     }
@@ -254,9 +257,10 @@ void SessionLoop::touch(ProxySlot& slot, Nanoseconds now) {
         slot.torsion.count = 0;
         slot.proxy->restart();
         slot.walls = {};
-        slot.state = {};
-        slot.state.position = slot.state.hand = slot.hand;
-        slot.state.status = touch_unheld;
+        const ProxyState before = std::exchange(slot.state, {});
+        slot.state.position = slot.idle ? before.position : slot.hand;
+        slot.state.hand = slot.idle ? before.hand : slot.hand;
+        slot.state.status = slot.idle ? far_hand_away : touch_unheld;
         slot.step = step_of(slot);
         slot.jumped = true;
         return;

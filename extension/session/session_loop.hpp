@@ -123,6 +123,8 @@ public:
 
     double seconds() const { return seconds_; }
     std::size_t max_bodies() const { return bodies_.size(); }
+    // One more than the highest handle of a body; 0: there is none.
+    std::uint32_t bodies_end() const { return bodies_end_; }
     Body* body(SessionHandle handle);  // null where there is none
     const Body* body(SessionHandle handle) const;
     SessionHandle body_in(int slot) const {  // of the touch scene
@@ -369,6 +371,7 @@ private:
     std::int64_t tool_work_ = 0;  // see take_tool_work()
     bool touch_changed_ = false;  // see take_touch_change()
     bool follows_all_ = false;    // a memento was restored: where bodies are is to be read anew
+    std::uint32_t bodies_end_ = 0;
     std::uint64_t tick_ = 0;
     Nanoseconds time_ = 0;  // of the last tick
     TickStatus status_ = 0;

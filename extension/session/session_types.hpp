@@ -120,6 +120,10 @@ inline constexpr std::uint32_t touch_unheld = 1u << 22;
 // A bit of ProxyState::status: the field of its owner was made weaker, see HandField::is_limited.
 inline constexpr std::uint32_t touch_field_limited = 1u << 23;
 
+// A bit of ProxyState::status and ToolState::status at the far side: no operator's hand is there, and the
+// place is that of the last one.
+inline constexpr std::uint32_t far_hand_away = 1u << 24;
+
 // Bits of ToolState::status besides ToolStatus, with a link to robots.
 enum FarTool : std::uint32_t {
     tool_turn_fixed = 1u << 20,   // the robot that carries it cannot turn it

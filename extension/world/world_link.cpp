@@ -269,16 +269,22 @@ void WorldLink::tell_joints(const std::vector<ToldJoint>& joints) {
 
 void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now) {
     std::unordered_set<SessionHandle> there;
+    std::vector<std::pair<const Told*, Description>> due;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Told& told = bodies[i];
         there.insert(told.body);
         const auto before = tellings_.find(told.body);
         if (before == tellings_.end() ||
             (before->second.revision != told.revision && now - before->second.at >= tell_again_after)) {
-            const Description description = describe(i);
-            tellings_[told.body] = {told.revision, now,
-                                    teller_->tell(told.body, description.name, description.addition)};
+            due.emplace_back(&told, describe(i));
         }
+    }
+    // What others rest on comes first.
+    std::ranges::stable_partition(
+        due, [](const auto& one) { return one.second.addition.description.motion != Motion::Dynamic; });
+    for (const auto& [told, description] : due) {
+        tellings_[told->body] = {told->revision, now,
+                                 teller_->tell(told->body, description.name, description.addition)};
     }
     std::erase_if(tellings_, [&](const auto& telling) {
         const bool gone = !there.contains(telling.first);
@@ -378,13 +384,17 @@ WorldLink::Standing WorldLink::standing_of_peer() const {
         case PeerState::connected:
             break;
     }
-    if (link.peer_hello.scenario != plan_.scenario) {
-        return {LinkState::refused, "the far side is set to scenario " +
-                                        std::to_string(link.peer_hello.scenario) + " and this side to " +
-                                        std::to_string(plan_.scenario) + ": set both alike"};
+    const TeleopStatistics& teleop = port_->statistics.front();
+    const std::string differs = explain(teleop.disagreement, teleop.own_terms, teleop.peer_terms,
+                                        is_operator() ? Side::operator_side : Side::teleoperator_side);
+    if (teleop.disagreement.whole && !differs.empty()) {
+        return {LinkState::refused, differs};
     }
-    return {LinkState::connected,
-            plan_.trace_problem.empty() ? std::string("connected") : "connected; " + plan_.trace_problem};
+    std::string text = "connected";
+    for (const std::string& besides : {differs, plan_.trace_problem}) {
+        text += besides.empty() ? "" : "; " + besides;
+    }
+    return {LinkState::connected, text};
 }
 
 LinkReport WorldLink::report() const {

@@ -1,5 +1,7 @@
 // Cases of teleoperation in virtual time: ./run bench teleop --scene=FILE --cases=FILE
 //
+//     ./run bench teleop --agreement=1: sides that differ, see tests/shared/agreement.hpp.
+//
 // Both files are lines of words (tests/shared/teleop_words.hpp). The result is one line of JSON a case: its
 // name, its figures and, with --bins=1, how the ticks spread.
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <sstream>
 #include <string>
 
+#include "shared/agreement.hpp"
 #include "shared/bench_kit.hpp"
 #include "shared/teleop_run.hpp"
 #include "shared/teleop_words.hpp"
@@ -54,6 +57,18 @@ std::string unknown_body(const TeleopScene& scene, const TeleopCase& experiment)
     return is_there(experiment.object) ? "" : experiment.object;
 }
 
+void print_agreements() {
+    for (const AgreementCase& one : agreement_cases()) {
+        const AgreementFigures figures = run_agreement(one);
+        const auto word = [](bool value) { return value ? "true" : "false"; };
+        std::printf(
+            "{\"case\": \"%s\", \"alike\": %s, \"near_force_N\": %.9g, \"far_force_N\": %.9g, "
+            "\"force_step_max_N\": %.9g, \"near_says\": %s, \"far_says\": %s}\n",
+            one.name.c_str(), word(one.alike), figures.near_force, figures.far_force, figures.largest_step,
+            word(figures.near_says), word(figures.far_says));
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,8 +76,13 @@ int main(int argc, char** argv) {
     const std::string scene_file = options.text("scene");
     const std::string cases_file = options.text("cases");
     const bool with_bins = options.text("bins") == "1";
+    const bool agreement = options.text("agreement") == "1";
     if (!options.understood()) {
         return 2;
+    }
+    if (agreement) {
+        print_agreements();
+        return 0;
     }
     if (scene_file.empty() || cases_file.empty()) {
         std::cout << "runs the cases of ./run experiment static_mmt, dynamic_mmt and others; nothing to do\n";

@@ -95,7 +95,7 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
     """The figures of each case by its name; with `bins`, how the ticks spread is among them. `folder` gets the rows of
     those that ask for them by "rows". `lines`: what is run in place of the scene as it is.
     """
-    program = _program()
+    binary = program()
     folder.mkdir(parents=True, exist_ok=True)
     scene_file = folder / "scene.txt"
     scene_file.write_text(lines or Scene(scene).lines())
@@ -106,7 +106,7 @@ def run(scene: str, cases: list[Case], folder: Path, bins: bool = False, lines: 
         number, share = numbered
         cases_file = folder / f"cases_{number}.txt"
         cases_file.write_text("".join(_line(case) for case in share))
-        command = [program, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
+        command = [binary, f"--scene={scene_file}", f"--cases={cases_file}", f"--bins={int(bins)}"]
         return [json.loads(line) for line in _lines(command, cases_file, arrived.one_more)]
 
     arrived = _Arrivals(len(cases))
@@ -155,7 +155,7 @@ def _lines(command: list, cases_file: Path, arrived: Callable[[], None]) -> list
 
 
 @once
-def _program() -> Path:
+def program() -> Path:
     """Built when a process first asks for it; one process at a time, for SCons knows of no other."""
     with cache.lock(cache.clone() / "build", "bench teleop"):
         build.build("template_release", "build/template_release/bench/teleop")
