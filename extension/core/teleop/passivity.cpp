@@ -99,7 +99,8 @@ void OperatorPassivity::hear(Passivity scheme, const PassivitySettings& settings
         now_.tank += scheme == Passivity::two_layers ? settings.shared * taken : 0.0;
     }
     if (const Past* const then = past(in.far_sample)) {
-        const Vec3 wave = then->wave + std::sqrt(2.0 / settings.impedance) * in.far_force;
+        const Vec3 wave = free_reflection * then->wave +
+                          ((1.0 + free_reflection) / std::sqrt(2.0 * settings.impedance)) * in.far_force;
         now_.wave_energy += 0.5 * in.seconds * glm::dot(wave, wave);
         now_.wave = wave;
     }
@@ -217,7 +218,8 @@ Vec3 FarPassivity::wave_way(const PassivitySettings& settings, const In& in, std
         wave *= std::sqrt(std::max(0.0, wave_energy_) / energy);
     }
     wave_energy_ -= per_square * glm::dot(wave, wave);
-    Vec3 way = wave + in.own_force * (in.seconds / b);
+    // b / (b + d) = (1 + r) / 2.
+    Vec3 way = 0.5 * (1.0 + free_reflection) * (wave + in.own_force * (in.seconds / b));
     if (in.own_force == Vec3(0.0)) {
         // Nothing is pressed: where it has drifted to costs nothing to put right.
         way += (in.hand - own_ - way) * std::min(1.0, settings.drift_rate * in.seconds);

@@ -10,7 +10,10 @@
 //                   u = (b x' + F) / sqrt(2b) goes there, w = (b x' - F) / sqrt(2b) comes back. Decoded,
 //                       far hand   x' = sqrt(2/b) u + h / b,    w = u + sqrt(2/b) h
 //                       operator   f = sqrt(2b) w - b x'
-//                   A delay of |u|^2/2 and |w|^2/2 makes no energy. What is smoothed or held is scaled so
+//                   A free far hand would return all of u, which goes to and fro for long: it is damped by
+//                   d = b (1 - r) / (1 + r) besides, so that
+//                       x' = (sqrt(2b) u + h) / (b + d),    w = r u + (1 + r) h / sqrt(2b)
+//                   and of a wave the share r comes back. A delay of |u|^2/2 and |w|^2/2 makes no energy. What is smoothed or held is scaled so
 //                   that no more of it is played than has come.
 //   time domain     Ryu, Artigas and Preusche 2010, after Hannaford and Ryu 2002. Each end splits its energy
 //                   into what goes in and what comes out. What has come out may not exceed what the other
@@ -31,6 +34,9 @@
 #include "core/math/types.hpp"
 
 namespace tactus {
+
+// Of a wave, what a free far hand returns: r above. 1: it is not damped; 0: nothing, and d = b.
+inline constexpr double free_reflection = 0.5;
 
 enum class Passivity : std::uint8_t { none, wave_variables, time_domain, two_layers };
 

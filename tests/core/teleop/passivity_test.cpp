@@ -172,6 +172,62 @@ TEST(Passivity, FreeSpaceIsFree) {
     }
 }
 
+// In free space, `there` ticks each way: the hand goes 0.2 m in a second and is held where it stops.
+struct Stopped {
+    double felt = 0.0;  // most, from 1.5 s and three round trips after it has stopped on (unit: newtons)
+    double off = 0.0;   // of the far hand from the operator's, likewise (unit: meters)
+};
+
+Stopped stop_in_free_space(std::size_t there, const PassivitySettings& settings) {
+    const auto near = std::make_unique<OperatorPassivity>();
+    FarPassivity far;
+    std::vector<Vec3> hands{Vec3(0.0)}, forces{Vec3(0.0)};
+    Stopped result;
+    for (std::size_t t = 1; t <= 8000; ++t) {
+        OperatorPassivity::In in;
+        in.sample = t;
+        in.hand = {0.2 * std::clamp(static_cast<double>(t) * tick - 1.0, 0.0, 1.0), 0.0, 0.0};
+        in.velocity = (in.hand - hands.back()) / tick;
+        in.far_sample = t > 2 * there + 1 ? t - 2 * there - 1 : 0;
+        Vec3 force(0.0);
+        if (in.far_sample != 0) {
+            force = near->force(Passivity::wave_variables, settings, in);
+            near->given(settings, force, tick);
+        } else {
+            near->rest(settings, in);
+        }
+        hands.push_back(in.hand);
+        forces.push_back(force);
+        if (t <= there) {
+            continue;
+        }
+        const std::size_t played = t - there;
+        const Vec3 at = far.hand(Passivity::wave_variables, settings,
+                                 {played, hands[played], forces[played], Vec3(0.0), tick});
+        if (t > 3500 + 6 * there) {
+            result.felt = std::max(result.felt, glm::length(force));
+            result.off = std::max(result.off, glm::distance(at, in.hand));
+        }
+    }
+    return result;
+}
+
+TEST(Passivity, WavesComeToRestInFreeSpace) {
+    PassivitySettings soft, stiff;
+    soft.impedance = 4.39;
+    soft.wave_cutoff = 3.78;
+    soft.drift_rate = 0.503;
+    stiff.impedance = 60.0;
+    for (const PassivitySettings& settings : {PassivitySettings{}, soft, stiff}) {
+        for (const std::size_t there : {0u, 10u, 50u, 100u, 250u}) {
+            const Stopped stopped = stop_in_free_space(there, settings);
+            EXPECT_LE(stopped.felt, 0.5) << settings.impedance << " " << there;
+            EXPECT_LE(stopped.off, settings.drift_rate > 1.0 ? 0.002 : 0.01)
+                << settings.impedance << " " << there;
+        }
+    }
+}
+
 TEST(Passivity, AFarHandThatHasYieldedComesBack) {
     FarPassivity far;
     PassivitySettings settings;
