@@ -191,18 +191,23 @@ void fields(Stream& s, auto& m, const SampleAcknowledgements&) {
     }
 }
 
+// In whole quanta, which stay below `most`.
+template <typename Stream>
+void quanta_field(Stream& s, auto& value, double quantum, double most) {
+    s.require(value >= 0.0 && value <= most);  // false for what is no number
+    std::uint64_t quanta = s.good() ? static_cast<std::uint64_t>(std::llround(value / quantum)) : 0;
+    s.varint(quanta);
+    s.require(static_cast<double>(quanta) <= most / quantum);
+    if constexpr (Stream::reads) {
+        value = s.good() ? static_cast<double>(quanta) * quantum : 0.0;
+    }
+}
+
 template <typename Stream>
 void hand_terms_fields(Stream& s, auto& m) {
     s.choice(m.kind, HandTerms::Kind::tool);
     if (m.kind == HandTerms::Kind::fingertip) {
-        s.require(m.radius >= 0.0 && m.radius <= max_ghost_radius);  // false for what is no number
-        std::uint64_t radius =
-            s.good() ? static_cast<std::uint64_t>(std::llround(m.radius / fine_radius_quantum)) : 0;
-        s.varint(radius);
-        s.require(static_cast<double>(radius) <= max_ghost_radius / fine_radius_quantum);
-        if constexpr (Stream::reads) {
-            m.radius = s.good() ? static_cast<double>(radius) * fine_radius_quantum : 0.0;
-        }
+        quanta_field(s, m.radius, fine_radius_quantum, max_ghost_radius);
     } else if (m.kind == HandTerms::Kind::tool) {
         s.integer(m.shape);
     }
@@ -214,6 +219,12 @@ void fields(Stream& s, auto& m, const Terms&) {
     s.integer(m.scenario);
     s.require(m.scenario >= 1 && m.scenario <= 5);
     s.integer(m.passivity);
+    if constexpr (Stream::reads) {
+        m.impedance = 0.0;
+    }
+    if (m.passivity == Terms::with_waves) {
+        quanta_field(s, m.impedance, impedance_quantum, max_impedance);
+    }
     std::uint64_t bodies = m.bodies;
     s.varint(bodies);
     s.require(bodies < no_object);

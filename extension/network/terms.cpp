@@ -9,6 +9,8 @@ namespace {
 
 // Radii closer than this are told alike (unit: meters).
 constexpr double same_radius = 1e-6;
+// Likewise (unit: newton-seconds per meter).
+constexpr double same_impedance = 1e-5;
 
 std::uint32_t term_bit(Term term) {
     return 1u << static_cast<unsigned>(term);
@@ -39,10 +41,14 @@ const char* passivity_name(std::uint8_t passivity) {
     return passivity < std::size(names) ? names[passivity] : "unknown";
 }
 
-std::string millimeters(double radius) {
+std::string number(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.4g mm", 1e3 * radius);
+    std::snprintf(text, sizeof text, "%.4g", value);
     return text;
+}
+
+std::string millimeters(double radius) {
+    return number(1e3 * radius) + " mm";
 }
 
 std::string of_hands(const Disagreement& disagreement, const Terms& own, const Terms& peer, Side side) {
@@ -79,6 +85,9 @@ Disagreement compare(const Terms& of_operator, const Terms& of_teleoperator) {
         found.terms |= term_bit(Term::scenario);
     } else if (is_traditional(of_operator) && of_operator.passivity != of_teleoperator.passivity) {
         found.terms |= term_bit(Term::passivity);
+    } else if (is_traditional(of_operator) &&
+               std::abs(of_operator.impedance - of_teleoperator.impedance) > same_impedance) {
+        found.terms |= term_bit(Term::impedance);
     }
     if (of_operator.bodies < of_teleoperator.bodies) {
         found.terms |= term_bit(Term::bodies);
@@ -102,6 +111,10 @@ std::string explain(const Disagreement& disagreement, const Terms& own, const Te
     if (disagreement.has(Term::passivity)) {
         return std::string("the far side has the passivity '") + passivity_name(peer.passivity) +
                "' and this side '" + passivity_name(own.passivity) + "': set both alike";
+    }
+    if (disagreement.has(Term::impedance)) {
+        return "the wave impedance is " + number(peer.impedance) + " N·s/m at the far side and " +
+               number(own.impedance) + " here: set 'passivity_wave_impedance' of both TeleopTunings alike";
     }
     if (disagreement.has(Term::bodies)) {
         const bool operates = side == Side::operator_side;

@@ -23,10 +23,12 @@ struct HandTerms {
 };
 
 struct Terms {
-    static constexpr std::size_t max_hands = 20;  // by pointer number; tools follow the fingertips
+    static constexpr std::uint8_t with_waves = 1;  // Passivity::wave_variables
+    static constexpr std::size_t max_hands = 20;   // by pointer number; tools follow the fingertips
 
     std::uint8_t scenario = 4;   // 2 … 5
     std::uint8_t passivity = 0;  // enum Passivity; means something in scenarios 2 and 3
+    double impedance = 0.0;  // of wave variables (unit: newton-seconds per meter), >= 0; 0: there are none
     // Operator: objects that it has room for, by number. Teleoperator: one more than the highest number of
     // its own.
     std::uint32_t bodies = 0;
@@ -36,7 +38,7 @@ struct Terms {
 };
 
 // What two sides differ in.
-enum class Term : std::uint8_t { scenario, passivity, bodies, missing_hand, radius, tool };
+enum class Term : std::uint8_t { scenario, passivity, impedance, bodies, missing_hand, radius, tool };
 
 struct Disagreement {
     bool whole = false;       // nothing can be done together

@@ -1,5 +1,7 @@
 #include "session/channel.hpp"
 
+#include <algorithm>
+
 #include <utility>
 
 namespace tactus {
@@ -69,6 +71,9 @@ Terms Channel::terms_of_settings() const {
     Terms terms;
     terms.scenario = scenario_of(settings_);
     terms.passivity = static_cast<std::uint8_t>(settings_.passivity);
+    static_assert(static_cast<std::uint8_t>(Passivity::wave_variables) == Terms::with_waves);
+    const bool has_waves = settings_.passivity == Passivity::wave_variables;
+    terms.impedance = has_waves ? std::clamp(settings_.passive.impedance, 0.0, max_impedance) : 0.0;
     return terms;
 }
 
@@ -79,17 +84,26 @@ void Channel::set_own(const Terms& terms) {
 
 // What both sides change at once differs for as long as the word of it is on its way.
 void Channel::compare_terms() {
-    constexpr Nanoseconds patience = 150'000'000;
+    constexpr Nanoseconds shortest_patience = 150'000'000, longest_patience = nanoseconds_per_second;
+    const Nanoseconds delay = link_.statistics().clock.mean_delay;
+    const Nanoseconds patience =
+        std::min(shortest_patience + std::max<Nanoseconds>(delay, 0), longest_patience);
     const Disagreement now_found = found();
-    if (!now_found.any()) {
+    has_agreed_ = has_agreed_ && link_.hears_peer();
+    if (!now_found.any() && !waits_for_terms()) {
         agreed_at_ = now_;
         has_agreed_ = link_.hears_peer();
     }
-    has_agreed_ = has_agreed_ && link_.hears_peer();
     disagreement_ = has_agreed_ && now_ - agreed_at_ < patience ? Disagreement{} : now_found;
 }
 
-// A far side that speaks an older version says its scenario only.
+bool Channel::waits_for_terms() const {
+    return link_.hears_peer() && peer_terms_epoch_ != link_.peer_epoch() &&
+           link_.statistics().peer_hello.newest_version >= first_version_with_terms;
+}
+
+// A far side that speaks an older version says its scenario only. Before the terms have come the teleoperator
+// presses nothing; the operator goes on touching its model.
 Disagreement Channel::found() const {
     const Hello& hello = link_.statistics().peer_hello;
     if (!link_.hears_peer()) {
@@ -98,10 +112,10 @@ Disagreement Channel::found() const {
     if (peer_terms_epoch_ == link_.peer_epoch()) {
         return side_ == Side::operator_side ? compare(own_, peer_) : compare(peer_, own_);
     }
-    if (hello.newest_version >= first_version_with_terms) {
-        Disagreement waits;
-        waits.whole = true;
-        return waits;
+    if (waits_for_terms()) {
+        Disagreement nothing_yet;
+        nothing_yet.whole = side_ == Side::teleoperator_side;
+        return nothing_yet;
     }
     Terms peer = own_;
     peer.scenario = hello.scenario;

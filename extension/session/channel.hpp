@@ -50,6 +50,7 @@ public:
 private:
     void take(const Terms& terms, std::uint64_t packet);
     void compare_terms();
+    bool waits_for_terms() const;
     Disagreement found() const;
 
     TeleopSettings settings_, before_;

@@ -44,6 +44,11 @@ TEST(Terms, EachPropertyThatDiffersIsFound) {
         a.scenario = b.scenario = 2;
         (swapped ? a : b).passivity = 2;
         expect_differs(a, b, Term::passivity, true);
+        a.passivity = b.passivity = Terms::with_waves;
+        a.impedance = b.impedance = 20.0;
+        EXPECT_FALSE(compare(a, b).any());
+        (swapped ? a : b).impedance = 21.0;
+        expect_differs(a, b, Term::impedance, true);
         a = b = alike();
         (swapped ? a : b).hands[0].radius = 0.02;
         expect_differs(a, b, Term::radius, false);

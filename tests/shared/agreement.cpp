@@ -41,6 +41,7 @@ TeleopSettings settings_of(const AgreementSide& side) {
     settings.traditional = side.scenario == 2 || side.scenario == 3;
     settings.robot = side.scenario == 3 || side.scenario == 5;
     settings.passivity = side.passivity;
+    settings.passive.impedance = side.impedance;
     return settings;
 }
 
@@ -194,6 +195,10 @@ std::vector<AgreementCase> agreement_cases() {
         add_both_ways(cases, "passivity." + std::to_string(static_cast<int>(scheme)), of(2), other, true,
                       true);
     }
+    AgreementSide waves = of(2), other_waves = waves;
+    waves.passivity = other_waves.passivity = Passivity::wave_variables;
+    other_waves.impedance = 5.0;
+    add_both_ways(cases, "impedance", waves, other_waves, true, true);
     for (const int scenario : {2, 4}) {
         const AgreementSide usual = of(scenario);
         const std::string of_scenario = "." + std::to_string(scenario);

@@ -154,6 +154,7 @@ struct Says {
     void operator()(Terms& m) {
         m.scenario = static_cast<std::uint8_t>(1 + dice.below(5));
         m.passivity = static_cast<std::uint8_t>(dice.below(6));
+        m.impedance = m.passivity == Terms::with_waves ? dice.size(max_impedance) : 0.0;
         m.bodies = static_cast<std::uint32_t>(dice.number() % no_object);
         for (HandTerms& hand : m.hands) {
             hand.kind = static_cast<HandTerms::Kind>(dice.below(3));

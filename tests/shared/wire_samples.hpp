@@ -117,7 +117,8 @@ inline std::vector<Message> one_of_each() {
     felt.friction = {0.25, 0.03125, true};
     Terms terms;
     terms.scenario = 3;
-    terms.passivity = 2;
+    terms.passivity = 1;
+    terms.impedance = 4.5;
     terms.bodies = 300;
     terms.hands[0] = {HandTerms::Kind::fingertip, 0.0105, 0};
     terms.hands[2] = {HandTerms::Kind::fingertip, 0.005, 0};

@@ -98,7 +98,7 @@ EXPECTED = {
         "samples": [{"pointer": 1, "sequence": 300}, {"pointer": 17, "sequence": 5}],
     }),
     "terms": ("terms", {
-        "scenario": 3, "passivity": 2, "bodies": 300,
+        "scenario": 3, "passivity": 1, "impedance": 4.5, "bodies": 300,
         "hands": [{"kind": 1, "radius": 0.0105}, {"kind": 0}, {"kind": 1, "radius": 0.005}, *[{"kind": 0}] * 13,
                   {"kind": 2, "shape": 0x0102030405060708}],
     }),

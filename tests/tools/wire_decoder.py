@@ -387,11 +387,12 @@ def _sample_acknowledgements(r: Reader) -> Fields:
 
 
 def _terms(r: Reader) -> Fields:
-    scenario, passivity, bodies = r.u8(), r.u8(), r.varint(NOBODY - 1)
+    scenario, passivity = r.u8(), r.u8()
     _require(1 <= scenario <= 5, "terms out of range")
-    count = r.u8()
+    waves = {"impedance": r.varint(10**12) / MICRO} if passivity == 1 else {}
+    bodies, count = r.varint(NOBODY - 1), r.u8()
     _require(count <= 20, "count out of range")
-    return {"scenario": scenario, "passivity": passivity, "bodies": bodies, "hands": [_hand_terms(r) for _ in range(count)]}
+    return {"scenario": scenario, "passivity": passivity} | waves | {"bodies": bodies, "hands": [_hand_terms(r) for _ in range(count)]}
 
 
 def _hand_terms(r: Reader) -> Fields:
