@@ -46,7 +46,9 @@ void hide(const ModelRoll::Shown& shown) {
 }  // namespace
 
 void ModelView::scene_changed(const Node& node) {
-    is_scene_new_ |= is_solid_body(&node);
+    const bool is_body = is_solid_body(&node);
+    is_scene_new_ |= is_body;
+    shows_other_scene_ |= is_body || roll_.body_of(node.get_instance_id()) != no_handle;
 }
 
 void ModelView::hold_still() {
@@ -108,7 +110,27 @@ ModelRoll::Shown ModelView::show(const std::string& name, const ModelRoll::Form&
 std::vector<ModelNews> ModelView::update(const std::vector<ModelObject>& objects) {
     return roll_.update(
         objects, [this](const std::string& name, const ModelRoll::Form& form) { return show(name, form); },
-        hide);
+        hide,
+        [this](const std::string& name, const ModelRoll::Shown& shown) { return is_shown(name, shown); });
+}
+
+bool ModelView::is_shown(const std::string& name, const ModelRoll::Shown& shown) const {
+    const CollisionObject3D* const body = scene_body(name);
+    if (body != nullptr) {
+        return body->get_instance_id() == shown.node;
+    }
+    const auto* const picture = node_of_id<Node>(shown.node);
+    return shown.is_picture && picture != nullptr && world_.is_ancestor_of(picture);
+}
+
+std::vector<const Node*> ModelView::bodies_only_here() const {
+    std::vector<const Node*> all;
+    for_each_below(world_, [&](const Node& node) {
+        if (is_solid_body(&node) && roll_.body_of(node.get_instance_id()) == no_handle) {
+            all.push_back(&node);
+        }
+    });
+    return all;
 }
 
 void ModelView::show(const BodyState& state, std::uint64_t, Session&) {

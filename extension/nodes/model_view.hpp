@@ -5,6 +5,7 @@
 #include <godot_cpp/classes/collision_object3d.hpp>
 #include <string>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "nodes/scene_view.hpp"
@@ -31,16 +32,23 @@ public:
     // Described just now, before it is built.
     void note(const ObjectDescription& description) { roll_.note(description); }
 
+    // True once after bodies of this scene have come or gone: update() may show something else then.
+    bool takes_scene_change() { return std::exchange(shows_other_scene_, false); }
+    // The bodies of this scene that the far side has not described: hands pass through them.
+    std::vector<const godot::Node*> bodies_only_here() const;
+
     // Brings nodes and bodies together; says what has become of which.
     std::vector<ModelNews> update(const std::vector<ModelObject>& objects);
 
 private:
     ModelRoll::Shown show(const std::string& name, const ModelRoll::Form& form) const;
+    bool is_shown(const std::string& name, const ModelRoll::Shown& shown) const;
     godot::CollisionObject3D* scene_body(const std::string& name) const;
     godot::Node3D* make_picture(const std::string& name, const ModelRoll::Form& form) const;
 
     HapticWorld& world_;
     bool is_scene_new_ = true;
+    bool shows_other_scene_ = false;
     std::unordered_set<std::uint64_t> held_;  // rigid bodies of the scene
     ModelRoll roll_;
 };

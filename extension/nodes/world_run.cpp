@@ -25,6 +25,9 @@ namespace {
 constexpr const char* too_many_recordings =
     "eight recorders and feedbacks listen to this world already: take one of them away";
 
+constexpr const char* only_here =
+    "the far side does not have it, so that hands pass through it: add it there, or take it away here";
+
 // Marks a time in which the same is not to be begun again.
 class Busy {
 public:
@@ -180,11 +183,14 @@ void WorldRun::synchronise_links() {
         auto* const node = node_of_id<MMTLink>(link_nodes_[i]);
         const bool has_new_objects =
             running_.synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
-                                 from_godot(world_.get_gravity()));
-        if (has_new_objects) {
+                                 from_godot(world_.get_gravity()), pose_of(world_.get_global_transform()));
+        if (has_new_objects || (model_ != nullptr && model_->takes_scene_change())) {
             std::ranges::move(model_->update(links[i]->objects()), std::back_inserter(model_news_));
+            model_changed_ = loop().now();
+            is_model_compared_ = false;
         }
     }
+    compare_model();
     if (model_ == nullptr) {
         tell(bodies_.mirrors(), links, session().snapshot(), loop().now());
     }
@@ -200,6 +206,18 @@ bool WorldRun::may_begin() {
         session().settle();
     }
     return true;
+}
+
+// Once the far side has described nothing more for a while.
+void WorldRun::compare_model() {
+    constexpr Nanoseconds settled_after = 2 * nanoseconds_per_second;
+    if (model_ == nullptr || model_->body_count() == 0 || loop().now() - model_changed_ < settled_after ||
+        std::exchange(is_model_compared_, true)) {
+        return;
+    }
+    for (const Node* const body : model_->bodies_only_here()) {
+        complaints_.say(*body, only_here);
+    }
 }
 
 // --- recording
@@ -341,6 +359,11 @@ std::vector<std::string> WorldRun::problems() const {
     }
     if (std::string slow = problem_of_time(); !slow.empty()) {
         all.push_back(std::move(slow));
+    }
+    if (model_ != nullptr && model_->body_count() > 0) {
+        for (const Node* const body : model_->bodies_only_here()) {
+            all.push_back(from_godot(name_of(*body)) + ": " + only_here);
+        }
     }
     return all;
 }

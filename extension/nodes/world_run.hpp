@@ -84,6 +84,7 @@ private:
     std::string problem_of_time() const;
     void synchronise_bodies(double seconds);
     void look_at_scene();
+    void compare_model();
     void synchronise_recorders();
     template <class NodeType>
     void give_ticks(const NodeType& node, const std::shared_ptr<TickRing>& ring, SessionHandle body);
@@ -96,6 +97,8 @@ private:
     RunningWorld running_;
     std::unique_ptr<ModelView> model_;   // at the operator; else null
     std::vector<ModelNews> model_news_;  // for its link's node
+    Nanoseconds model_changed_ = 0;      // when it did last
+    bool is_model_compared_ = false;     // since then
     bool is_busy_ = false;
 
     Complaints complaints_;

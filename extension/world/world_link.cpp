@@ -19,6 +19,9 @@ constexpr Nanoseconds refusal_lasts = 1'000'000'000;
 // A body whose values change in every frame is not described in every frame.
 constexpr Nanoseconds tell_again_after = 250'000'000;
 
+// Bodies whose names are asked for in a frame.
+constexpr std::size_t names_at_once = 16;
+
 std::string ports(const NetworkSettings& settings) {
     return settings.udp.remote_address + ":" + std::to_string(settings.udp.remote_port) +
            " (this side listens on port " + std::to_string(settings.udp.local_port) + ")";
@@ -195,9 +198,15 @@ void WorldLink::take_opened(const LinkMoment& moment) {
 // --- what has changed
 // ------------------------------------------------------------------------------------------------
 
-void WorldLink::pass_on_settings(const Vec3& gravity) {
-    if (!is_planned_ || (plan_.revision == revision_ && gravity == gravity_)) {
+void WorldLink::pass_on_settings(const Vec3& gravity, const Pose& frame) {
+    const bool is_moved =
+        teller_ != nullptr && (frame.position != frame_.position || frame.rotation != frame_.rotation);
+    if (!is_planned_ || (plan_.revision == revision_ && gravity == gravity_ && !is_moved)) {
         return;
+    }
+    if (is_moved) {
+        frame_ = frame;
+        teller_->set_frame(frame_);
     }
     revision_ = plan_.revision;
     gravity_ = gravity;
@@ -216,15 +225,15 @@ void WorldLink::leave() {
     port_->settings.publish(settings_);
 }
 
-bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, Workers& workers,
-                            const LinkMoment& moment) {
+bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, const Pose& frame,
+                            Workers& workers, const LinkMoment& moment) {
     now_ = moment.now;
     is_planned_ = plan.has_value();
     if (plan) {
         plan_ = *plan;
     }
     look_after_way(workers, moment);
-    pass_on_settings(gravity);
+    pass_on_settings(gravity, frame);
     port_->statistics.refresh();
     if (way_ != nullptr) {
         figures_ = way_->figures();
@@ -240,9 +249,9 @@ bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gra
     return builder_->update(moment.now, port_->statistics.front().link);
 }
 
-void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe,
+void WorldLink::tell(const std::vector<Told>& bodies, const Describe& describe, const Name& name,
                      const std::vector<ToldJoint>& joints, const SessionSnapshot& snapshot, Nanoseconds now) {
-    tell_bodies(bodies, describe, now);
+    tell_bodies(bodies, describe, name, now);
     tell_joints(joints);
     teller_->update(snapshot, port_->statistics.front().link.peer_epoch);
 }
@@ -267,7 +276,15 @@ void WorldLink::tell_joints(const std::vector<ToldJoint>& joints) {
     });
 }
 
-void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& describe, Nanoseconds now) {
+// Of `of` bodies, names_at_once are asked for in a frame.
+bool WorldLink::has_other_name(const Telling& telling, std::size_t index, std::size_t of,
+                               const Name& name) const {
+    const std::size_t from = names_from_ % of;
+    return (index + of - from) % of < names_at_once && name(index) != telling.name;
+}
+
+void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& describe, const Name& name,
+                            Nanoseconds now) {
     std::unordered_set<SessionHandle> there;
     std::vector<std::pair<const Told*, Description>> due;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -275,7 +292,8 @@ void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& des
         there.insert(told.body);
         const auto before = tellings_.find(told.body);
         if (before == tellings_.end() ||
-            (before->second.revision != told.revision && now - before->second.at >= tell_again_after)) {
+            (before->second.revision != told.revision && now - before->second.at >= tell_again_after) ||
+            has_other_name(before->second, i, bodies.size(), name)) {
             due.emplace_back(&told, describe(i));
         }
     }
@@ -283,9 +301,10 @@ void WorldLink::tell_bodies(const std::vector<Told>& bodies, const Describe& des
     std::ranges::stable_partition(
         due, [](const auto& one) { return one.second.addition.description.motion != Motion::Dynamic; });
     for (const auto& [told, description] : due) {
-        tellings_[told->body] = {told->revision, now,
+        tellings_[told->body] = {told->revision, now, description.name,
                                  teller_->tell(told->body, description.name, description.addition)};
     }
+    names_from_ = bodies.empty() ? 0 : (names_from_ + names_at_once) % bodies.size();
     std::erase_if(tellings_, [&](const auto& telling) {
         const bool gone = !there.contains(telling.first);
         if (gone) {
