@@ -119,7 +119,7 @@ bool ModelView::is_shown(const std::string& name, const ModelRoll::Shown& shown)
     if (body != nullptr) {
         return body->get_instance_id() == shown.node;
     }
-    const auto* const picture = node_of_id<Node>(shown.node);
+    auto* const picture = node_of_id<Node>(shown.node);
     return shown.is_picture && picture != nullptr && world_.is_ancestor_of(picture);
 }
 

@@ -116,6 +116,7 @@ private:
         bool answered = false;
         bool fixed = false;               // ToolHand::fixed, one tick ago
         Quat turned{1.0, 0.0, 0.0, 0.0};  // where it is, as it is turned there
+        bool has_fit = false;             // into the model, since the hand has held it
         WrenchPassivity passivity;
         SentHand sent;
     };

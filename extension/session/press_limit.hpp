@@ -61,15 +61,18 @@ public:
             depth_ += change;
             depth_ = !touches ? 0.0 : is_late ? std::min(depth_, known_ + more) : depth_;
             state_ = guessed_for_ > longest_guess && state_ == State::here ? State::returns : state_;
-        } else if (state_ == State::comes && in.own_force && in.force > *in.own_force) {
-            depth_ = std::max(0.0, depth_ - change);
+        } else if (state_ == State::comes && in.own_force && in.force >= *in.own_force) {
+            // What is told is rounded: a step more is no more than the operator's own.
+            const bool is_more = in.force > *in.own_force + slow_rate * in.seconds;
+            depth_ = std::max(0.0, depth_ - (is_more ? change : 0.0));
         } else {
             depth_ += change;
         }
+        step_ = change;
     }
     // After it has been applied to a hand that is `depth` deep.
     void applied(Hand hand, double depth) {
-        holds_back_ = depth > depth_;
+        holds_back_ = depth > depth_ + (hand == Hand::here ? step_ : 0.0);
         if (hand != Hand::here) {
             return;
         }
@@ -90,6 +93,7 @@ private:
     State state_ = State::comes;
     bool holds_back_ = false;
     double depth_ = 0.0;        // that is allowed, or is there (unit: meters)
+    double step_ = 0.0;         // that it may change by in a tick (unit: meters)
     double known_ = 0.0;        // when the hand was known last (unit: meters)
     double guessed_for_ = 0.0;  // (unit: seconds)
 };

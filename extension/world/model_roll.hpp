@@ -47,8 +47,8 @@ public:
 
     // Has what is new shown and what is gone hidden; what is neither stays as it is shown. What is shown
     // anew is discovered once more, with its new node.
-    std::vector<ModelNews> update(const std::vector<ModelObject>& objects, const Show& show,
-                                  const Hide& hide, const IsShown& is_shown);
+    std::vector<ModelNews> update(const std::vector<ModelObject>& objects, const Show& show, const Hide& hide,
+                                  const IsShown& is_shown);
     void hide_all(const Hide& hide);
 
     std::size_t size() const { return entries_.size(); }

@@ -15,8 +15,8 @@ struct AgreementSide {
     int scenario = 4;  // 2 … 5
     Passivity passivity = Passivity::none;
     double impedance = 20.0;  // of wave variables (unit: newton-seconds per meter)
-    double radius = 0.01;  // of the fingertip (unit: meters)
-    bool has_hand = true;  // else the far side has nothing that stands in for the operator's
+    double radius = 0.01;     // of the fingertip (unit: meters)
+    bool has_hand = true;     // else the far side has nothing that stands in for the operator's
     double bar = 0.0;  // half the length of a tool in place of the fingertip (unit: meters); 0: a fingertip
     std::size_t bodies = 1;  // in the scene: a floor and what is out of reach
     std::size_t max_bodies = 64;

@@ -13,8 +13,8 @@
 //                   A free far hand would return all of u, which goes to and fro for long: it is damped by
 //                   d = b (1 - r) / (1 + r) besides, so that
 //                       x' = (sqrt(2b) u + h) / (b + d),    w = r u + (1 + r) h / sqrt(2b)
-//                   and of a wave the share r comes back. A delay of |u|^2/2 and |w|^2/2 makes no energy. What is smoothed or held is scaled so
-//                   that no more of it is played than has come.
+//                   and of a wave the share r comes back. A delay of |u|^2/2 and |w|^2/2 makes no energy.
+//                   What is smoothed or held is scaled so that no more of it is played than has come.
 //   time domain     Ryu, Artigas and Preusche 2010, after Hannaford and Ryu 2002. Each end splits its energy
 //                   into what goes in and what comes out. What has come out may not exceed what the other
 //                   end has taken in, as last heard: else the operator's end damps, alpha = dE / (v^2 dt),
