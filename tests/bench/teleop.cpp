@@ -1,6 +1,7 @@
 // Cases of teleoperation in virtual time: ./run bench teleop --scene=FILE --cases=FILE
 //
 //     ./run bench teleop --agreement=1: sides that differ, see tests/shared/agreement.hpp.
+//     ./run bench teleop --still=1: a hand that holds still, see tests/shared/unexplained_steps.hpp.
 //
 // Both files are lines of words (tests/shared/teleop_words.hpp). The result is one line of JSON a case: its
 // name, its figures and, with --bins=1, how the ticks spread.
@@ -15,6 +16,7 @@
 #include "shared/bench_kit.hpp"
 #include "shared/teleop_run.hpp"
 #include "shared/teleop_words.hpp"
+#include "shared/unexplained_steps.hpp"
 
 namespace {
 
@@ -69,6 +71,17 @@ void print_agreements() {
     }
 }
 
+void print_still() {
+    for (const StillCase& one : still_cases()) {
+        const StillFigures figures = run_still(one);
+        std::printf(
+            "{\"case\": \"%s\", \"pressed_N\": %.9g, \"step_unexplained_max_N\": %.9g, "
+            "\"told_step_unexplained_max_N\": %.9g, \"far_step_max_N\": %.9g, \"far_alone_max_N\": %.9g}\n",
+            one.name.c_str(), figures.pressed, figures.near_step, figures.told_step, figures.far_step,
+            figures.far_alone);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -77,11 +90,16 @@ int main(int argc, char** argv) {
     const std::string cases_file = options.text("cases");
     const bool with_bins = options.text("bins") == "1";
     const bool agreement = options.text("agreement") == "1";
+    const bool still = options.text("still") == "1";
     if (!options.understood()) {
         return 2;
     }
     if (agreement) {
         print_agreements();
+        return 0;
+    }
+    if (still) {
+        print_still();
         return 0;
     }
     if (scene_file.empty() || cases_file.empty()) {

@@ -1,0 +1,26 @@
+#include "shared/unexplained_steps.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tactus::unexplained_steps_test {
+namespace {
+
+using namespace shared;
+
+constexpr double most = 0.5 + 1e-9;  // (unit: newtons)
+
+TEST(UnexplainedSteps, AHandThatHoldsStillFeelsNoKick) {
+    int pressing = 0;
+    for (const StillCase& one : still_cases()) {
+        SCOPED_TRACE(one.name);
+        const StillFigures figures = run_still(one);
+        pressing += figures.pressed > 1.0 ? 1 : 0;
+        EXPECT_LE(figures.near_step, most);
+        EXPECT_LE(figures.far_step, 0.51);
+        EXPECT_EQ(figures.far_alone, 0.0);
+    }
+    EXPECT_EQ(pressing, static_cast<int>(still_cases().size()));
+}
+
+}  // namespace
+}  // namespace tactus::unexplained_steps_test
