@@ -183,7 +183,7 @@ void WorldRun::synchronise_links() {
         auto* const node = node_of_id<MMTLink>(link_nodes_[i]);
         const bool has_new_objects =
             running_.synchronise(*links[i], node != nullptr ? std::optional(node->plan()) : std::nullopt,
-                                 from_godot(world_.get_gravity()), pose_of(world_.get_global_transform()));
+                                 from_godot(world_.get_gravity()));
         if (has_new_objects || (model_ != nullptr && model_->takes_scene_change())) {
             std::ranges::move(model_->update(links[i]->objects()), std::back_inserter(model_news_));
             model_changed_ = loop().now();

@@ -24,9 +24,6 @@ TeleoperatorSide::TeleoperatorSide(const SessionSettings& session, const TeleopS
 
 void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
     const bool changed = channel_.begin_tick(now);
-    if (changed) {
-        follow_frame(loop);
-    }
     telling_.take_orders(channel_.port());
     receive(loop);
     hands_.follow(channel_, changed);
@@ -44,48 +41,6 @@ void TeleoperatorSide::set_hands(SessionLoop& loop, Nanoseconds now) {
         }
     }
     draw_back_tools(loop);
-}
-
-// The world that the operator's hand is told in is elsewhere, with all that is in it: the hands go along.
-void TeleoperatorSide::follow_frame(SessionLoop& loop) {
-    const Pose& before = channel_.before().frame;
-    const Pose& now = settings().frame;
-    if (before.position == now.position && before.rotation == now.rotation) {
-        return;
-    }
-    const auto moved = [&](const Pose& pose) { return compose(now, compose(inverse(before), pose)); };
-    const auto moved_point = [&](const Vec3& point) { return to_parent(now, to_local(before, point)); };
-    for (std::size_t i = 0; i < share_.most(); ++i) {
-        Pointer& pointer = pointers_[i];
-        SessionLoop::ProxySlot& slot = slot_of(loop, i);
-        pointer.hand = moved_point(pointer.hand);
-        pointer.had_hand = moved_point(pointer.had_hand);
-        pointer.passivity.reset();
-        if (pointer.kept.known && pointer.kept.on == no_handle) {
-            pointer.kept.proxy = moved(pointer.kept.proxy);
-        }
-        if (slot.proxy && slot.proxy->memory().present) {
-            ProxyMemory memory;
-            memory.position = moved_point(slot.proxy->position());
-            memory.present = true;
-            memory.hand = moved_point(slot.proxy->memory().hand);
-            slot.proxy->recall(memory);
-        }
-    }
-    for (std::size_t i = 0; i < share_.most(max_tools); ++i) {
-        ToolSlot* const slot = tool_of(loop, i);
-        Tool& tool = tools_[i];
-        tool.goal = moved(tool.goal);
-        if (tool.kept.known && tool.kept.on == no_handle) {
-            tool.kept.proxy = moved(tool.kept.proxy);
-        }
-        if (slot && slot->proxy.memory().present) {
-            ToolMemory memory;
-            memory.pose = moved(slot->proxy.memory().pose);
-            memory.present = true;
-            slot->proxy.recall(memory, loop.scene());
-        }
-    }
 }
 
 void TeleoperatorSide::receive(SessionLoop& loop) {

@@ -82,7 +82,6 @@ private:
     }
     void receive(SessionLoop& loop);
     void start_over_if_peer_has(SessionLoop& loop);
-    void follow_frame(SessionLoop& loop);
     void release_hands(SessionLoop& loop);
     void play(SessionLoop& loop, std::size_t index, SessionLoop::ProxySlot& slot);
     void play_hand(SessionLoop& loop, Pointer& pointer, SessionLoop::ProxySlot& slot);

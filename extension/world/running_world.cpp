@@ -100,9 +100,8 @@ BodyState RunningWorld::state_of(SessionHandle body) {
 
 // --- far sides
 
-bool RunningWorld::synchronise(WorldLink& link, const std::optional<LinkPlan>& plan, const Vec3& gravity,
-                               const Pose& frame) {
-    return link.synchronise(plan, gravity, frame, Workers::shared(),
+bool RunningWorld::synchronise(WorldLink& link, const std::optional<LinkPlan>& plan, const Vec3& gravity) {
+    return link.synchronise(plan, gravity, Workers::shared(),
                             {loop_.now(), !loop_.is_running(), !loop_.is_real_time()});
 }
 

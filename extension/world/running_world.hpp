@@ -63,8 +63,7 @@ public:
     const std::vector<std::unique_ptr<WorldLink>>& links() const { return links_; }
     bool is_operator() const { return !links_.empty() && links_.front()->is_operator(); }
     // See WorldLink::synchronise().
-    bool synchronise(WorldLink& link, const std::optional<LinkPlan>& plan, const Vec3& gravity,
-                     const Pose& frame);
+    bool synchronise(WorldLink& link, const std::optional<LinkPlan>& plan, const Vec3& gravity);
 
     // --- who hears it
 

@@ -198,15 +198,9 @@ void WorldLink::take_opened(const LinkMoment& moment) {
 // --- what has changed
 // ------------------------------------------------------------------------------------------------
 
-void WorldLink::pass_on_settings(const Vec3& gravity, const Pose& frame) {
-    const bool is_moved =
-        teller_ != nullptr && (frame.position != frame_.position || frame.rotation != frame_.rotation);
-    if (!is_planned_ || (plan_.revision == revision_ && gravity == gravity_ && !is_moved)) {
+void WorldLink::pass_on_settings(const Vec3& gravity) {
+    if (!is_planned_ || (plan_.revision == revision_ && gravity == gravity_)) {
         return;
-    }
-    if (is_moved) {
-        frame_ = frame;
-        teller_->set_frame(frame_);
     }
     revision_ = plan_.revision;
     gravity_ = gravity;
@@ -225,15 +219,15 @@ void WorldLink::leave() {
     port_->settings.publish(settings_);
 }
 
-bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, const Pose& frame,
-                            Workers& workers, const LinkMoment& moment) {
+bool WorldLink::synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, Workers& workers,
+                            const LinkMoment& moment) {
     now_ = moment.now;
     is_planned_ = plan.has_value();
     if (plan) {
         plan_ = *plan;
     }
     look_after_way(workers, moment);
-    pass_on_settings(gravity, frame);
+    pass_on_settings(gravity);
     port_->statistics.refresh();
     if (way_ != nullptr) {
         figures_ = way_->figures();

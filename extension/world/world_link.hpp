@@ -96,11 +96,10 @@ public:
     }
     const std::vector<ModelObject>& objects() const { return builder_->objects(); }
 
-    // Passes on what has changed on either side; `frame`: of the world, which a teleoperator's may be moved
-    // with all that is in it. No plan: whoever has set it is gone, and with it the way.
+    // Passes on what has changed on either side. No plan: whoever has set it is gone, and with it the way.
     // True where objects() are other ones.
-    bool synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, const Pose& frame,
-                     Workers& workers, const LinkMoment& moment);
+    bool synchronise(const std::optional<LinkPlan>& plan, const Vec3& gravity, Workers& workers,
+                     const LinkMoment& moment);
 
     // Far side: a body that is there to be touched; its revision is another one when it is to be described
     // anew.
@@ -170,7 +169,7 @@ private:
                      Nanoseconds now);
     bool has_other_name(const Telling& telling, std::size_t index, std::size_t of, const Name& name) const;
     void tell_joints(const std::vector<ToldJoint>& joints);
-    void pass_on_settings(const Vec3& gravity, const Pose& frame);
+    void pass_on_settings(const Vec3& gravity);
     void let_go_of_way();
     void look_after_way(Workers& workers, const LinkMoment& moment);
     void open(Workers& workers, const LinkMoment& moment);
@@ -185,7 +184,7 @@ private:
     bool is_planned_ = true;  // false: nobody wants it any more
     const std::atomic<Nanoseconds>* ahead_;
     Vec3 gravity_;  // as passed on
-    Pose frame_;    // of the world, as passed on; operator: when the link began
+    Pose frame_;    // of the world when the link began
     TeleopSettings settings_;
     std::shared_ptr<TeleopPort> port_ = std::make_shared<TeleopPort>();
     LinkRoute route_;

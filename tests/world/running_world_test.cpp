@@ -111,7 +111,7 @@ struct Pair {
     }
     void frame() {
         for (RunningWorld* world : {&here, &there}) {
-            world->synchronise(*world->links().front(), plan(world == &here, wire), Vec3(0.0), Pose{});
+            world->synchronise(*world->links().front(), plan(world == &here, wire), Vec3(0.0));
         }
         bodies.synchronise({there.session(), Workers::shared(), {}, 0.01, there.loop().ticks() + 1, 0});
         tell(bodies, there.links(), there.session().snapshot(), there.loop().now());
@@ -150,7 +150,7 @@ TEST(RunningWorld, OneThatEndsTakesItsLeave) {
     ASSERT_EQ(pair.here.links().front()->report().state, LinkState::connected);
     pair.there.end();
     pair.here.advance(0.01);
-    pair.here.synchronise(*pair.here.links().front(), Pair::plan(true, pair.wire), Vec3(0.0), Pose{});
+    pair.here.synchronise(*pair.here.links().front(), Pair::plan(true, pair.wire), Vec3(0.0));
     EXPECT_EQ(pair.here.links().front()->report().state, LinkState::left);
 }
 

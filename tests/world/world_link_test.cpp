@@ -55,7 +55,7 @@ struct World {
     void frame() {
         session.collect();
         session.refresh();
-        link.synchronise(is_there ? std::optional(plan) : std::nullopt, Vec3(0.0), frame_pose, workers,
+        link.synchronise(is_there ? std::optional(plan) : std::nullopt, Vec3(0.0), workers,
                          {now, true, true});
         if (!link.is_operator()) {
             link.tell(
@@ -68,7 +68,6 @@ struct World {
     }
 
     LinkPlan plan;
-    Pose frame_pose;
     bool is_there = true;
     Workers workers;
     Session session;
