@@ -88,7 +88,6 @@ bool Endpoint::admit(const PacketHeader& header) {
             newest_at_ = now_;
             break;
     }
-    ++epoch_packets_;
     admitted_at_ = now_;
     statistics_.missing = window_.missing();
     return true;
@@ -157,8 +156,8 @@ void Endpoint::meet(std::uint64_t epoch) {
     statistics_.peer = PeerState::one_way;
     window_.forget();
     hello_sequence_ = bye_sequence_ = 0;
-    epoch_packets_ = reported_packets_ = reported_sequence_ = 0;
-    statistics_.lost_there = 0.0;
+    reported_packets_ = reported_sequence_ = 0;
+    statistics_.lost_there = lost_there_ = 0.0;
     clock_.forget();
     queue_there_.forget();
     statistics_.clock = {};
@@ -228,9 +227,11 @@ void Endpoint::note_report(const Hello& hello) {
         hello.heard_packets >= reported_packets_) {
         const auto sent = static_cast<double>(hello.heard_sequence - reported_sequence_);
         const auto came = static_cast<double>(hello.heard_packets - reported_packets_);
-        const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, 0.0, 1.0);
+        // Below 0 where what was overtaken before comes: only so does the mean count it once.
+        const double lost = reported_sequence_ == 0 ? 0.0 : std::clamp(1.0 - came / sent, -1.0, 1.0);
         const double share = sent / (sent + as_much_as_all_before);
-        statistics_.lost_there += share * (lost - statistics_.lost_there);
+        lost_there_ += share * (lost - lost_there_);
+        statistics_.lost_there = std::max(lost_there_, 0.0);
     }
     reported_sequence_ = hello.heard_sequence;
     reported_packets_ = hello.heard_packets;
@@ -310,8 +311,9 @@ void Endpoint::say_hello() {
     own_hello_.scenario = settings_.scenario;
     own_hello_.period = settings_.period;
     own_hello_.heard_epoch = hears_peer() ? statistics_.peer_epoch : 0;
-    own_hello_.heard_packets = epoch_packets_;
-    own_hello_.heard_sequence = window_.newest();
+    const SequenceWindow::Settled settled = window_.settled();
+    own_hello_.heard_packets = settled.packets;
+    own_hello_.heard_sequence = settled.sequence;
     send(own_hello_);
 }
 

@@ -152,11 +152,11 @@ private:
     LinkStatistics statistics_;
     ClockSync clock_;
     QueueWatch queue_there_;
+    double lost_there_ = 0.0;  // smoothed; below 0 while what was overtaken comes
     SequenceWindow window_;
     Hello own_hello_;
-    std::uint64_t hello_sequence_ = 0;  // of that
-    std::uint64_t bye_sequence_ = 0;    // 0: none
-    std::uint64_t epoch_packets_ = 0;   // of the far side's present epoch that have come
+    std::uint64_t hello_sequence_ = 0;                            // of that
+    std::uint64_t bye_sequence_ = 0;                              // 0: none
     std::uint64_t reported_packets_ = 0, reported_sequence_ = 0;  // by its last hello
     Received received_;
     std::array<std::byte, max_datagram_bytes> buffer_;

@@ -65,8 +65,9 @@ struct Hello {
     // Versions that the sender speaks: the two use the newest that both do.
     std::uint8_t oldest_version = oldest_wire_version;
     std::uint8_t newest_version = wire_version;
-    // Of the other side's epoch: packets that have come, and the highest sequence among them. Tells it what
-    // is lost on its way here.
+    // Of the other side's epoch: packets that have come up to a sequence, without copies, and that sequence,
+    // far enough back that what was overtaken has come as well (SequenceWindow::settled). Tells it what is
+    // lost on its way here.
     std::uint64_t heard_packets = 0;
     std::uint64_t heard_sequence = 0;
 };

@@ -348,6 +348,26 @@ std::string WorldRun::problem_of_time() const {
                    : "";
 }
 
+namespace {
+
+// An error of a body that the far side has not described changes nothing.
+std::vector<std::string> problems_of_errors(const MMTLink& link, const std::vector<ModelObject>& objects) {
+    std::vector<std::string> problems;
+    std::string known;
+    for (const ModelObject& object : objects) {
+        known += (known.empty() ? "" : ", ") + object.name;
+    }
+    for (const auto& [name, error] : link.model_errors()) {
+        if (!objects.empty() && std::ranges::find(objects, name, &ModelObject::name) == objects.end()) {
+            problems.push_back(from_godot(name_of(link)) + ": model_errors names '" + name +
+                               "', which the far side does not have: it has " + known);
+        }
+    }
+    return problems;
+}
+
+}  // namespace
+
 std::vector<std::string> WorldRun::problems() const {
     std::vector<std::string> all;
     for (const auto& link : running_.links()) {
@@ -364,6 +384,11 @@ std::vector<std::string> WorldRun::problems() const {
         for (const Node* const body : model_->bodies_only_here()) {
             all.push_back(from_godot(name_of(*body)) + ": " + only_here);
         }
+    }
+    const auto* const link = model_ != nullptr ? node_of_id<MMTLink>(link_nodes_.front()) : nullptr;
+    if (link != nullptr) {
+        std::ranges::move(problems_of_errors(*link, running_.links().front()->objects()),
+                          std::back_inserter(all));
     }
     return all;
 }
