@@ -22,11 +22,11 @@ struct QueueFigures {
     double chance = 0.0;    // (unit: nanoseconds)
     Nanoseconds as_of = 0;  // when the newest of them was asked, in the session's time
 
-    // What is spread evenly lies within 3.6 `chance` above the least. Of what is normal with the deviation s,
-    // the least of many is 2.7 s below the mean, and 5.5 `chance` are 5.4 s: three in a row are beyond that
-    // once in ten million.
-    bool is_longer_than(double nanoseconds) const {
-        return known && waiting > std::max(nanoseconds, 5.5 * chance);
+    // What is spread evenly lies within 3.6 `chance` above the least, and three in a row of what is normal
+    // are beyond 5.5 once in 10⁵ requests. Where a queue is expected, because more is being sent than before
+    // or because there was one, it is told of earlier: by chance that is normal, in two of a thousand.
+    bool is_longer_than(double nanoseconds, bool expected) const {
+        return known && waiting > std::max(nanoseconds, (expected ? 4.0 : 5.5) * chance);
     }
     // It empties already.
     bool falls() const { return trend < -2e6; }
