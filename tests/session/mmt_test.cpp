@@ -164,7 +164,8 @@ TEST(Mmt, HalfOfAllPacketsLostCostLessThanTwiceTheForceError) {
     const double without = run_teleop(scene(true), one).at("force_error_mean_N");
     one.forth.loss = one.back.loss = 0.5;
     double mean = 0.0;
-    constexpr int seeds = 5;
+    // Over 60 seeds 1.95 times, with a standard error of 0.14; single ones 0.85 to 4.6 times.
+    constexpr int seeds = 15;
     for (int seed = 1; seed <= seeds; ++seed) {
         one.seed = static_cast<std::uint64_t>(7 * seed);
         mean += run_teleop(scene(true), one).at("force_error_mean_N") / seeds;
