@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import tempfile
+import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -18,7 +19,7 @@ from measuring.options import Refused, option
 from measuring.teleop_scene import Scene
 from project import FOLDER
 from setup import cache
-from setup.progress import Pace, Progress, bar
+from setup.progress import Progress, bar
 
 Case = dict[str, object]  # its keys are those of tests/bench/teleop.cpp, and "name"
 
@@ -126,12 +127,14 @@ class _Arrivals:
 
     def __init__(self, wanted: int):
         self._wanted, self._done = wanted, 0
-        self._progress, self._pace, self._lock = Progress(), Pace(), Lock()
+        self._progress, self._lock, self._began = Progress(), Lock(), time.monotonic()
 
     def one_more(self) -> None:
         with self._lock:
             self._done += 1
-            self._progress.show(bar(self._done, self._wanted, self._pace.left(self._done, self._wanted)))
+            # Cases end too fast for the last few of them to tell.
+            left = (time.monotonic() - self._began) / self._done * (self._wanted - self._done)
+            self._progress.show(bar(self._done, self._wanted, left))
 
     def end(self) -> None:
         self._progress.end()
