@@ -159,18 +159,18 @@ TEST(Mmt, CorrectionsBringTheBoxBackUnderLoss) {
     EXPECT_LT(figures.at("box_position_error_final_mm"), 0.1);
 }
 
-TEST(Mmt, HalfOfAllPacketsLostCostLessThanTwiceTheForceError) {
+TEST(Mmt, HalfOfAllPacketsLostCostAboutTwiceTheForceError) {
     TeleopCase one = wrong_box(100.0);
     const double without = run_teleop(scene(true), one).at("force_error_mean_N");
     one.forth.loss = one.back.loss = 0.5;
     double mean = 0.0;
-    // Over 60 seeds 1.95 times, with a standard error of 0.14; single ones 0.85 to 4.6 times.
+    // Over 60 seeds 1.95 times, single ones 0.85 to 4.6 times: fifteen scatter by 0.28.
     constexpr int seeds = 15;
     for (int seed = 1; seed <= seeds; ++seed) {
         one.seed = static_cast<std::uint64_t>(7 * seed);
         mean += run_teleop(scene(true), one).at("force_error_mean_N") / seeds;
     }
-    EXPECT_LT(mean, 2.0 * without);
+    EXPECT_LT(mean, 2.8 * without);
 }
 
 TEST(Mmt, AStillModelThatIsWrongIsRightSoonAfterTheFirstTouch) {
